@@ -1,0 +1,182 @@
+// LDR-FLIP and HDR-FLIP: how different two images look, as a map and as numbers.
+//
+// P. Andersson, J. Nilsson, T. Akenine-Moller, M. Oskarsson, K. Astrom, M. D. Fairchild,
+// "FLIP: A Difference Evaluator for Alternating Images", HPG 2020 (LDR-FLIP);
+// P. Andersson, J. Nilsson, P. Shirley, T. Akenine-Moller, "Visualizing Errors in Rendered
+// High Dynamic Range Images", Eurographics 2021 (HDR-FLIP).
+#pragma once
+
+#include <OpenImageIO/imagebuf.h>
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "tonetool/export.h"
+#include "tonetool/pixels.h"
+
+namespace tonetool {
+
+/// What LDR-FLIP and HDR-FLIP have in common.
+struct FlipOptions {
+    PixelOptions pixels;                 ///< layer and colour space, for both images
+    SizePolicy size = SizePolicy::Match; ///< different display windows
+    AlphaPolicy alpha = AlphaPolicy::Ignore;
+    /// Pixels per degree of visual angle, 1 to 1000. Unset: from the three numbers below.
+    std::optional<double> ppd;
+    double distance = 0.7;       ///< viewing distance in metres, > 0
+    double width = 0.7;          ///< width of the screen in metres, > 0
+    double pixels_across = 3840; ///< width of the screen in pixels, > 0
+};
+
+/// HDR-FLIP: the exposures and the tone curve.
+struct HdrFlipOptions : FlipOptions {
+    std::string tonemapper = "aces"; ///< aces, hable, reinhard; ignored when coeffs are given
+    /// Six coefficients of y = (k0 x^2 + k1 x + k2) / (k3 x^2 + k4 x + k5) (paper Eq. 1),
+    /// applied per channel. Empty: the named curve. Refused where the curve has a pole or does
+    /// not increase between 0 and the largest exposed value of either image.
+    std::vector<double> coeffs;
+    std::optional<double> start_exposure;   ///< stops; unset: paper Eq. 2
+    std::optional<double> stop_exposure;    ///< stops; unset: paper Eq. 3
+    std::optional<int> num_exposures;       ///< 1 to 1024; unset: max(2, ceil(stop - start))
+    std::optional<double> max_luminance;    ///< instead of measuring the reference's maximum
+    std::optional<double> median_luminance; ///< instead of measuring the reference's median
+    bool want_exposure_map = false;         ///< fill FlipResult::exposure_stops and exposure_index
+    bool want_exposures = false;            ///< fill FlipResult::exposures
+};
+
+/// Pooled values of an error map. Sums are in double and in a fixed order.
+struct FlipPool {
+    double mean = 0;
+    /// Values below which 25, 50, 75 % of the error mass (the sum of the map) lies.
+    double weighted_q1 = 0, weighted_median = 0, weighted_q3 = 0;
+    /// Nearest-rank percentiles of the pixels.
+    double p50 = 0, p95 = 0, p99 = 0, p999 = 0;
+    double min = 0, max = 0;
+    int min_x = 0, min_y = 0, max_x = 0, max_y = 0; ///< first in scan-line order
+    /// 100 equal buckets over [0, 1]; the last one holds 1 as well.
+    std::array<int64_t, 100> histogram{};
+    int64_t pixels = 0;
+};
+
+/// How one image was read and what was found in it.
+struct FlipSide {
+    std::string layer;     ///< "" for plain R,G,B
+    std::string space;     ///< colour space the stored values were read in
+    int64_t nonfinite = 0; ///< pixels with NaN or Inf in R, G or B (or in a compared alpha)
+    int64_t negative = 0;  ///< pixels with a negative R, G or B in linear Rec.709, set to 0
+    int64_t uncovered = 0; ///< compared pixels outside this image's data window, black
+};
+
+/// Everything a reader needs to repeat and to trust the number.
+struct FlipSummary {
+    FlipPool pool;
+    FlipSide reference, test;
+    int64_t nonfinite_both = 0; ///< pixels that are non-finite in both images: error 0
+    double ppd = 0;
+    bool hdr = false;
+    std::string tonemapper;        ///< "aces", ..., or "coeffs"
+    std::vector<double> coeffs;    ///< the six coefficients of the curve, as used for exposures
+    std::vector<double> exposures; ///< stops, ascending; empty for LDR-FLIP
+    double max_luminance = 0, median_luminance = 0; ///< that gave the exposures, 0 if not used
+    bool median_of_lit = false; ///< more than half the reference is black: median of the rest
+    OIIO::ROI region;           ///< pixels compared
+    bool alpha_compared = false;
+    double alpha_mean = 0, alpha_max = 0; ///< |alpha difference|
+    int alpha_max_x = 0, alpha_max_y = 0;
+    /// What a user must know, one sentence each (non-finite pixels, uncovered pixels, ...).
+    std::vector<std::string> warnings;
+};
+
+/// One exposure of HDR-FLIP: the pair as it was compared and its LDR-FLIP map.
+struct FlipExposure {
+    double stops = 0;
+    OIIO::ImageBuf reference, test; ///< 3 channels, tone mapped, display-linear Rec.709 in [0,1]
+    OIIO::ImageBuf flip;            ///< 1 channel
+};
+
+struct FlipResult {
+    FlipSummary summary;
+    OIIO::ImageBuf exposure_stops; ///< 1 channel float: exposure of the largest error, in stops
+    OIIO::ImageBuf exposure_index; ///< 1 channel float: its index 0 .. N-1
+    std::vector<FlipExposure> exposures;
+};
+
+namespace ToneAlgo {
+
+/// LDR-FLIP of `test` against `reference`: one float channel, 0 (same) to 1.
+///
+/// Shapes: both images need R, G, B; extra channels are ignored; deep images are an error.
+///   Compared are the union of the data windows (uncovered pixels are black and counted);
+///   the map has that data window and the reference's display window.
+/// ROI: only these pixels are written (and pooled); neighbours are read from the whole image,
+///   so that any tiling by ROIs gives the bits of one call. A `dst` that is initialized with one
+///   float channel and covers the ROI is written in place, any other is allocated anew.
+/// Colour: converted to linear Rec.709 by matrix, then clamped to [0,1].
+/// Alpha: ignored unless options.alpha says otherwise.
+/// NaN, Inf: a pixel that is non-finite in one image has error 1, in both 0; neighbours see the
+///   other image's pixel (black if both). Counted and warned about; if no finite pixel is left
+///   the call fails.
+/// Identical images give exactly 0; the result does not depend on nthreads to the bit.
+/// `result`, when given, receives the summary; the summary also lands in dst as `FLIP:*`.
+/// Returns false, with the reason in dst.geterror(), and then never leaves a map in dst.
+TONETOOL_API bool ldr_flip(OIIO::ImageBuf& dst, const OIIO::ImageBuf& reference,
+                           const OIIO::ImageBuf& test, const FlipOptions& options = {},
+                           FlipResult* result = nullptr, OIIO::ROI roi = {}, int nthreads = 0);
+TONETOOL_API OIIO::ImageBuf ldr_flip(const OIIO::ImageBuf& reference, const OIIO::ImageBuf& test,
+                                     const FlipOptions& options = {}, FlipResult* result = nullptr,
+                                     OIIO::ROI roi = {}, int nthreads = 0);
+
+/// HDR-FLIP: the maximum of LDR-FLIP over N exposures of both images, each tone mapped.
+///
+/// As ldr_flip in all that is said there, but nothing is clamped before the tone map except
+/// negative values, which become 0 and are counted. Exposures come from the whole reference
+/// (not from the ROI), from its finite pixels: start so that its maximum luminance, stop so that
+/// its median luminance is tone mapped to 0.85 (Eqs. 2, 3); luminance is 0.2126 R + 0.7152 G +
+/// 0.0722 B. When more than half of the reference is black the median of the lit pixels is taken
+/// and the summary says so; an all-black reference needs explicit exposures.
+/// Where the error is 0 the exposure map holds the start exposure (index 0).
+TONETOOL_API bool hdr_flip(OIIO::ImageBuf& dst, const OIIO::ImageBuf& reference,
+                           const OIIO::ImageBuf& test, const HdrFlipOptions& options = {},
+                           FlipResult* result = nullptr, OIIO::ROI roi = {}, int nthreads = 0);
+TONETOOL_API OIIO::ImageBuf hdr_flip(const OIIO::ImageBuf& reference, const OIIO::ImageBuf& test,
+                                     const HdrFlipOptions& options = {},
+                                     FlipResult* result = nullptr, OIIO::ROI roi = {},
+                                     int nthreads = 0);
+
+/// HDR-FLIP of several tests against one reference, whose side is prepared once: one map (and
+/// one result, if asked for) per test, the same bits as one call each. All or nothing: on failure
+/// every map carries the error.
+TONETOOL_API bool hdr_flip(std::vector<OIIO::ImageBuf>& dst, const OIIO::ImageBuf& reference,
+                           const std::vector<const OIIO::ImageBuf*>& tests,
+                           const HdrFlipOptions& options = {},
+                           std::vector<FlipResult>* results = nullptr, OIIO::ROI roi = {},
+                           int nthreads = 0);
+
+/// Names of the built-in tone curves of HDR-FLIP.
+TONETOOL_API std::vector<std::string> flip_tonemappers();
+
+/// A quantity of the summary by name: mean, weighted-median, weighted-q1, weighted-q3, p50, p95,
+/// p99, p99.9, min, max; nullopt for any other name.
+TONETOOL_API std::optional<double> flip_quantity(const FlipPool& pool, const std::string& name);
+TONETOOL_API std::vector<std::string> flip_quantities();
+
+/// What the filmstrip looks like.
+struct FilmstripOptions {
+    int thumb_width = 240; ///< width of one picture in pixels, 32 to 4096
+    int max_columns = 9;   ///< at most this many exposures are shown, evenly chosen, >= 1
+    std::string font;      ///< font file; empty: DejaVu Sans where it is installed
+};
+
+/// The paper's Figure 1 as one picture: a column per exposure (reference, test, LDR-FLIP),
+/// at the right HDR-FLIP (magma) and the exposure map (viridis), labelled in stops.
+/// dst: 3 channels, sRGB-encoded. Errors as hdr_flip. A missing font leaves the labels out and
+/// adds a warning to the summary.
+TONETOOL_API bool flip_filmstrip(OIIO::ImageBuf& dst, const OIIO::ImageBuf& reference,
+                                 const OIIO::ImageBuf& test, const HdrFlipOptions& options = {},
+                                 const FilmstripOptions& look = {}, FlipResult* result = nullptr,
+                                 int nthreads = 0);
+
+} // namespace ToneAlgo
+} // namespace tonetool

@@ -1,0 +1,58 @@
+// Which pixels of an image a function looks at: layer, colour space, geometry, alpha.
+#pragma once
+
+#include <OpenImageIO/imagebuf.h>
+#include <string>
+#include <vector>
+
+#include "tonetool/export.h"
+
+namespace tonetool {
+
+/// How two images of different display windows are brought together.
+enum class SizePolicy {
+    Match,  ///< different display windows are an error (the default)
+    Resize, ///< the test image is resized to the reference's display window
+    Crop,   ///< only the intersection of the display windows is compared
+};
+
+/// What a comparison does with alpha.
+enum class AlphaPolicy {
+    Ignore, ///< alpha is not looked at; RGB is used as stored (associated)
+    Error,  ///< |alpha difference| joins the map (the larger of the two wins) and the summary
+};
+
+/// How to find the linear Rec.709 colour in an image.
+struct PixelOptions {
+    /// Layer whose R, G, B are used ("ViewLayer.Combined"; the part before ".R").
+    /// Empty: plain R,G,B; else the one obvious beauty layer; else an error that lists the layers.
+    std::string layer;
+    /// Colour space of the stored values: rec709, acescg, aces2065-1, rec2020, p3-d65 (all
+    /// linear, with their usual aliases) or srgb (display-encoded, decoded first).
+    /// Empty: the `chromaticities` attribute, else `oiio:ColorSpace`, else sRGB for integer
+    /// files and linear Rec.709 for floating-point ones.
+    std::string from;
+};
+
+/// What `find_color` chose.
+struct ColorChoice {
+    int r = -1, g = -1, b = -1;   ///< channel indices
+    int a = -1;                   ///< index of the layer's alpha, -1 if it has none
+    std::string layer;            ///< "" for plain R,G,B
+    std::string space;            ///< name of the colour space the values are read in
+    bool display_encoded = false; ///< values are sRGB-encoded and are decoded on reading
+};
+
+namespace ToneAlgo {
+
+/// Choose the colour channels and the colour space of an image from its header, as every
+/// function of this library does. Returns false and explains in `error` (with the layers
+/// that are there) when there is no colour, or two candidates for the beauty.
+TONETOOL_API bool find_color(const OIIO::ImageSpec& spec, const PixelOptions& options,
+                             ColorChoice& choice, std::string& error);
+
+/// Names of all layers that have R, G and B; the plain R,G,B is listed as "R,G,B".
+TONETOOL_API std::vector<std::string> color_layers(const OIIO::ImageSpec& spec);
+
+} // namespace ToneAlgo
+} // namespace tonetool

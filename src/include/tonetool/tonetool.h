@@ -1,0 +1,8 @@
+// Everything tonetool offers to C++.
+#pragma once
+
+#include "tonetool/export.h"
+#include "tonetool/flip.h"
+#include "tonetool/luminance.h"
+#include "tonetool/pixels.h"
+#include "tonetool/write.h"

@@ -1,0 +1,32 @@
+// Writing images so that a failed or interrupted run never harms what was there.
+#pragma once
+
+#include <OpenImageIO/imagebuf.h>
+#include <string>
+#include <vector>
+
+#include "tonetool/export.h"
+
+namespace tonetool {
+
+/// Write images (one: a plain file; several: subimages) to `filename`.
+///
+/// The bytes go to a temporary file beside the target, are flushed to the disk and renamed into
+/// place, so that the target is either the old file or the whole new one. Every byte's write is
+/// checked: a full disk is an error. A symbolic link is followed; a device or pipe is written
+/// directly. The format follows the extension. The images' specs say the data format to write
+/// (ImageBuf::set_write_format), compression and metadata.
+/// Returns false and explains in `error`; then nothing has changed on disk.
+TONETOOL_API bool write_images(const std::vector<const OIIO::ImageBuf*>& images,
+                               const std::string& filename, std::string& error);
+TONETOOL_API bool write_image(const OIIO::ImageBuf& image, const std::string& filename,
+                              std::string& error);
+
+/// The same promise for a text or any other bytes.
+TONETOOL_API bool write_bytes(const std::string& bytes, const std::string& filename,
+                              std::string& error);
+
+/// Remove the temporary files of writes now under way. Safe to call from a signal handler.
+TONETOOL_API void remove_unfinished_outputs() noexcept;
+
+} // namespace tonetool
