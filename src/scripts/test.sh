@@ -1,0 +1,6 @@
+#!/usr/bin/env bash
+# Builds what is not built yet and runs every test; ctest has the last word.
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")/../.."
+bash src/scripts/setup.sh
+exec ctest --preset release --parallel "$(nproc)"
