@@ -1,0 +1,142 @@
+#include "chain/call.h"
+
+#include <algorithm>
+
+#include "chain/error.h"
+
+namespace tonetool::chain {
+
+namespace {
+
+std::string meant(const std::string& word, const Strings& names) {
+    Strings near = nearest_names(word, names, 1);
+    return near.empty() ? "" : ", did you mean \"" + near.front() + "\"?";
+}
+
+void check_keys(const Command& row, const Token& token) {
+    Strings keys;
+    for (const Modifier& modifier : row.modifiers) {
+        keys.push_back(modifier.key);
+    }
+    for (const auto& [key, value] : token.modifiers) {
+        if (std::find(keys.begin(), keys.end(), key) == keys.end()) {
+            throw CommandError(
+                "unknown modifier \"" + key + "\"" + meant(key, keys) +
+                (keys.empty() ? " (this command has none)" : " (valid: " + join(keys, ", ") + ")"));
+        }
+    }
+}
+
+std::string range_text(Range range) {
+    return format_number(range.low) + " to " + format_number(range.high);
+}
+
+} // namespace
+
+double checked_number(const std::string& what, const std::string& value, Range range) {
+    std::optional<double> number = parse_number(value);
+    if (!number) {
+        throw CommandError(what + " \"" + value +
+                           "\" is not a number (valid: " + range_text(range) + ")");
+    }
+    if (*number < range.low || *number > range.high) {
+        throw CommandError(what + " " + value + " is out of range (valid: " + range_text(range) +
+                           ")");
+    }
+    return *number;
+}
+
+int checked_integer(const std::string& what, const std::string& value, Range range) {
+    std::optional<int> number = parse_integer(value);
+    if (!number) {
+        throw CommandError(what + " \"" + value +
+                           "\" is not a whole number (valid: " + range_text(range) + ")");
+    }
+    checked_number(what, value, range);
+    return *number;
+}
+
+void check_choice(const std::string& what, const std::string& value, const Strings& valid) {
+    if (std::find(valid.begin(), valid.end(), value) == valid.end()) {
+        throw CommandError("unknown " + what + " \"" + value + "\"" + meant(value, valid) +
+                           " (valid: " + join(valid, ", ") + ")");
+    }
+}
+
+Call::Call(const Command& row, Token token, Strings arguments)
+    : m_row(&row),
+      m_token(std::move(token)),
+      m_arguments(std::move(arguments)) {
+    check_keys(row, m_token);
+}
+
+int Call::pops() const {
+    return m_row->pops_of ? m_row->pops_of(*this) : m_row->pops;
+}
+
+int Call::pushes() const {
+    return m_row->pushes_of ? m_row->pushes_of(*this) : m_row->pushes;
+}
+
+bool Call::has(const std::string& key) const {
+    return text(key).has_value();
+}
+
+std::optional<std::string> Call::text(const std::string& key) const {
+    for (const auto& [name, value] : m_token.modifiers) {
+        if (name == key) {
+            return value;
+        }
+    }
+    return std::nullopt;
+}
+
+std::optional<double> Call::number(const std::string& key, Range range) const {
+    std::optional<std::string> value = text(key);
+    return value ? std::optional<double>(checked_number(key, *value, range)) : std::nullopt;
+}
+
+std::optional<int> Call::integer(const std::string& key, Range range) const {
+    std::optional<std::string> value = text(key);
+    return value ? std::optional<int>(checked_integer(key, *value, range)) : std::nullopt;
+}
+
+bool Call::flag(const std::string& key, bool otherwise) const {
+    std::optional<std::string> value = choice(key, {"0", "1"});
+    return value ? *value == "1" : otherwise;
+}
+
+std::optional<std::string> Call::choice(const std::string& key, const Strings& valid) const {
+    std::optional<std::string> value = text(key);
+    if (value) {
+        check_choice(key, *value, valid);
+    }
+    return value;
+}
+
+std::vector<double> Call::numbers(const std::string& key, size_t count) const {
+    std::vector<double> values;
+    std::optional<std::string> list = text(key);
+    if (!list) {
+        return values;
+    }
+    for (const std::string& word : split(*list, ',')) {
+        values.push_back(checked_number(key, word, {-1e30, 1e30}));
+    }
+    if (values.size() != count) {
+        throw CommandError(key + " \"" + *list + "\" has " + std::to_string(values.size()) +
+                           " numbers (valid: " + std::to_string(count) +
+                           " numbers with commas between them)");
+    }
+    return values;
+}
+
+double Call::number_argument(size_t index, Range range) const {
+    return checked_number(m_row->args.at(index), argument(index), range);
+}
+
+int Call::integer_argument(size_t index, Range range) const {
+    return checked_integer(m_row->args.at(index), argument(index), range);
+}
+
+} // namespace tonetool::chain

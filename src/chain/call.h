@@ -1,0 +1,61 @@
+// One use of a command: its row, arguments, modifiers and the images it popped.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "chain/registry.h"
+#include "chain/token.h"
+
+namespace tonetool::chain {
+
+class Image;
+using ImagePtr = std::shared_ptr<Image>;
+
+/// A closed range that a number must lie in.
+struct Range {
+    double low, high;
+};
+
+class Call {
+public:
+    /// Checks the keys of the modifiers against the row.
+    Call(const Command& row, Token token, Strings arguments);
+
+    const Command& row() const { return *m_row; }
+    const std::string& argument(size_t index) const { return m_arguments.at(index); }
+    bool has_argument(size_t index) const { return index < m_arguments.size(); }
+    int pops() const;
+    int pushes() const;
+
+    /// The images popped, the deepest first.
+    std::vector<ImagePtr> images;
+
+    // Modifiers: nullopt where not given, a CommandError where the value is not valid.
+    bool has(const std::string& key) const;
+    std::optional<std::string> text(const std::string& key) const;
+    std::optional<double> number(const std::string& key, Range range) const;
+    std::optional<int> integer(const std::string& key, Range range) const;
+    bool flag(const std::string& key, bool otherwise) const;
+    std::optional<std::string> choice(const std::string& key, const Strings& valid) const;
+    /// Exactly `count` numbers with commas between them.
+    std::vector<double> numbers(const std::string& key, size_t count) const;
+
+    double number_argument(size_t index, Range range) const;
+    int integer_argument(size_t index, Range range) const;
+
+private:
+    const Command* m_row;
+    Token m_token;
+    Strings m_arguments;
+};
+
+/// "what "value": not a number; valid: ..." as a CommandError, for values of any origin.
+double checked_number(const std::string& what, const std::string& value, Range range);
+int checked_integer(const std::string& what, const std::string& value, Range range);
+void check_choice(const std::string& what, const std::string& value, const Strings& valid);
+
+} // namespace tonetool::chain

@@ -1,0 +1,94 @@
+// Commands that set how the rest of the command line runs, and help.
+#include <OpenImageIO/imageio.h>
+
+#include "chain/call.h"
+#include "chain/error.h"
+#include "chain/help.h"
+#include "chain/session.h"
+#include "tonetool/export.h"
+
+namespace tonetool::chain {
+
+namespace {
+
+void run_help(Session& session, const Call& call) {
+    session.produced = true;
+    if (!call.has_argument(0)) {
+        session.out << help_text();
+        return;
+    }
+    std::string name = call.argument(0);
+    name.erase(0, std::min(name.find_first_not_of('-'), size_t{2}));
+    const Command* row = find_command(name);
+    if (!row) {
+        throw CommandError("unknown command \"" + call.argument(0) + "\", " +
+                           suggest_command(name));
+    }
+    session.out << help_text(*row);
+}
+
+void run_version(Session& session, const Call&) {
+    session.produced = true;
+    session.print(TONETOOL_VERSION);
+}
+
+void run_verbose(Session& session, const Call&) {
+    session.verbose = true;
+    session.quiet = false;
+}
+
+void run_quiet(Session& session, const Call&) {
+    session.quiet = true;
+    session.verbose = false;
+}
+
+void run_threads(Session&, const Call& call) {
+    OIIO::attribute("threads", call.integer_argument(0, {0, 4096}));
+}
+
+void run_warnings_exit(Session& session, const Call&) {
+    session.warnings_exit = true;
+}
+
+} // namespace
+
+std::vector<Command> general_commands() {
+    return {
+        {{"help"},
+         {"[COMMAND]"},
+         0,
+         0,
+         {},
+         "List all commands, or tell more about one",
+         Group::General,
+         run_help},
+        {{"version"}, {}, 0, 0, {}, "Print the version", Group::General, run_version},
+        {{"v"}, {}, 0, 0, {}, "Say what is read and written", Group::General, run_verbose},
+        {{"q"},
+         {},
+         0,
+         0,
+         {},
+         "Quiet: measurements print only warnings, failures and errors",
+         Group::General,
+         run_quiet},
+        {{"threads"},
+         {"N"},
+         0,
+         0,
+         {},
+         "Number of threads (0: one per core)",
+         Group::General,
+         run_threads},
+        {{"warnings-exit"},
+         {},
+         0,
+         0,
+         {},
+         "Exit with status 2 when there were warnings",
+         Group::General,
+         run_warnings_exit},
+    };
+}
+
+} // namespace tonetool::chain

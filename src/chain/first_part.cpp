@@ -1,0 +1,23 @@
+#include "chain/first_part.h"
+
+#include "chain/error.h"
+
+namespace tonetool::chain {
+
+void warn_of_other_parts(Session& session, const Call& call, const Image& image) {
+    if (image.part_count() > 1) {
+        session.warning(call.row().label(),
+                        "only the first of " + std::to_string(image.part_count()) +
+                            " subimages of " + image.name() + " is looked at (--subimage chooses)");
+    }
+}
+
+const OIIO::ImageBuf& flat_pixels(const Image& image) {
+    const OIIO::ImageBuf& pixels = image.part().pixels();
+    if (pixels.deep()) {
+        throw CommandError("\"" + image.name() + "\" is deep, which this command cannot use");
+    }
+    return pixels;
+}
+
+} // namespace tonetool::chain

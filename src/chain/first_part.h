@@ -1,0 +1,15 @@
+// Commands that work on one subimage say so where there are more.
+#pragma once
+
+#include "chain/call.h"
+#include "chain/session.h"
+
+namespace tonetool::chain {
+
+/// A warning if the image has subimages beyond the first.
+void warn_of_other_parts(Session& session, const Call& call, const Image& image);
+
+/// The pixels of the first subimage; a CommandError if it is deep.
+const OIIO::ImageBuf& flat_pixels(const Image& image);
+
+} // namespace tonetool::chain

@@ -1,0 +1,174 @@
+#include "chain/flip_args.h"
+
+#include "chain/error.h"
+
+namespace tonetool::chain {
+
+namespace {
+
+const Range stops_range{-1000, 1000};
+const Range luminance_range{1e-30, 1e30};
+const Range unit_range{0, 1};
+
+std::string choices(const Strings& names) {
+    return join(names, "|");
+}
+
+void read_size(const Call& call, FlipOptions& options) {
+    bool resize = call.flag("resize", false);
+    bool crop = call.flag("crop", false);
+    if (resize && crop) {
+        throw CommandError("resize=1 and crop=1 exclude each other (valid: one of them)");
+    }
+    options.size = resize ? SizePolicy::Resize : (crop ? SizePolicy::Crop : SizePolicy::Match);
+}
+
+void read_screen(const Call& call, FlipOptions& options) {
+    auto distance = call.number("distance", {1e-6, 1e6});
+    auto width = call.number("width", {1e-6, 1e6});
+    auto pixels = call.number("pixels", {1, 1e7});
+    if (options.ppd && (distance || width || pixels)) {
+        throw CommandError("ppd= goes without distance=, width= and pixels= (valid: either)");
+    }
+    options.distance = distance.value_or(options.distance);
+    options.width = width.value_or(options.width);
+    options.pixels_across = pixels.value_or(options.pixels_across);
+}
+
+void read_exposures(const Call& call, HdrFlipOptions& options) {
+    options.start_exposure = call.number("startExposure", stops_range);
+    options.stop_exposure = call.number("stopExposure", stops_range);
+    if (options.start_exposure && options.stop_exposure &&
+        *options.start_exposure > *options.stop_exposure) {
+        throw CommandError("startExposure " + *call.text("startExposure") +
+                           " is above stopExposure " + *call.text("stopExposure"));
+    }
+}
+
+} // namespace
+
+std::vector<Modifier> pixel_modifiers() {
+    return {{"layer", "NAME", "layer whose R,G,B are used, \"ViewLayer.Combined\""},
+            {"from", "SPACE",
+             "colour space of the pixels: rec709, acescg, aces2065-1, rec2020, "
+             "p3-d65, srgb"}};
+}
+
+std::vector<Modifier> pair_modifiers() {
+    return concatenated(
+        {pixel_modifiers(),
+         {{"resize", "0|1", "resize the test image to the reference's display window"},
+          {"crop", "0|1", "compare only where the display windows meet"},
+          {"alpha", "ignore|error",
+           "what becomes of alpha: error: its difference joins the map"}}});
+}
+
+std::vector<Modifier> viewing_modifiers() {
+    return {{"ppd", "X", "pixels per degree of visual angle; or the three numbers below"},
+            {"distance", "METRES", "viewing distance (0.7)"},
+            {"width", "METRES", "width of the screen (0.7)"},
+            {"pixels", "N", "width of the screen in pixels (3840)"}};
+}
+
+std::vector<Modifier> hdr_modifiers() {
+    return {{"tonemapper", choices(ToneAlgo::flip_tonemappers()), "tone curve (aces)"},
+            {"coeffs", "K0,K1,K2,K3,K4,K5", "curve (k0 x2 + k1 x + k2) / (k3 x2 + k4 x + k5)"},
+            {"startExposure", "STOPS", "first exposure (from the reference)"},
+            {"stopExposure", "STOPS", "last exposure (from the reference)"},
+            {"numExposures", "N", "number of exposures (from their range)"},
+            {"maxluminance", "X", "instead of the reference's maximum luminance"},
+            {"medianluminance", "X", "instead of the reference's median luminance"}};
+}
+
+std::vector<Modifier> threshold_modifiers() {
+    return {{"fail", "X", "exit status 3 unless the quantity is at most X (0 to 1)"},
+            {"warn", "X", "a warning unless the quantity is at most X (0 to 1)"},
+            {"quantity", choices(ToneAlgo::flip_quantities()), "what fail and warn test (mean)"},
+            {"print", "0|1", "print the summary (1)"}};
+}
+
+std::vector<Modifier> concatenated(const std::vector<std::vector<Modifier>>& lists) {
+    std::vector<Modifier> all;
+    for (const std::vector<Modifier>& list : lists) {
+        all.insert(all.end(), list.begin(), list.end());
+    }
+    return all;
+}
+
+PixelOptions pixel_options(const Call& call) {
+    return {call.text("layer").value_or(""), call.text("from").value_or("")};
+}
+
+void read_flip_options(const Call& call, bool screen, FlipOptions& options) {
+    options.pixels = pixel_options(call);
+    read_size(call, options);
+    bool error = call.choice("alpha", {"ignore", "error"}).value_or("ignore") == "error";
+    options.alpha = error ? AlphaPolicy::Error : AlphaPolicy::Ignore;
+    options.ppd = call.number("ppd", {1, 1000});
+    if (screen) {
+        read_screen(call, options);
+    }
+}
+
+void read_hdr_options(const Call& call, HdrFlipOptions& options) {
+    auto curve = call.choice("tonemapper", ToneAlgo::flip_tonemappers());
+    options.coeffs = call.numbers("coeffs", 6);
+    if (curve && !options.coeffs.empty()) {
+        throw CommandError("tonemapper= and coeffs= exclude each other (valid: one of them)");
+    }
+    options.tonemapper = curve.value_or(options.tonemapper);
+    read_exposures(call, options);
+    options.num_exposures = call.integer("numExposures", {1, 1024});
+    options.max_luminance = call.number("maxluminance", luminance_range);
+    options.median_luminance = call.number("medianluminance", luminance_range);
+}
+
+Thresholds thresholds_of(const Call& call) {
+    Thresholds thresholds;
+    thresholds.fail = call.number("fail", unit_range);
+    thresholds.warn = call.number("warn", unit_range);
+    auto quantity = call.choice("quantity", ToneAlgo::flip_quantities());
+    if (quantity && !thresholds.fail && !thresholds.warn) {
+        throw CommandError("quantity= needs fail= or warn=");
+    }
+    thresholds.quantity = quantity.value_or(thresholds.quantity);
+    return thresholds;
+}
+
+std::vector<Modifier> flipdiff_modifiers() {
+    return {{"hdr", "0|1", "HDR-FLIP (1), or LDR-FLIP"},
+            {"maxluminance", "X",
+             "luminance that the first exposure suits (2.0); 0: exposures "
+             "from the reference"},
+            {"medianluminance", "X", "luminance that the last exposure suits (0.18)"},
+            {"startExposure", "STOPS", "first exposure"},
+            {"stopExposure", "STOPS", "last exposure"},
+            {"numExposures", "N", "number of exposures; 0: from their range"},
+            {"ppd", "X", "pixels per degree of visual angle (67.02)"},
+            {"tonemapper", choices(ToneAlgo::flip_tonemappers()), "tone curve (aces)"},
+            {"colormap", "NAME", "push the map in these colours, as --colormap"},
+            {"layer", "NAME", "layer whose R,G,B are used"},
+            {"from", "SPACE", "colour space of the pixels"},
+            {"print", "0|1", "print the summary (1)"},
+            {"fail", "X", "exit status 3 unless the largest error is at most X (0 to 1)"}};
+}
+
+HdrFlipOptions flipdiff_options(const Call& call) {
+    HdrFlipOptions options;
+    options.pixels = pixel_options(call);
+    options.ppd = call.number("ppd", {1, 1000}).value_or(67.02);
+    options.tonemapper =
+        call.choice("tonemapper", ToneAlgo::flip_tonemappers()).value_or(options.tonemapper);
+    read_exposures(call, options);
+    int count = call.integer("numExposures", {0, 1024}).value_or(0);
+    options.num_exposures = count > 0 ? std::optional<int>(count) : std::nullopt;
+    double maximum = call.number("maxluminance", {-1e30, 1e30}).value_or(2.0);
+    double median = call.number("medianluminance", {-1e30, 1e30}).value_or(0.18);
+    if (maximum > 0) {
+        options.max_luminance = maximum;
+        options.median_luminance = median > 0 ? std::optional<double>(median) : std::nullopt;
+    }
+    return options;
+}
+
+} // namespace tonetool::chain

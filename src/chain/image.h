@@ -1,0 +1,81 @@
+// One entry of the image stack: what was read from a file, or what a command made.
+#pragma once
+
+#include <OpenImageIO/imagebuf.h>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace tonetool::chain {
+
+/// The data types that an image would be written with.
+struct DataFormat {
+    OIIO::TypeDesc type;                    ///< the widest
+    std::vector<OIIO::TypeDesc> of_channel; ///< empty where all are the same
+    int bits = 0;                           ///< 10 or 12 in a uint16; 0: all of them
+};
+
+/// One subimage. Its header is there at once, its pixels come with the first use.
+class Part {
+public:
+    /// A subimage of a file, whose header is `header`.
+    Part(std::string file, int subimage, int mip_levels, const OIIO::ImageSpec& header);
+    /// Pixels that a command made.
+    Part(OIIO::ImageBuf pixels, DataFormat format, bool integer_encoded);
+
+    const OIIO::ImageSpec& header() const { return m_header; }
+    int mip_levels() const { return m_mip_levels; }
+    const DataFormat& format() const { return m_format; }
+    bool from_file() const { return !m_file.empty(); }
+    /// The values come from an integer file: display-encoded unless the header says otherwise.
+    bool integer_encoded() const { return m_integer_encoded; }
+
+    /// The pixels as float (deep ones as they are). A CommandError where they cannot be read.
+    const OIIO::ImageBuf& pixels();
+
+    /// The pixels with a header that says sRGB where that was only implied by the integer file
+    /// they come from. Valid as long as this part is.
+    OIIO::ImageBuf color_view();
+
+private:
+    void read();
+
+    OIIO::ImageSpec m_header;
+    DataFormat m_format;
+    std::string m_file;
+    int m_subimage = 0, m_mip_levels = 1;
+    bool m_integer_encoded = false, m_read = false;
+    OIIO::ImageBuf m_pixels;
+};
+
+using PartPtr = std::shared_ptr<Part>;
+class Image;
+using ImagePtr = std::shared_ptr<Image>;
+
+/// A stack entry: one or more subimages. Entries are never changed once they are on the stack,
+/// so that copies share them.
+class Image {
+public:
+    Image(std::string name, std::vector<PartPtr> parts)
+        : m_name(std::move(name)),
+          m_parts(std::move(parts)) {}
+
+    /// Opens the file and reads the headers of its subimages; a CommandError if that fails.
+    static ImagePtr open(const std::string& filename);
+    /// What a command made of `from`: data format and encoding go on.
+    static ImagePtr derived(const Image& from, OIIO::ImageBuf pixels);
+    /// What a command computed: float, and not display-encoded unless its header says so.
+    static ImagePtr computed(std::string name, OIIO::ImageBuf pixels);
+
+    const std::string& name() const { return m_name; } ///< file, or what it was made from
+    Part& part(size_t index = 0) const { return *m_parts.at(index); }
+    size_t part_count() const { return m_parts.size(); }
+    const std::vector<PartPtr>& parts() const { return m_parts; }
+    const std::string& file_format() const { return m_file_format; } ///< "openexr"; "" if no file
+
+private:
+    std::string m_name, m_file_format;
+    std::vector<PartPtr> m_parts;
+};
+
+} // namespace tonetool::chain

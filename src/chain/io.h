@@ -1,0 +1,20 @@
+// Reading and writing, as the chain does it.
+#pragma once
+
+#include <string>
+
+#include "chain/call.h"
+#include "chain/session.h"
+
+namespace tonetool::chain {
+
+/// A bare word: the image of that label, else the file of that name.
+void push_file_or_label(Session& session, const std::string& word);
+
+/// Read a file, push it, print what --info, -v and --stats ask for.
+void push_file(Session& session, const std::string& filename);
+
+/// Settings that no output has used: a -d CHAN=TYPE that fits no channel is an error.
+void check_outputs(const Session& session);
+
+} // namespace tonetool::chain

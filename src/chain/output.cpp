@@ -1,0 +1,237 @@
+#include "chain/output.h"
+
+#include <OpenImageIO/imagebufalgo.h>
+#include <OpenImageIO/imageio.h>
+#include <algorithm>
+
+#include "chain/channels.h"
+#include "chain/error.h"
+#include "chain/oiio_compat.h"
+#include "tonetool/tonetool.h"
+
+namespace tonetool::chain {
+
+namespace {
+
+struct TypeRow {
+    const char* name;
+    OIIO::TypeDesc type;
+    int bits;
+};
+
+const TypeRow type_rows[] = {
+    {"uint8", OIIO::TypeDesc::UINT8, 0},    {"sint8", OIIO::TypeDesc::INT8, 0},
+    {"uint10", OIIO::TypeDesc::UINT16, 10}, {"uint12", OIIO::TypeDesc::UINT16, 12},
+    {"uint16", OIIO::TypeDesc::UINT16, 0},  {"sint16", OIIO::TypeDesc::INT16, 0},
+    {"uint32", OIIO::TypeDesc::UINT32, 0},  {"sint32", OIIO::TypeDesc::INT32, 0},
+    {"half", OIIO::TypeDesc::HALF, 0},      {"float", OIIO::TypeDesc::FLOAT, 0},
+    {"double", OIIO::TypeDesc::DOUBLE, 0},
+};
+
+// One subimage on its way to the file: pixels (owned here where they had to change), a header,
+// data types.
+struct Outgoing {
+    OIIO::ImageBuf owned;
+    const OIIO::ImageBuf* pixels;
+    DataFormat format;
+    OIIO::ImageBuf ready; // what is handed to the writer
+};
+
+std::unique_ptr<OIIO::ImageOutput> find_writer(const std::string& filename) {
+    auto writer = OIIO::ImageOutput::create(filename);
+    if (!writer) {
+        std::string why = OIIO::geterror();
+        throw CommandError(why.empty() ? "no format for \"" + filename + "\"" : why);
+    }
+    return writer;
+}
+
+// Formats without a data window get the display window; those without a negative origin get the
+// part of it that they can hold.
+void fit_windows(Outgoing& image, const OIIO::ImageOutput& writer) {
+    OIIO::ROI wanted = image.pixels->roi_full();
+    bool windows = format_supports(writer, "displaywindow");
+    bool negative = format_supports(writer, "negativeorigin");
+    const OIIO::ImageSpec& spec = image.pixels->spec();
+    bool below_zero = std::min({spec.x, spec.y, spec.full_x, spec.full_y}) < 0;
+    if (wanted == image.pixels->roi() || spec.deep || (windows && (negative || !below_zero))) {
+        return;
+    }
+    wanted.chbegin = 0;
+    wanted.chend = spec.nchannels;
+    if (windows) {
+        wanted.xbegin = std::max(wanted.xbegin, 0);
+        wanted.ybegin = std::max(wanted.ybegin, 0);
+    }
+    OIIO::ImageBuf fitted = windows ? OIIO::ImageBufAlgo::crop(*image.pixels, wanted)
+                                    : OIIO::ImageBufAlgo::cut(*image.pixels, wanted);
+    if (fitted.has_error()) {
+        throw CommandError(fitted.geterror());
+    }
+    image.owned = std::move(fitted);
+    image.pixels = &image.owned;
+}
+
+void fit_channels(Session& session, const std::string& where, Outgoing& image,
+                  const OIIO::ImageOutput& writer) {
+    const OIIO::ImageSpec& spec = image.pixels->spec();
+    bool alpha = format_supports(writer, "alpha");
+    bool fits = spec.nchannels <= 3 || (spec.nchannels == 4 && alpha) ||
+                (spec.nchannels > 4 && format_supports(writer, "nchannels"));
+    if (fits) {
+        return;
+    }
+    int kept = alpha ? 4 : 3;
+    std::vector<int> chosen;
+    Strings names;
+    for (int i = 0; i < kept; ++i) {
+        static const char* const usual[] = {"R", "G", "B", "A"};
+        chosen.push_back(channel_index(spec, usual[i]));
+    }
+    if (std::find(chosen.begin(), chosen.end(), -1) != chosen.end()) {
+        chosen = kept == 4 ? std::vector<int>{0, 1, 2, 3} : std::vector<int>{0, 1, 2};
+    }
+    for (int index : chosen) {
+        names.push_back(spec.channelnames[static_cast<size_t>(index)]);
+    }
+    session.warning(where, "Can't save " + std::to_string(spec.nchannels) + " channels to " +
+                               writer.format_name() + "... saving only " + join(names, ","));
+    image.owned = OIIO::ImageBufAlgo::channels(*image.pixels, kept, chosen);
+    image.pixels = &image.owned;
+    image.format.of_channel.clear();
+}
+
+void choose_format(Outgoing& image, const OutputSettings& asked, OutputSettings& memory) {
+    DataFormat& format = image.format;
+    if (asked.type) {
+        format = {asked.type->type, {}, asked.type->bits};
+    }
+    const OIIO::ImageSpec& spec = image.pixels->spec();
+    for (const auto& [name, type] : asked.type_of_channel) {
+        for (size_t c = 0; c < spec.channelnames.size(); ++c) {
+            if (spec.channelnames[c] == name) {
+                format.of_channel.resize(spec.channelnames.size(), format.type);
+                format.of_channel[c] = type.type;
+                memory.matched_channels.insert(name);
+            }
+        }
+    }
+    auto same = [&](OIIO::TypeDesc type) { return type == format.of_channel.front(); };
+    if (!format.of_channel.empty() &&
+        std::all_of(format.of_channel.begin(), format.of_channel.end(), same)) {
+        format.type = format.of_channel.front();
+        format.of_channel.clear();
+    }
+}
+
+void note_history(OIIO::ImageSpec& spec, const std::string& command_line) {
+    spec.attribute("Software", "tonetool " TONETOOL_VERSION " : " + command_line);
+    std::string history = spec.get_string_attribute("Exif:ImageHistory");
+    if (!history.empty() && history.back() != '\n') {
+        history += '\n';
+    }
+    spec.attribute("Exif:ImageHistory", history + command_line);
+}
+
+void make_ready(Outgoing& image, const Session& session, const OutputSettings& settings) {
+    OIIO::ImageSpec spec = image.pixels->spec();
+    note_history(spec, session.command_line);
+    if (!settings.compression.empty()) {
+        spec.attribute("compression", settings.compression);
+    }
+    spec.erase_attribute("oiio:BitsPerSample");
+    if (image.format.bits > 0) {
+        spec.attribute("oiio:BitsPerSample", image.format.bits);
+    }
+    if (spec.deep) {
+        image.ready = *image.pixels;
+        image.ready.specmod() = spec;
+    } else {
+        image.ready = view_with_spec(*image.pixels, spec);
+        if (image.format.of_channel.empty()) {
+            image.ready.set_write_format(image.format.type);
+        } else {
+            image.ready.set_write_format(image.format.of_channel);
+        }
+    }
+    image.ready.set_write_tiles(spec.tile_width, spec.tile_height, spec.tile_depth);
+}
+
+size_t parts_to_write(Session& session, const std::string& where, const Image& image,
+                      const OIIO::ImageOutput& writer) {
+    if (image.part_count() > 1 && !format_supports(writer, "multiimage")) {
+        session.warning(where, std::string(writer.format_name()) +
+                                   " holds one image: only the "
+                                   "first of " +
+                                   std::to_string(image.part_count()) + " subimages is written");
+        return 1;
+    }
+    return image.part_count();
+}
+
+} // namespace
+
+const Strings& data_type_names() {
+    static const Strings names = [] {
+        Strings all;
+        for (const TypeRow& row : type_rows) {
+            all.push_back(row.name);
+        }
+        return all;
+    }();
+    return names;
+}
+
+NamedType parse_data_type(const std::string& what, const std::string& name) {
+    for (const TypeRow& row : type_rows) {
+        if (name == row.name) {
+            return {row.type, row.bits};
+        }
+    }
+    throw CommandError("Unknown " + what + " \"" + name +
+                       "\" (valid: " + join(data_type_names(), ", ") + ")");
+}
+
+void check_compression(const std::string& compression) {
+    static const Strings known = {
+        "none", "rle",  "zip",  "zips",     "piz",       "pxr24",    "b44",    "b44a",
+        "dwaa", "dwab", "lzw",  "deflate",  "packbits",  "ccittrle", "jpeg",   "ccittfax3",
+        "zfp",  "gzip", "webp", "lossless", "pngfilter", "htj2k256", "htj2k32"};
+    std::string name = compression.substr(0, compression.find(':'));
+    if (std::find(known.begin(), known.end(), name) == known.end()) {
+        throw CommandError("unknown compression \"" + compression +
+                           "\" (valid: " + join(known, ", ") + ")");
+    }
+    if (name.size() < compression.size() && !parse_number(compression.substr(name.size() + 1))) {
+        throw CommandError("compression \"" + compression + "\" is not name or name:quality");
+    }
+}
+
+void write_output(Session& session, const std::string& where, const Image& image,
+                  const std::string& filename, const OutputSettings& settings) {
+    auto writer = find_writer(filename);
+    size_t count = parts_to_write(session, where, image, *writer);
+    std::vector<Outgoing> parts(count);
+    std::vector<const OIIO::ImageBuf*> ready;
+    for (size_t i = 0; i < count; ++i) {
+        Part& part = image.part(i);
+        parts[i].pixels = &part.pixels();
+        parts[i].format = part.format();
+        fit_windows(parts[i], *writer);
+        fit_channels(session, where, parts[i], *writer);
+        choose_format(parts[i], settings, session.output);
+        make_ready(parts[i], session, settings);
+        ready.push_back(&parts[i].ready);
+        if (part.mip_levels() > 1) {
+            session.warning(where, "only the largest of " + std::to_string(part.mip_levels()) +
+                                       " MIP levels of " + image.name() + " is written");
+        }
+    }
+    std::string why;
+    if (!tonetool::write_images(ready, filename, why)) {
+        throw CommandError(why);
+    }
+    session.produced = true;
+}
+
+} // namespace tonetool::chain

@@ -1,0 +1,70 @@
+#include "chain/registry.h"
+
+#include <algorithm>
+#include <iterator>
+
+namespace tonetool::chain {
+
+namespace {
+
+std::vector<Command> collect() {
+    std::vector<Command> all;
+    for (auto family : {general_commands, io_commands, inspect_commands, compare_commands,
+                        color_commands, channel_commands, stack_commands}) {
+        std::vector<Command> rows = family();
+        std::move(rows.begin(), rows.end(), std::back_inserter(all));
+    }
+    return all;
+}
+
+} // namespace
+
+std::string group_title(Group group) {
+    static const char* const titles[group_count] = {
+        "General",
+        "Commands that read images",
+        "Commands that write images, and what they write",
+        "Commands that print",
+        "Comparing a test image with a reference",
+        "Measuring",
+        "Colour and exposure",
+        "Channels and subimages",
+        "Image stack",
+    };
+    return titles[static_cast<int>(group)];
+}
+
+std::string Command::label() const {
+    return names.front().size() == 1 ? "-" + names.front() : names.front();
+}
+
+const std::vector<Command>& all_commands() {
+    static const std::vector<Command> all = collect();
+    return all;
+}
+
+const Command* find_command(const std::string& name) {
+    for (const Command& row : all_commands()) {
+        if (std::find(row.names.begin(), row.names.end(), name) != row.names.end()) {
+            return &row;
+        }
+    }
+    return nullptr;
+}
+
+std::string suggest_command(const std::string& name) {
+    Strings names;
+    for (const Command& row : all_commands()) {
+        names.insert(names.end(), row.names.begin(), row.names.end());
+    }
+    Strings near = nearest_names(name, names);
+    if (near.empty()) {
+        return "--help lists all commands";
+    }
+    for (std::string& word : near) {
+        word.insert(0, word.size() == 1 ? "-" : "--");
+    }
+    return "did you mean " + join(near, " or ") + "? (--help lists all commands)";
+}
+
+} // namespace tonetool::chain

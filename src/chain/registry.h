@@ -1,0 +1,62 @@
+// The commands: one row each. Help, checks and tests are all read from these rows.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "chain/text.h"
+
+namespace tonetool::chain {
+
+class Call;
+struct Session;
+
+struct Modifier {
+    std::string key;
+    std::string hint; ///< what a value looks like, "0|1", "X", "NAME"
+    std::string help;
+};
+
+/// In the order in which help lists them.
+enum class Group { General, Read, Write, Print, Compare, Measure, Color, Channels, Stack };
+inline constexpr int group_count = 9;
+std::string group_title(Group group);
+
+struct Command {
+    Strings names;  ///< without dashes; the first one is the one that messages use
+    Strings args;   ///< names of the arguments; "[NAME]" may be left out, only as the last
+    int pops = 0;   ///< images taken from the stack
+    int pushes = 0; ///< images put on it
+    std::vector<Modifier> modifiers;
+    std::string help; ///< one line
+    Group group = Group::General;
+    void (*run)(Session&, const Call&) = nullptr;
+    /// Wait for images that are still to come, as oiiotool does with operators.
+    bool postponable = true;
+    /// Where the numbers of images depend on a modifier; else nullptr.
+    int (*pops_of)(const Call&) = nullptr;
+    int (*pushes_of)(const Call&) = nullptr;
+
+    /// As messages call it: "hdrflip", "-o".
+    std::string label() const;
+};
+
+/// All rows.
+const std::vector<Command>& all_commands();
+
+/// The row of that name, or nullptr.
+const Command* find_command(const std::string& name);
+
+/// "did you mean --x, --y?" or "see --help".
+std::string suggest_command(const std::string& name);
+
+// The families, one file each.
+std::vector<Command> general_commands();
+std::vector<Command> io_commands();
+std::vector<Command> inspect_commands();
+std::vector<Command> compare_commands();
+std::vector<Command> color_commands();
+std::vector<Command> channel_commands();
+std::vector<Command> stack_commands();
+
+} // namespace tonetool::chain

@@ -1,0 +1,34 @@
+// Strict numbers, near names, and other small pure pieces of text.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace tonetool::chain {
+
+using Strings = std::vector<std::string>;
+
+/// The whole text as a finite decimal number ("1e-3", "-2", ".5"); nullopt for anything else
+/// (empty, spaces, "0,05", "5%", "nan", "0x10", beyond double).
+std::optional<double> parse_number(const std::string& text);
+
+/// The whole text as an int; nullopt for anything else.
+std::optional<int> parse_integer(const std::string& text);
+
+/// Six significant digits.
+std::string format_number(double value);
+
+/// As format_number, with as many more digits as it takes to tell `value` from `other`.
+std::string format_apart(double value, double other);
+
+Strings split(const std::string& text, char separator);
+std::string join(const Strings& words, const std::string& separator);
+
+/// Those of `names` that a person could have meant by `word`, nearest first, at most `limit`.
+Strings nearest_names(const std::string& word, const Strings& names, size_t limit = 3);
+
+/// The argument as one would type it in a shell.
+std::string shell_quoted(const std::string& argument);
+
+} // namespace tonetool::chain

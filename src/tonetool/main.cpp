@@ -1,0 +1,45 @@
+// The tonetool program: its arguments go to the chain, the chain's status comes back.
+#include <csignal>
+#include <cstdio>
+#include <exception>
+#include <iostream>
+
+#include "chain/chain.h"
+#include "tonetool/write.h"
+
+namespace {
+
+extern "C" void end_by_signal(int signal_number) {
+    tonetool::remove_unfinished_outputs();
+    std::signal(signal_number, SIG_DFL);
+    std::raise(signal_number);
+}
+
+void install_signal_handlers() {
+    // A reader that went away is a failed write and status 1, not a silent death.
+    std::signal(SIGPIPE, SIG_IGN);
+    for (int number : {SIGINT, SIGTERM, SIGHUP}) {
+        // nohup's SIGHUP stays ignored.
+        if (std::signal(number, end_by_signal) == SIG_IGN) {
+            std::signal(number, SIG_IGN);
+        }
+    }
+#ifdef SIGXFSZ
+    std::signal(SIGXFSZ, SIG_IGN); // a write beyond ulimit -f fails instead
+#endif
+}
+
+} // namespace
+
+int main(int argc, char** argv) {
+    try {
+        install_signal_handlers();
+        tonetool::chain::Strings words(argv + (argc > 0 ? 1 : 0), argv + argc);
+        return tonetool::chain::run(words, std::cout, std::cerr);
+    } catch (const std::exception& problem) {
+        std::fprintf(stderr, "tonetool ERROR: %s\n", problem.what());
+    } catch (...) {
+        std::fprintf(stderr, "tonetool ERROR: unknown error\n");
+    }
+    return 1;
+}
