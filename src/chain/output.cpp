@@ -28,13 +28,11 @@ const TypeRow type_rows[] = {
     {"double", OIIO::TypeDesc::DOUBLE, 0},
 };
 
-// One subimage on its way to the file: pixels (owned here where they had to change), a header,
-// data types.
+// One subimage on its way to the file: pixels (owned here where they had to change), data types.
 struct Outgoing {
     OIIO::ImageBuf owned;
     const OIIO::ImageBuf* pixels;
     DataFormat format;
-    OIIO::ImageBuf ready; // what is handed to the writer
 };
 
 std::unique_ptr<OIIO::ImageOutput> find_writer(const std::string& filename) {
@@ -133,7 +131,8 @@ void note_history(OIIO::ImageSpec& spec, const std::string& command_line) {
     spec.attribute("Exif:ImageHistory", history + command_line);
 }
 
-void make_ready(Outgoing& image, const Session& session, const OutputSettings& settings) {
+OIIO::ImageSpec output_spec(const Outgoing& image, const Session& session,
+                            const OutputSettings& settings) {
     OIIO::ImageSpec spec = image.pixels->spec();
     note_history(spec, session.command_line);
     if (!settings.compression.empty()) {
@@ -143,18 +142,11 @@ void make_ready(Outgoing& image, const Session& session, const OutputSettings& s
     if (image.format.bits > 0) {
         spec.attribute("oiio:BitsPerSample", image.format.bits);
     }
-    if (spec.deep) {
-        image.ready = *image.pixels;
-        image.ready.specmod() = spec;
-    } else {
-        image.ready = view_with_spec(*image.pixels, spec);
-        if (image.format.of_channel.empty()) {
-            image.ready.set_write_format(image.format.type);
-        } else {
-            image.ready.set_write_format(image.format.of_channel);
-        }
+    if (!spec.deep) {
+        spec.set_format(image.format.type);
+        spec.channelformats = image.format.of_channel;
     }
-    image.ready.set_write_tiles(spec.tile_width, spec.tile_height, spec.tile_depth);
+    return spec;
 }
 
 size_t parts_to_write(Session& session, const std::string& where, const Image& image,
@@ -212,7 +204,7 @@ void write_output(Session& session, const std::string& where, const Image& image
     auto writer = find_writer(filename);
     size_t count = parts_to_write(session, where, image, *writer);
     std::vector<Outgoing> parts(count);
-    std::vector<const OIIO::ImageBuf*> ready;
+    std::vector<OutputImage> ready;
     for (size_t i = 0; i < count; ++i) {
         Part& part = image.part(i);
         parts[i].pixels = &part.pixels();
@@ -220,15 +212,14 @@ void write_output(Session& session, const std::string& where, const Image& image
         fit_windows(parts[i], *writer);
         fit_channels(session, where, parts[i], *writer);
         choose_format(parts[i], settings, session.output);
-        make_ready(parts[i], session, settings);
-        ready.push_back(&parts[i].ready);
+        ready.push_back({parts[i].pixels, output_spec(parts[i], session, settings)});
         if (part.mip_levels() > 1) {
             session.warning(where, "only the largest of " + std::to_string(part.mip_levels()) +
                                        " MIP levels of " + image.name() + " is written");
         }
     }
     std::string why;
-    if (!tonetool::write_images(ready, filename, why)) {
+    if (!write_images(ready, filename, why)) {
         throw CommandError(why);
     }
     session.produced = true;
