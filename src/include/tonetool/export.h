@@ -8,3 +8,10 @@
 #else
 #define TONETOOL_API
 #endif
+
+namespace tonetool {
+
+/// Version of the library that is running, "major.minor.patch".
+TONETOOL_API const char* version() noexcept;
+
+} // namespace tonetool

@@ -7,13 +7,13 @@
 #pragma once
 
 #include <OpenImageIO/imagebuf.h>
-#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "tonetool/export.h"
+#include "tonetool/numbers.h"
 #include "tonetool/pixels.h"
 
 namespace tonetool {
@@ -44,20 +44,6 @@ struct HdrFlipOptions : FlipOptions {
     std::optional<double> median_luminance; ///< instead of measuring the reference's median
     bool want_exposure_map = false;         ///< fill FlipResult::exposure_stops and exposure_index
     bool want_exposures = false;            ///< fill FlipResult::exposures
-};
-
-/// Pooled values of an error map. Sums are in double and in a fixed order.
-struct FlipPool {
-    double mean = 0;
-    /// Values below which 25, 50, 75 % of the error mass (the sum of the map) lies.
-    double weighted_q1 = 0, weighted_median = 0, weighted_q3 = 0;
-    /// Nearest-rank percentiles of the pixels.
-    double p50 = 0, p95 = 0, p99 = 0, p999 = 0;
-    double min = 0, max = 0;
-    int min_x = 0, min_y = 0, max_x = 0, max_y = 0; ///< first in scan-line order
-    /// 100 equal buckets over [0, 1]; the last one holds 1 as well.
-    std::array<int64_t, 100> histogram{};
-    int64_t pixels = 0;
 };
 
 /// How one image was read and what was found in it.

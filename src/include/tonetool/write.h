@@ -9,16 +9,25 @@
 
 namespace tonetool {
 
+/// Pixels and how they are to be written: `spec` is the image's own with the data format
+/// (spec.format, spec.channelformats), compression, tiling and metadata of the file.
+/// ImageBuf::set_write_format cannot be read back and has no say here.
+struct OutputImage {
+    const OIIO::ImageBuf* pixels = nullptr;
+    OIIO::ImageSpec spec;
+};
+
 /// Write images (one: a plain file; several: subimages) to `filename`.
 ///
 /// The bytes go to a temporary file beside the target, are flushed to the disk and renamed into
 /// place, so that the target is either the old file or the whole new one. Every byte's write is
 /// checked: a full disk is an error. A symbolic link is followed; a device or pipe is written
-/// directly. The format follows the extension. The images' specs say the data format to write
-/// (ImageBuf::set_write_format), compression and metadata.
+/// directly. The format follows the extension.
 /// Returns false and explains in `error`; then nothing has changed on disk.
-TONETOOL_API bool write_images(const std::vector<const OIIO::ImageBuf*>& images,
-                               const std::string& filename, std::string& error);
+TONETOOL_API bool write_images(const std::vector<OutputImage>& images, const std::string& filename,
+                               std::string& error);
+
+/// One image, in the data format of its spec.
 TONETOOL_API bool write_image(const OIIO::ImageBuf& image, const std::string& filename,
                               std::string& error);
 

@@ -1,0 +1,94 @@
+#include "flip/exposures.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+namespace tonetool::flip {
+namespace {
+
+std::string text(const char* format, double a, double b = 0)
+{
+    char buffer[320];
+    std::snprintf(buffer, sizeof buffer, format, a, b);
+    return buffer;
+}
+
+bool in_range(double stops, const char* name, std::string& error)
+{
+    if (std::isfinite(stops) && stops >= kMinStops && stops <= kMaxStops)
+        return true;
+    error = std::string(name) + text(" exposure is %g stops", stops) +
+            text(": must be finite and between %g and %g", kMinStops, kMaxStops);
+    return false;
+}
+
+// One end of the range from a luminance.
+bool measure(const std::array<double, 6>& curve, double luminance, const char* name, double& stops,
+             std::string& error)
+{
+    const auto x = bright_point(curve);
+    if (!x) {
+        error = text("the tone curve never reaches %g, so there is no automatic exposure: pass "
+                     "startExposure and stopExposure",
+                     kBright);
+        return false;
+    }
+    if (!(std::isfinite(luminance) && luminance > 0)) {
+        error = std::string(name) + text(" exposure cannot be measured: the luminance is %g, must "
+                                         "be positive and finite; pass ",
+                                         luminance) +
+                name + "Exposure";
+        return false;
+    }
+    stops = std::log2(*x / luminance);
+    return true;
+}
+
+} // namespace
+
+std::optional<double> bright_point(const std::array<double, 6>& k)
+{
+    const double a = k[0] - kBright * k[3], b = k[1] - kBright * k[4], c = k[2] - kBright * k[5];
+    double x = 0;
+    if (a == 0) {
+        x = -c / b;
+    } else {
+        const double half = b / (2.0 * a);
+        x = -half + std::sqrt(half * half - c / a);
+    }
+    if (!(std::isfinite(x) && x > 0))
+        return std::nullopt;
+    return x;
+}
+
+bool make_exposures(const std::array<double, 6>& curve, const ExposureRequest& request,
+                    std::vector<double>& stops, std::string& error)
+{
+    double start = request.start.value_or(0), stop = request.stop.value_or(0);
+    const bool single = request.count == 1;
+    if (!request.start && !measure(curve, request.max_luminance, "start", start, error))
+        return false;
+    if (single && !request.stop)
+        stop = start;
+    else if (!request.stop && !measure(curve, request.median_luminance, "stop", stop, error))
+        return false;
+    if (!in_range(start, "start", error) || !in_range(stop, "stop", error))
+        return false;
+    if (start > stop) {
+        error = text("start exposure %g is above stop exposure %g", start, stop) +
+                ": must not be larger";
+        return false;
+    }
+    const int count = request.count.value_or(std::max(2, int(std::ceil(stop - start))));
+    if (count < 1 || count > kMaxExposures) {
+        error = text("number of exposures is %g: must be 1 to %g", count, kMaxExposures);
+        return false;
+    }
+    stops.clear();
+    for (int i = 0; i < count; ++i)
+        stops.push_back(count == 1 ? start : start + i * (stop - start) / (count - 1));
+    return true;
+}
+
+} // namespace tonetool::flip

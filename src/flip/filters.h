@@ -1,0 +1,26 @@
+// The filters of LDR-FLIP for a number of pixels per degree.
+#pragma once
+
+#include "kernels/flip_taps.h"
+
+namespace tonetool::flip {
+
+/// Bounds of what the filters are defined for; at the lower end a filter is a few pixels wide and
+/// the feature detectors are plain differences, above the upper one pixels are far below sight.
+inline constexpr double kMinPixelsPerDegree = 1.0;
+inline constexpr double kMaxPixelsPerDegree = 1000.0;
+
+/// Pixels per degree of a screen `width` metres and `pixels` wide, seen from `distance` metres.
+double pixels_per_degree(double distance, double width, double pixels);
+
+/// Contrast sensitivity filters and feature detectors, HPG 2020 section 4.1 and 4.2.
+kernels::FlipTaps<double> make_taps(double pixels_per_degree);
+
+/// The same in float, without the taps of the achromatic and red-green filters that lie below the
+/// precision of float (two-sided tail < 1e-9 of the sum).
+kernels::FlipTaps<float> float_taps(const kernels::FlipTaps<double>& taps);
+
+/// Pixels around a pixel that its error depends on.
+int reach(const kernels::FlipTaps<float>& taps);
+
+} // namespace tonetool::flip

@@ -1,0 +1,39 @@
+// From the colour space an image is stored in to linear Rec.709 with its D65 white.
+#pragma once
+
+#include <OpenImageIO/imageio.h>
+#include <array>
+#include <string>
+
+namespace tonetool {
+
+using Matrix3 = std::array<std::array<double, 3>, 3>;
+
+/// CIE xy of red, green, blue, white.
+struct Chromaticities {
+    double red[2], green[2], blue[2], white[2];
+};
+
+struct ColorSpace {
+    std::string name;           ///< as printed: "rec709", "acescg", "chromaticities", "srgb", ...
+    bool srgb_encoded = false;  ///< values pass the sRGB curve first
+    bool is_rec709 = true;      ///< the matrix is the identity and need not be applied
+    Matrix3 to_rec709 {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
+};
+
+/// The space of an image: `from` if given, else its `chromaticities`, else its `oiio:ColorSpace`,
+/// else sRGB for integer pixels and linear Rec.709 for others. Unknown names, unusable
+/// chromaticities and tags that contradict each other are errors.
+bool find_space(const OIIO::ImageSpec& spec, const std::string& from, ColorSpace& space,
+                std::string& error);
+
+/// Linear RGB of these primaries to linear Rec.709; a white other than D65 is adapted (Bradford).
+/// False if the primaries do not span a colour space.
+bool matrix_to_rec709(const Chromaticities& primaries, Matrix3& matrix);
+
+/// sRGB decoding (IEC 61966-2-1), continued beyond 1 and, as its linear part, below 0.
+double srgb_to_linear(double v);
+/// The inverse.
+double linear_to_srgb(double v);
+
+} // namespace tonetool

@@ -1,0 +1,187 @@
+// Options of LDR-FLIP and HDR-FLIP to numbers, each checked once.
+#include <OpenImageIO/strutil.h>
+#include <algorithm>
+#include <cmath>
+
+#include "flip/exposures.h"
+#include "flip/filters.h"
+#include "imagebuf/flip_plan.h"
+#include "metrics/luminance.h"
+#include "tonemap/rational.h"
+
+namespace tonetool {
+namespace {
+
+using OIIO::Strutil::fmt::format;
+
+bool positive(double value, const char* name, const char* unit, std::string& error)
+{
+    if (std::isfinite(value) && value > 0)
+        return true;
+    error = format("{} is {}: must be a positive number of {}", name, value, unit);
+    return false;
+}
+
+bool plan_common(const FlipOptions& options, FlipPlan& plan, std::string& error)
+{
+    plan.common = options;
+    if (!options.ppd &&
+        (!positive(options.distance, "distance", "metres", error) ||
+         !positive(options.width, "width", "metres", error) ||
+         !positive(options.pixels_across, "pixels", "pixels", error)))
+        return false;
+    plan.ppd = options.ppd ? *options.ppd
+                           : flip::pixels_per_degree(options.distance, options.width,
+                                                     options.pixels_across);
+    if (!(plan.ppd >= flip::kMinPixelsPerDegree && plan.ppd <= flip::kMaxPixelsPerDegree)) {
+        error = format("ppd is {}: must be {} to {} pixels per degree", plan.ppd,
+                       flip::kMinPixelsPerDegree, flip::kMaxPixelsPerDegree);
+        return false;
+    }
+    plan.evaluation.taps = flip::float_taps(flip::make_taps(plan.ppd));
+    return true;
+}
+
+// A quotient does not change when all six are scaled; lanes square large values in float.
+std::array<double, 6> scaled(const std::vector<double>& coeffs)
+{
+    std::array<double, 6> k {};
+    std::copy_n(coeffs.begin(), 6, k.begin());
+    double largest = 0;
+    for (double v : k)
+        largest = std::max(largest, std::abs(v));
+    if (largest > 1e3 || largest < 1e-3)
+        for (double& v : k)
+            v /= largest;
+    return k;
+}
+
+bool plan_curve(const HdrFlipOptions& options, FlipPlan& plan, std::string& error)
+{
+    if (options.coeffs.empty()) {
+        const auto curve = tonemap::rational_curve(options.tonemapper);
+        if (!curve) {
+            error = "unknown tone mapper \"" + options.tonemapper + "\"; valid: " +
+                    OIIO::Strutil::join(tonemap::rational_curve_names(), ", ");
+            return false;
+        }
+        plan.tonemapper = options.tonemapper;
+        plan.evaluation.curve = *curve;
+        return true;
+    }
+    if (options.coeffs.size() != 6) {
+        error = format("coeffs has {} number(s): must be the six k0,k1,k2,k3,k4,k5",
+                       options.coeffs.size());
+        return false;
+    }
+    const bool usable = std::all_of(options.coeffs.begin(), options.coeffs.end(),
+                                    [](double v) { return std::isfinite(v); }) &&
+                        std::any_of(options.coeffs.begin() + 3, options.coeffs.end(),
+                                    [](double v) { return v != 0; });
+    if (!usable) {
+        error = "coeffs are " + OIIO::Strutil::join(options.coeffs, ",") +
+                ": must be finite, and k3, k4, k5 not all 0";
+        return false;
+    }
+    plan.tonemapper = "coeffs";
+    plan.evaluation.curve = {kernels::ToneKind::Rational, scaled(options.coeffs)};
+    return true;
+}
+
+bool check_exposures(const HdrFlipOptions& options, std::string& error)
+{
+    if (options.num_exposures &&
+        (*options.num_exposures < 1 || *options.num_exposures > flip::kMaxExposures)) {
+        error = format("numExposures is {}: must be 1 to {}", *options.num_exposures,
+                       flip::kMaxExposures);
+        return false;
+    }
+    const auto stops = [&](const std::optional<double>& value, const char* name) {
+        if (!value || (*value >= flip::kMinStops && *value <= flip::kMaxStops))
+            return true;
+        error = format("{} is {}: must be {} to {} stops", name, *value, flip::kMinStops,
+                       flip::kMaxStops);
+        return false;
+    };
+    return stops(options.start_exposure, "startExposure") &&
+           stops(options.stop_exposure, "stopExposure") &&
+           (!options.max_luminance ||
+            positive(*options.max_luminance, "maxluminance", "linear light", error)) &&
+           (!options.median_luminance ||
+            positive(*options.median_luminance, "medianluminance", "linear light", error));
+}
+
+// The reference's own finite pixels.
+LuminanceStats measure(const ColorPlanes& reference, const OIIO::ROI& covered)
+{
+    std::vector<uint8_t> skip = reference.nonfinite;
+    const OIIO::ROI& all = reference.region;
+    size_t at = 0;
+    for (int y = all.ybegin; reference.uncovered_count > 0 && y < all.yend; ++y)
+        for (int x = all.xbegin; x < all.xend; ++x, ++at)
+            if (!covered.contains(x, y))
+                skip[at] = 1;
+    return metrics::luminance(reference.view(), skip);
+}
+
+} // namespace
+
+bool plan_ldr(const FlipOptions& options, FlipPlan& plan, std::string& error)
+{
+    plan.evaluation.stops = {0.0};
+    return plan_common(options, plan, error);
+}
+
+bool plan_hdr(const HdrFlipOptions& options, FlipPlan& plan, std::string& error)
+{
+    plan.hdr = true;
+    plan.hdr_options = options;
+    return plan_common(options, plan, error) && plan_curve(options, plan, error) &&
+           check_exposures(options, error);
+}
+
+bool choose_exposures(const FlipPlan& plan, const ColorPlanes& reference, const OIIO::ROI& covered,
+                      Exposures& exposures, std::string& error)
+{
+    if (!plan.hdr) {
+        exposures.stops = plan.evaluation.stops;
+        return true;
+    }
+    const HdrFlipOptions& o = plan.hdr_options;
+    const bool need_max = !o.start_exposure;
+    const bool need_median = !o.stop_exposure && o.num_exposures != 1;
+    double maximum = o.max_luminance.value_or(0), median = o.median_luminance.value_or(0);
+    if ((need_max && !o.max_luminance) || (need_median && !o.median_luminance)) {
+        const LuminanceStats stats = measure(reference, covered);
+        if (stats.max <= 0) {
+            error = "the reference is black, so its exposures cannot be measured: pass "
+                    "startExposure and stopExposure (or maxluminance and medianluminance)";
+            return false;
+        }
+        exposures.median_of_lit = need_median && !o.median_luminance && stats.median <= 0;
+        maximum = o.max_luminance.value_or(stats.max);
+        median = o.median_luminance.value_or(exposures.median_of_lit ? stats.median_lit
+                                                                     : stats.median);
+    }
+    exposures.max_luminance = need_max ? maximum : 0;
+    exposures.median_luminance = need_median ? median : 0;
+    return flip::make_exposures(plan.evaluation.curve.k,
+                                {o.start_exposure, o.stop_exposure, o.num_exposures, maximum, median},
+                                exposures.stops, error);
+}
+
+bool check_curve(const FlipPlan& plan, const Exposures& exposures, double largest,
+                 std::string& error)
+{
+    if (!plan.hdr || plan.hdr_options.coeffs.empty())
+        return true;
+    const double exposed = std::min(largest * std::exp2(exposures.stops.back()),
+                                    double(kernels::kLargestExposed));
+    const std::string fault = tonemap::curve_fault(plan.evaluation.curve.k, exposed);
+    if (fault.empty())
+        return true;
+    error = "coeffs " + OIIO::Strutil::join(plan.hdr_options.coeffs, ",") + ": " + fault;
+    return false;
+}
+
+} // namespace tonetool

@@ -1,0 +1,44 @@
+// Options of LDR-FLIP and HDR-FLIP as the numbers the algorithm runs on.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "flip/evaluate.h"
+#include "imagebuf/planes.h"
+#include "include/tonetool/flip.h"
+
+namespace tonetool {
+
+/// Options after validation.
+struct FlipPlan {
+    FlipOptions common;
+    HdrFlipOptions hdr_options; ///< only meaningful when hdr
+    bool hdr = false;
+    double ppd = 0;
+    std::string tonemapper;
+    flip::Evaluation evaluation; ///< the stops of HDR-FLIP follow once the reference is read
+
+    bool alpha() const { return common.alpha == AlphaPolicy::Error; }
+};
+
+bool plan_ldr(const FlipOptions& options, FlipPlan& plan, std::string& error);
+bool plan_hdr(const HdrFlipOptions& options, FlipPlan& plan, std::string& error);
+
+/// The exposures of one comparison and what they were derived from.
+struct Exposures {
+    std::vector<double> stops;
+    double max_luminance = 0, median_luminance = 0; ///< 0 where not used
+    bool median_of_lit = false;
+};
+
+/// Exposures for a reference of which `covered` is the data window. LDR-FLIP gets stop 0 alone.
+bool choose_exposures(const FlipPlan& plan, const ColorPlanes& reference, const OIIO::ROI& covered,
+                      Exposures& exposures, std::string& error);
+
+/// A user's coefficients must be sound up to `largest`, the largest component of any image, at the
+/// last exposure.
+bool check_curve(const FlipPlan& plan, const Exposures& exposures, double largest,
+                 std::string& error);
+
+} // namespace tonetool

@@ -1,0 +1,110 @@
+// The public functions of include/tonetool/luminance.h.
+#include "include/tonetool/luminance.h"
+
+#include <OpenImageIO/imagebufalgo.h>
+#include <cmath>
+#include <exception>
+
+#include "imagebuf/planes.h"
+#include "metrics/luminance.h"
+
+namespace tonetool {
+namespace {
+
+using OIIO::ImageBuf;
+using OIIO::ROI;
+
+bool measure(LuminanceStats& stats, const ImageBuf& src, const PixelOptions& options, ROI roi,
+             int nthreads, std::string& error)
+{
+    if (!check_readable(src, "source", error))
+        return false;
+    const ROI region = roi.defined() ? OIIO::roi_intersection(roi, src.roi()) : src.roi();
+    if (region.width() <= 0 || region.height() <= 0) {
+        error = "the region of interest holds no pixel of the image";
+        return false;
+    }
+    ColorPlanes planes;
+    if (!read_planes(src, options, region, false, nthreads, planes, error))
+        return false;
+    const int64_t pixels = int64_t(region.width()) * region.height();
+    if (planes.nonfinite_count == pixels) {
+        error = "the image has no finite pixel";
+        return false;
+    }
+    stats = metrics::luminance(planes.view(), planes.nonfinite);
+    stats.pixels = pixels;
+    stats.nonfinite = planes.nonfinite_count;
+    stats.negative = planes.negative_count;
+    stats.layer = planes.choice.layer;
+    stats.space = planes.choice.space;
+    return true;
+}
+
+bool scale_color(ImageBuf& dst, const ImageBuf& src, double stops, const PixelOptions& options,
+                 ROI roi, int nthreads, std::string& error)
+{
+    ColorChoice choice;
+    if (!check_readable(src, "source", error) ||
+        !ToneAlgo::find_color(deciding_spec(src), options, choice, error))
+        return false;
+    if (!(stops >= -126 && stops <= 126)) {
+        error = OIIO::Strutil::fmt::format("exposure is {}: must be -126 to 126 stops", stops);
+        return false;
+    }
+    if (choice.display_encoded) {
+        error = "the image is display-encoded (" + choice.space +
+                "): exposure needs linear values; convert it first or pass from=";
+        return false;
+    }
+    std::vector<float> factor(size_t(src.nchannels()), 1.0f);
+    for (int channel : {choice.r, choice.g, choice.b})
+        factor[size_t(channel)] = float(std::exp2(stops));
+    if (OIIO::ImageBufAlgo::mul(dst, src, factor, roi, nthreads))
+        return true;
+    error = dst.geterror();
+    return false;
+}
+
+} // namespace
+
+namespace ToneAlgo {
+
+bool luminance_stats(LuminanceStats& stats, const ImageBuf& src, const PixelOptions& options,
+                     ROI roi, int nthreads)
+{
+    std::string error;
+    try {
+        if (measure(stats, src, options, roi, nthreads, error))
+            return true;
+    } catch (const std::exception& e) {
+        error = e.what();
+    }
+    src.errorfmt("luminance_stats: {}", error);
+    return false;
+}
+
+bool exposure(ImageBuf& dst, const ImageBuf& src, double stops, const PixelOptions& options,
+              ROI roi, int nthreads)
+{
+    std::string error;
+    try {
+        if (scale_color(dst, src, stops, options, roi, nthreads, error))
+            return true;
+    } catch (const std::exception& e) {
+        error = e.what();
+    }
+    dst.errorfmt("exposure: {}", error);
+    return false;
+}
+
+ImageBuf exposure(const ImageBuf& src, double stops, const PixelOptions& options, ROI roi,
+                  int nthreads)
+{
+    ImageBuf dst;
+    exposure(dst, src, stops, options, roi, nthreads);
+    return dst;
+}
+
+} // namespace ToneAlgo
+} // namespace tonetool

@@ -1,0 +1,133 @@
+#include "imagebuf/pair.h"
+
+#include <OpenImageIO/imagebufalgo.h>
+#include <OpenImageIO/strutil.h>
+
+namespace tonetool {
+namespace {
+
+using OIIO::ImageBuf;
+using OIIO::ROI;
+
+std::string window_text(const ROI& r)
+{
+    return OIIO::Strutil::fmt::format("{}x{}{:+}{:+}", r.width(), r.height(), r.xbegin, r.ybegin);
+}
+
+bool same_window(const ROI& a, const ROI& b)
+{
+    return a.xbegin == b.xbegin && a.xend == b.xend && a.ybegin == b.ybegin && a.yend == b.yend;
+}
+
+ROI plane_of(ROI r)
+{
+    r.zbegin = 0;
+    r.zend = 1;
+    r.chbegin = 0;
+    r.chend = 1;
+    return r;
+}
+
+} // namespace
+
+bool compared_region(const ImageBuf& reference, const ImageBuf& test, SizePolicy size, ROI& region,
+                     std::string& error)
+{
+    const ROI ref_full = reference.roi_full(), test_full = test.roi_full();
+    region = plane_of(OIIO::roi_union(reference.roi(), test.roi()));
+    if (size == SizePolicy::Crop) {
+        region = OIIO::roi_intersection(region, plane_of(ref_full));
+        region = OIIO::roi_intersection(region, plane_of(test_full));
+        if (region.width() > 0 && region.height() > 0)
+            return true;
+        error = "nothing to compare: the display windows " + window_text(ref_full) + " and " +
+                window_text(test_full) + " do not overlap";
+        return false;
+    }
+    if (same_window(ref_full, test_full))
+        return true;
+    error = "the reference's display window is " + window_text(ref_full) + ", the test's " +
+            window_text(test_full) + "; they must be the same, or ask for resize= or crop=";
+    return false;
+}
+
+bool FittedTest::open(const ImageBuf& reference, const ImageBuf& test, const FlipOptions& options,
+                      int nthreads, std::string& error)
+{
+    if (!check_readable(reference, "reference", error) || !check_readable(test, "test", error))
+        return false;
+    m_test = &test;
+    m_pixels = options.pixels;
+    if (!ToneAlgo::find_color(deciding_spec(test), options.pixels, m_choice, error)) {
+        error = "test image \"" + std::string(test.name()) + "\": " + error;
+        return false;
+    }
+    const ROI window = reference.roi_full();
+    if (options.size == SizePolicy::Resize && !same_window(window, test.roi_full()) &&
+        !resize(window, options.alpha == AlphaPolicy::Error, nthreads, error))
+        return false;
+    return compared_region(reference, *m_test, options.size, m_region, error);
+}
+
+// Only the channels that are compared, so that 40 AOVs are not resized with them.
+bool FittedTest::resize(const ROI& window, bool alpha, int nthreads, std::string& error)
+{
+    std::vector<int> order = {m_choice.r, m_choice.g, m_choice.b};
+    std::vector<std::string> names = {"R", "G", "B"};
+    if (alpha && m_choice.a >= 0) {
+        order.push_back(m_choice.a);
+        names.emplace_back("A");
+    }
+    const ImageBuf color = OIIO::ImageBufAlgo::channels(*m_test, int(order.size()), order, {},
+                                                        names, false, nthreads);
+    ROI target = window;
+    target.chbegin = 0;
+    target.chend = color.nchannels();
+    if (!OIIO::ImageBufAlgo::resize(m_resized, color, "", 0.0f, target, nthreads)) {
+        error = "resizing the test image: " + m_resized.geterror();
+        return false;
+    }
+    m_test = &m_resized;
+    // The resized copy is plain R,G,B; chromaticities travel with its metadata.
+    m_pixels.layer.clear();
+    if (m_choice.space != "chromaticities")
+        m_pixels.from = m_choice.space;
+    return true;
+}
+
+bool FittedTest::read(bool alpha, int nthreads, ColorPlanes& planes, std::string& error) const
+{
+    if (!read_side(*m_test, m_pixels, m_region, alpha, nthreads, "test", planes, error))
+        return false;
+    planes.choice.layer = m_choice.layer;
+    return true;
+}
+
+bool read_side(const ImageBuf& image, const PixelOptions& options, const ROI& region, bool alpha,
+               int nthreads, const char* what, ColorPlanes& planes, std::string& error)
+{
+    if (read_planes(image, options, region, alpha, nthreads, planes, error))
+        return true;
+    error = std::string(what) + " image \"" + std::string(image.name()) + "\": " + error;
+    return false;
+}
+
+int64_t mend_nonfinite(ColorPlanes& r, ColorPlanes& t)
+{
+    int64_t both = 0;
+    if (r.nonfinite_count == 0 && t.nonfinite_count == 0)
+        return both;
+    for (size_t i = 0; i < r.nonfinite.size(); ++i) {
+        if (r.nonfinite[i] == t.nonfinite[i]) {
+            both += r.nonfinite[i];
+            continue;
+        }
+        ColorPlanes& bad = r.nonfinite[i] ? r : t;
+        const ColorPlanes& good = r.nonfinite[i] ? t : r;
+        for (size_t p = 0; p < 3; ++p)
+            bad.plane[p][i] = good.plane[p][i];
+    }
+    return both;
+}
+
+} // namespace tonetool

@@ -1,0 +1,28 @@
+// The tone curves HDR-FLIP runs, as plain numbers.
+#pragma once
+
+#include <array>
+
+namespace tonetool::kernels {
+
+enum class ToneKind {
+    None,              ///< the value itself (LDR-FLIP)
+    Rational,          ///< Eq. 1 per channel
+    ReinhardLuminance, ///< RGB / (1 + luminance)
+};
+
+/// y = (k0 x^2 + k1 x + k2) / (k3 x^2 + k4 x + k5), HDR-FLIP paper Eq. 1. The result is clamped to
+/// [0,1] wherever a curve is applied.
+struct ToneCurve {
+    ToneKind kind = ToneKind::None;
+    std::array<double, 6> k {};
+};
+
+/// Luminance weights of the exposures and of Reinhard's curve (Rec.709, as published).
+inline constexpr double kLuminance[3] = {0.2126, 0.7152, 0.0722};
+
+/// Exposed values are cut off here before the curve: x^2 stays finite in float and every curve
+/// has long reached its end. Without it an infinite x^2 / x^2 turns a bright pixel black.
+inline constexpr float kLargestExposed = 1e15f;
+
+} // namespace tonetool::kernels

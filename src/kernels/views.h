@@ -1,0 +1,25 @@
+// What the rooms below the border see of an image: pointers, strides and numbers.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+
+namespace tonetool::kernels {
+
+/// Three planes of one image, row stride in floats.
+struct ConstRgb {
+    const float* plane[3] = {nullptr, nullptr, nullptr};
+    ptrdiff_t stride = 0;
+    int width = 0, height = 0;
+};
+
+/// A rectangle of an image.
+struct Window {
+    int x0 = 0, y0 = 0, width = 0, height = 0;
+};
+
+/// Runs task(0) ... task(count - 1), in any order, on as many threads as it likes.
+using ParallelFor = std::function<void(int64_t count, const std::function<void(int64_t)>& task)>;
+
+} // namespace tonetool::kernels
