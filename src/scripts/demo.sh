@@ -15,10 +15,11 @@ echo "HDR-FLIP of $test against $reference:"
 "$tonetool" "$reference" "$test" --hdrflip -o "$out/error.exr" --colormap magma -o "$out/error.png"
 "$tonetool" "$reference" "$test" --filmstrip -o "$out/filmstrip.png" >/dev/null
 
+font=$(dpkg -L fonts-dejavu-core | grep '/DejaVuSans\.ttf$')
 # panel INPUT LABEL OUTPUT [ACTION...]: four times as large, each pixel a square, with a label.
 panel() {
     oiiotool "$1" "${@:4}" --resample:interp=0 512x288 \
-        --text:x=10:y=30:size=24:shadow=2 "$2" -d uint8 -o "$3"
+        --text:x=10:y=30:size=24:shadow=2:font="$font" "$2" -d uint8 -o "$3"
 }
 beauty=ViewLayer.Combined
 display=(--ch "R=$beauty.R,G=$beauty.G,B=$beauty.B"
