@@ -152,6 +152,15 @@ std::string constant_lines(const OIIO::ImageBuf& pixels, const Scale& scale) {
     return text + "    Monochrome: " + (gray ? "Yes" : "No") + "\n";
 }
 
+// MIP-mapped images have their figures two columns further right.
+std::string indented(const std::string& text) {
+    std::string result;
+    for (const std::string& line : split(text.substr(0, text.size() - 1), '\n')) {
+        result += "  " + line + "\n";
+    }
+    return result;
+}
+
 } // namespace
 
 std::string info_text(const Image& image, bool verbose) {
@@ -183,13 +192,15 @@ std::string stats_text(const Image& image) {
     auto whole = [&](float value) { return scale.whole(value); };
     auto fraction = [&](float value) { return scale.fraction(value); };
     auto count = [](auto value) { return std::to_string(value); };
-    return stats_line("Min", stats.min, whole, scale.note()) +
-           stats_line("Max", stats.max, whole, scale.note()) +
-           stats_line("Avg", stats.avg, fraction, scale.note()) +
-           stats_line("StdDev", stats.stddev, fraction, scale.note()) +
-           stats_line("NanCount", stats.nancount, count, " ") +
-           stats_line("InfCount", stats.infcount, count, " ") +
-           stats_line("FiniteCount", stats.finitecount, count, " ") + constant_lines(pixels, scale);
+    std::string text = stats_line("Min", stats.min, whole, scale.note()) +
+                       stats_line("Max", stats.max, whole, scale.note()) +
+                       stats_line("Avg", stats.avg, fraction, scale.note()) +
+                       stats_line("StdDev", stats.stddev, fraction, scale.note()) +
+                       stats_line("NanCount", stats.nancount, count, " ") +
+                       stats_line("InfCount", stats.infcount, count, " ") +
+                       stats_line("FiniteCount", stats.finitecount, count, " ") +
+                       constant_lines(pixels, scale);
+    return part.mip_levels() > 1 ? indented(text) : text;
 }
 
 void inspect_if_asked(Session& session, const Image& image) {

@@ -1,0 +1,118 @@
+"""Strictness: whatever is not understood is an error with status 1, and says why."""
+
+import os
+import subprocess
+
+import pytest
+
+
+def test_error_text(tonetool):
+    ran = tonetool("nosuch file.exr", "--hdrflip", status=1)
+    assert ran.err == ('tonetool ERROR: read : File does not exist: "nosuch file.exr"\n'
+                       "Full command line was:\n> tonetool 'nosuch file.exr' --hdrflip\n")
+
+
+@pytest.mark.parametrize("words, text", [
+    (["--bogus"], 'unknown command "--bogus"'),
+    (["--hdrflp"], "did you mean --hdrflip"),
+    (["--"], 'unknown command "--"'),
+    (["--hdrflip:tonemaper=aces"], 'did you mean "tonemapper"'),
+    (["--hdrflip:nonsense=1"], "valid: tonemapper, coeffs"),
+    (["--hdrflip:fail"], 'malformed modifier "fail"'),
+    (["--hdrflip:fail="], '"fail" has no value'),
+    (["--hdrflip:"], "empty modifier"),
+    (["--hdrflip::fail=1"], "empty modifier"),
+    (["--hdrflip:fail=0.1:fail=0.9"], '"fail" is given twice'),
+    (["--hdrflip:tonemapper='aces"], "unfinished quotation"),
+    (["--dup:x=1"], "this command has none"),
+    (["--exposure"], "missing argument STOPS"),
+    (["-o", "--dup"], '"--dup" is a command'),
+    (["--help", "hdrflp"], "did you mean --hdrflip"),
+    (["--threads", "x"], "not a whole number"),
+    (["--threads", "-1"], "out of range"),
+    (["-"], 'File does not exist: "-"'),
+])
+def test_command_line_that_is_not_understood(tonetool, words, text):
+    assert text in tonetool(*words, status=1).err
+
+
+@pytest.mark.parametrize("modifier", [
+    "tonemapper=ases", "tonemapper=ACES", "fail=0,05", "fail=5%", "fail=abc", "fail=nan",
+    "fail=inf", "fail=-0.1", "fail=1.5", "fail=0x1", "warn=x", "quantity=median:fail=1",
+    "quantity=max", "numExposures=0", "numExposures=-1", "numExposures=2.5",
+    "numExposures=1025", "startExposure=abc", "startExposure=2:stopExposure=1", "ppd=0",
+    "ppd=-1", "ppd=nan", "ppd=67:distance=0.7", "ppd=67:width=0.7", "ppd=67:pixels=3840",
+    "distance=0", "width=-1", "pixels=0", "coeffs=1,2,3", "coeffs=1,2,3,4,5,x",
+    "coeffs=1,2,3,4,5,6:tonemapper=aces", "maxluminance=0", "medianluminance=-1",
+    "resize=1:crop=1", "resize=yes", "crop=2", "alpha=maybe", "exposuremap=both", "print=2",
+    "tests=0", "tests=1.5", "layer=nosuch", "from=nosuch"])
+def test_bad_values_are_errors_and_write_nothing(tonetool, pair, tmp_path, modifier):
+    ran = tonetool(*pair, f"--hdrflip:{modifier}", "-o", "x.exr", status=1)
+    assert "tonetool ERROR: hdrflip : " in ran.err
+    assert not os.listdir(tmp_path)
+
+
+@pytest.mark.parametrize("value", ["abc", "0,5", "nan", "inf", "1e9", "", "5%"])
+def test_bad_stops(tonetool, make_image, value):
+    ran = tonetool(make_image("a.exr"), "--exposure", value, "-o", "x.exr", status=1)
+    assert "exposure : STOPS" in ran.err
+
+
+@pytest.mark.parametrize("command", ["--hdrflip:fail=1", "--ldrflip:fail=1", "--flipdiff:fail=1"])
+@pytest.mark.parametrize("bad", ["truncated.exr", "deep.exr", "y_only.exr", "not_an_image.exr",
+                                 "nosuch.exr", "aovs_only.exr", "two_beauties.exr"])
+def test_images_that_cannot_be_compared(tonetool, testimages, command, bad, tmp_path):
+    good = testimages / "plain.exr"
+    for words in ([good, testimages / bad], [testimages / bad, good]):
+        ran = tonetool(*words, command, "-o", "x.exr", status=1)
+        assert "tonetool ERROR: " in ran.err and "PASS" not in ran.out
+    assert not os.listdir(tmp_path)
+
+
+def test_truncated_file_is_an_error_wherever_its_pixels_are_used(tonetool, testimages):
+    bad = testimages / "truncated.exr"
+    for words in (["-o", "x.exr"], ["--stats"], ["--ch", "R", "-o", "x.exr"],
+                  ["--exposure", "1", "-o", "x.exr"], ["--luminancestats"],
+                  ["--colormap", "magma", "-o", "x.png"]):
+        order = [*words, bad] if words == ["--stats"] else [bad, *words]
+        tonetool(*order, status=1)
+
+
+def test_nothing_done_is_an_error(tonetool, make_image):
+    tonetool(status=1)
+    assert "no output" in tonetool(make_image("a.exr"), status=1).err
+    assert "no output" in tonetool("-q", status=1).err
+
+
+def test_an_error_dominates_a_failed_threshold(tonetool, pair):
+    ran = tonetool(*pair, "--hdrflip:fail=0", "-o", "nosuch/x.exr", status=1)
+    assert "FAIL" in ran.out
+
+
+def test_full_standard_output(tonetool, pair):
+    with open("/dev/full", "w", encoding="ascii") as full:
+        tonetool(*pair, "--hdrflip:fail=1", "-o", "x.exr", status=1, stdout=full)
+        tonetool("--help", status=1, stdout=full)
+
+
+def test_closed_pipe(program, pair, tmp_path):
+    reader, writer = os.pipe()
+    os.close(reader)
+    words = [program, *pair, "--hdrflip:fail=1", "-o", "x.exr"]
+    done = subprocess.run(words, stdout=writer, stderr=subprocess.PIPE, cwd=tmp_path,
+                          check=False)
+    os.close(writer)
+    assert done.returncode == 1
+    assert (tmp_path / "x.exr").exists()
+
+
+def test_help(tonetool):
+    everything = tonetool("--help").out
+    for command in ("--hdrflip", "--ldrflip", "--flipdiff", "--filmstrip", "--luminancestats"):
+        assert command in everything
+        assert "fail=" in tonetool("--help", command).out or command == "--luminancestats"
+    assert tonetool("-help", "hdrflip").out == tonetool("--help", "--hdrflip").out
+
+
+def test_version(tonetool):
+    assert tonetool("--version").out.strip().count(".") == 2

@@ -1,0 +1,65 @@
+"""--info, -v and --stats print what oiiotool 2.4.7 prints."""
+
+import numpy as np
+import pytest
+
+
+@pytest.fixture
+def images(make_image, make_parts, testimages):
+    odd = np.random.default_rng(3).random((4, 5, 3)).astype(np.float32)
+    odd[0, 0] = np.nan
+    odd[1, 1] = np.inf
+    odd[2, 2] = -1e-9
+    odd[3, 3] = 1e8
+    return {
+        "float": make_image("float.exr"),
+        "half": make_image("half.exr", kind="half"),
+        "uint8": make_image("uint8.png", kind="uint8"),
+        "uint16": make_image("uint16.tif", kind="uint16"),
+        "uint10": make_image("uint10.tif", kind="uint16", attributes={"oiio:BitsPerSample": 10}),
+        "uint32": make_image("uint32.tif", kind="uint32"),
+        "double": make_image("double.tif", kind="double"),
+        "grey": make_image("grey.png", kind="uint8", channels=("Y",)),
+        "constant": make_image("constant.exr", pixels=np.full((12, 16, 3), 0.25)),
+        "odd": make_image("odd.exr", width=5, height=4, pixels=odd),
+        "window": make_image("window.exr", window=(3, 2, -1, 0, 30, 20)),
+        "long": make_image("a_name_longer_than_twenty_letters.exr"),
+        "parts": make_parts("parts.exr", 0.25, 0.5),
+        "rendered": testimages / "cornell_ref.exr",
+        "png": testimages / "srgb16.png",
+        "window2": testimages / "datawindow.exr",
+    }
+
+
+NAMES = ["float", "half", "uint8", "uint16", "uint10", "uint32", "double", "grey", "constant",
+         "odd", "window", "long", "parts", "rendered", "png", "window2"]
+
+
+@pytest.mark.parametrize("name", NAMES)
+@pytest.mark.parametrize("words", [["--info"], ["-v", "--info"], ["--stats"],
+                                   ["-v", "--stats"], ["--info:verbose=1"]])
+def test_same_text_as_oiiotool(tonetool, oiiotool, images, name, words):
+    assert tonetool(*words, images[name]).out == oiiotool(*words, images[name]).out
+
+
+def test_deep(tonetool, oiiotool, testimages):
+    deep = testimages / "deep.exr"
+    assert tonetool("-v", "--info", deep).out == oiiotool("-v", "--info", deep).out
+    tonetool("--stats", deep, status=1)
+
+
+def test_several_and_one_by_one(tonetool, oiiotool, images):
+    words = ["--info", images["half"], images["uint8"]]
+    assert tonetool(*words).out == oiiotool(*words).out
+    for level in ("1", "2"):
+        words = [f"-i:info={level}", images["half"], images["uint8"], "--pop"]
+        assert tonetool(*words).out == oiiotool(*words).out
+
+
+def test_info_comes_after_it_only(tonetool, images):
+    assert "no output" in tonetool(images["half"], "--info", status=1).err
+
+
+def test_verbose_names_what_is_written(tonetool, oiiotool, images):
+    words = ["-v", images["half"], "-o", "x.exr"]
+    assert tonetool(*words).out == oiiotool(*words).out

@@ -1,0 +1,187 @@
+"""Data types, formats, metadata, and what becomes of a file that cannot be written."""
+
+import os
+import resource
+
+import numpy as np
+import pytest
+
+TYPES = ["uint8", "uint10", "uint12", "uint16", "uint32", "half", "float", "double"]
+
+
+def same_file(read, ours, theirs):
+    (a, spec_a), (b, spec_b) = read(ours), read(theirs)
+    assert str(spec_a.format) == str(spec_b.format)
+    assert [str(f) for f in spec_a.channelformats] == [str(f) for f in spec_b.channelformats]
+    assert spec_a.channelnames == spec_b.channelnames
+    assert (spec_a.roi, spec_a.roi_full) == (spec_b.roi, spec_b.roi_full)
+    for key in ("oiio:BitsPerSample", "oiio:ColorSpace", "compression"):
+        assert spec_a.getattribute(key) == spec_b.getattribute(key), key
+    assert np.array_equal(a, b)
+
+
+@pytest.mark.parametrize("extension", ["exr", "tif", "png"])
+@pytest.mark.parametrize("kind", TYPES)
+@pytest.mark.parametrize("how", ["option", "modifier"])
+def test_data_types_as_oiiotool(tonetool, oiiotool, make_image, read, kind, extension, how):
+    a = make_image("a.exr", kind="half")
+    words = (["-d", kind, "-o"] if how == "option" else [f"-o:datatype={kind}"])
+    tonetool(a, *words, f"x.{extension}")
+    oiiotool(a, "-d", kind, "-o", f"y.{extension}")
+    same_file(read, f"x.{extension}", f"y.{extension}")
+
+
+@pytest.mark.parametrize("kind", ["uint8", "uint16", "half", "float"])
+@pytest.mark.parametrize("source", ["tif", "exr", "png"])
+@pytest.mark.parametrize("extension", ["exr", "tif", "png"])
+def test_default_type_is_the_input_s(tonetool, oiiotool, make_image, read, kind, source,
+                                     extension):
+    a = make_image(f"a.{source}", kind=kind)
+    tonetool(a, "-o", f"x.{extension}")
+    oiiotool(a, "-o", f"y.{extension}")
+    same_file(read, f"x.{extension}", f"y.{extension}")
+    tonetool(a, "--ch", "B,G,R", "-o", f"x.{extension}")
+    oiiotool(a, "--ch", "B,G,R", "-o", f"y.{extension}")
+    same_file(read, f"x.{extension}", f"y.{extension}")
+
+
+def test_type_of_one_channel(tonetool, oiiotool, make_image, read):
+    a = make_image("a.exr", kind="half")
+    for words in (["-d", "R=float"], ["-d", "half", "-d", "G=float"],
+                  ["-d", "R=float", "-d", "half"], ["-d", "R=float,B=float"]):
+        tonetool(a, *words, "-o", "x.exr")
+        oiiotool(a, *words, "-o", "y.exr")
+        same_file(read, "x.exr", "y.exr")
+
+
+def test_type_of_a_channel_that_no_output_has(tonetool, make_image):
+    ran = tonetool(make_image("a.exr"), "-d", "Q=half", "-o", "x.exr", status=1)
+    assert '"Q"' in ran.err
+
+
+@pytest.mark.parametrize("bad", ["foo", "uint", "R=foo", "R=", "=half", "R=half,foo", "Half", ""])
+def test_unknown_type(tonetool, make_image, bad, tmp_path):
+    ran = tonetool(make_image("a.exr"), "-d", bad, "-o", "x.exr", status=1)
+    assert "-d : " in ran.err
+    assert not (tmp_path / "x.exr").exists()
+
+
+def test_rendered_pair_keeps_its_channel_types(tonetool, pair, read):
+    tonetool(pair[0], "-o", "x.exr")
+    _, spec = read("x.exr")
+    kinds = {str(f) for f in spec.channelformats}
+    assert kinds == {"half", "float"} and spec.nchannels == 35
+
+
+def test_maps_are_float(tonetool, pair, read):
+    tonetool(*pair, "--hdrflip", "-o", "x.exr", "-o:datatype=half", "y.exr")
+    assert str(read("x.exr")[1].format) == "float" and read("x.exr")[1].nchannels == 1
+    assert str(read("y.exr")[1].format) == "half"
+
+
+def test_colormap_is_rgb_and_srgb(tonetool, oiiotool, pair, read):
+    tonetool(*pair, "--hdrflip", "-o", "map.exr", "--colormap", "magma", "-o", "x.png")
+    pixels, spec = read("x.png")
+    assert spec.nchannels == 3 and spec.get_string_attribute("oiio:ColorSpace") == "sRGB"
+    oiiotool("map.exr", "--colormap", "magma", "-o", "y.png")
+    assert np.array_equal(pixels, read("y.png")[0])
+
+
+@pytest.mark.parametrize("name", ["blue-red", "viridis", "magma", "turbo", "plasma", "inferno",
+                                  "spectrum", "heat", "0,0,0,1,0.5,0"])
+def test_colormaps_as_oiiotool(tonetool, oiiotool, make_image, read, name):
+    for a in (make_image("a.exr", channels=("Y",)), make_image("b.exr")):
+        tonetool(a, "--colormap", name, "-o", "x.exr")
+        oiiotool(a, "--colormap", name, "-o", "y.exr")
+        assert np.array_equal(read("x.exr")[0], read("y.exr")[0])
+
+
+@pytest.mark.parametrize("name", ["nosuch", "Magma", "0,0,0", "0,0,0,1,1", "0,0,0,1,1,x"])
+def test_unknown_colormap(tonetool, make_image, name):
+    ran = tonetool(make_image("a.exr"), "--colormap", name, "-o", "x.png", status=1)
+    assert "valid:" in ran.err
+
+
+def test_data_window_in_a_format_without_one(tonetool, oiiotool, make_image, read):
+    a = make_image("a.exr", window=(3, 2, 0, 0, 30, 20))
+    tonetool(a, "-o", "x.png", "-o", "x.exr")
+    oiiotool(a, "-o", "y.png", "-o", "y.exr")
+    same_file(read, "x.png", "y.png")
+    same_file(read, "x.exr", "y.exr")
+
+
+def test_too_many_channels_for_the_format(tonetool, oiiotool, pair, read):
+    ran = tonetool("--warnings-exit", pair[0], "-o", "x.png", status=2)
+    assert "Can't save 35 channels to png" in ran.err
+    oiiotool(pair[0], "-o", "y.png")
+    same_file(read, "x.png", "y.png")
+
+
+def test_compression(tonetool, oiiotool, make_image, read):
+    a = make_image("a.exr")
+    for name in ("piz", "none", "dwaa:200"):
+        tonetool(a, "--compression", name, "-o", "x.exr")
+        tonetool(a, f"-o:compression='{name}'", "z.exr")
+        oiiotool(a, "--compression", name, "-o", "y.exr")
+        for ours in ("x.exr", "z.exr"):
+            same_file(read, ours, "y.exr")
+    tonetool(a, "--compression", "zipp", "-o", "x.exr", status=1)
+    tonetool(a, "--compression", "dwaa:high", "-o", "x.exr", status=1)
+
+
+def test_metadata_goes_on_and_the_command_line_is_noted(tonetool, make_image, read):
+    a = make_image("a.exr", attributes={"owner": "somebody"})
+    tonetool(a, "--exposure", "1", "-o", "x.exr")
+    _, spec = read("x.exr")
+    assert spec.get_string_attribute("owner") == "somebody"
+    assert spec.get_string_attribute("Exif:ImageHistory") == \
+        "tonetool a.exr --exposure 1 -o x.exr"
+
+
+def test_deep_image_goes_through(tonetool, testimages, read):
+    tonetool(testimages / "deep.exr", "-o", "x.exr")
+    assert read("x.exr")[1].deep
+
+
+def test_unwritable_places(tonetool, make_image, tmp_path):
+    a = make_image("a.exr")
+    tonetool(a, "-o", "nosuch/x.exr", status=1)
+    tonetool(a, "-o", "x.nosuch", status=1)
+    tonetool(a, "-o", "noextension", status=1)
+    (tmp_path / "folder.exr").mkdir()
+    tonetool(a, "-o", "folder.exr", status=1)
+    assert not [p for p in os.listdir(tmp_path) if p not in ("a.exr", "folder.exr")]
+
+
+@pytest.mark.skipif(os.geteuid() == 0, reason="root writes everywhere")
+def test_read_only_directory(tonetool, make_image, tmp_path):
+    a = make_image("a.exr")
+    (tmp_path / "locked").mkdir(mode=0o555)
+    tonetool(a, "-o", "locked/x.exr", status=1)
+
+
+def test_full_device_behind_a_link(tonetool, make_image, tmp_path):
+    a = make_image("a.exr")
+    (tmp_path / "x.exr").symlink_to("/dev/full")
+    tonetool(a, "-o", "x.exr", status=1)
+    assert os.path.exists("/dev/full") and (tmp_path / "x.exr").is_symlink()
+
+
+def test_file_size_limit_leaves_the_old_file(tonetool, make_image, tmp_path):
+    old = make_image("x.exr", width=4, height=4)
+    before = (tmp_path / old).read_bytes()
+    a = make_image("a.exr", width=256, height=256)
+
+    def small_files():
+        resource.setrlimit(resource.RLIMIT_FSIZE, (4096, 4096))
+
+    tonetool(a, "-o", old, status=1, preexec_fn=small_files)
+    assert (tmp_path / old).read_bytes() == before
+    assert sorted(os.listdir(tmp_path)) == ["a.exr", "x.exr"]
+
+
+def test_output_over_the_input(tonetool, make_image, read):
+    a = make_image("a.exr")
+    before = read(a)[0]
+    tonetool(a, "--exposure", "1", "-o", a)
+    assert np.array_equal(read(a)[0], before * 2)
