@@ -12,28 +12,39 @@ HWY_BEFORE_NAMESPACE();
 namespace tonetool::kernels::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// Cube root of x in [1e-30, 1e30]; relative error below 3e-7. A third of the exponent as the first
-/// guess (3 % off), then two Halley steps, each of which cubes the error.
+/// A number as an unevaluated sum: `high` has 8 significant bits, `low` is below 0.5 % of it.
+template <class V>
+struct Split {
+    V high, low;
+};
+
+/// Cube root of x in [1e-30, 1e30]; the sum is exact to 1e-9 relative. `high` is so short that its
+/// cube is exact in float, hence also what is missing, x - high^3; the rest is a series in it.
 template <class D, class V = hn::Vec<D>>
-HWY_INLINE V CubeRoot(D d, V x)
-{
+HWY_INLINE Split<V> CubeRoot(D d, V x) {
     const hn::RebindToSigned<D> di;
+    // A third of the exponent as the first guess (3 % off), a Halley step cubes the error.
     const V third = hn::Mul(hn::ConvertTo(d, hn::BitCast(di, x)), hn::Set(d, 1.0f / 3.0f));
     V y = hn::BitCast(d, hn::ConvertTo(di, hn::Add(third, hn::Set(d, 709921077.0f))));
-    for (int step = 0; step < 2; ++step) {
-        const V cube = hn::Mul(hn::Mul(y, y), y);
-        const V up = hn::MulAdd(hn::Set(d, 2.0f), x, cube);
-        const V down = hn::MulAdd(hn::Set(d, 2.0f), cube, x);
-        y = hn::Mul(y, hn::Div(up, down));
-    }
-    return y;
+    const V cube = hn::Mul(hn::Mul(y, y), y);
+    const V two = hn::Set(d, 2.0f);
+    y = hn::Mul(y, hn::Div(hn::MulAdd(two, x, cube), hn::MulAdd(two, cube, x)));
+    const auto rounded = hn::Add(hn::BitCast(di, y), hn::Set(di, 0x8000));
+    const V high = hn::BitCast(d, hn::And(rounded, hn::Set(di, int32_t(0xffff0000))));
+    const V high_cube = hn::Mul(hn::Mul(high, high), high);
+    const V u = hn::Div(hn::Sub(x, high_cube), high_cube);
+    // (1 + u)^(1/3) - 1, |u| < 0.012
+    V p = hn::Set(d, -10.0f / 243.0f);
+    p = hn::MulAdd(p, u, hn::Set(d, 5.0f / 81.0f));
+    p = hn::MulAdd(p, u, hn::Set(d, -1.0f / 9.0f));
+    p = hn::MulAdd(p, u, hn::Set(d, 1.0f / 3.0f));
+    return {high, hn::Mul(high, hn::Mul(p, u))};
 }
 
 /// log2 of a normal x > 0; absolute error below 3e-7 (1 + |log2 x|).
 /// x = 2^e m with m in [sqrt(1/2), sqrt(2)); log2 m = 2/ln 2 artanh((m - 1) / (m + 1)).
 template <class D, class V = hn::Vec<D>>
-HWY_INLINE V Log2(D d, V x)
-{
+HWY_INLINE V Log2(D d, V x) {
     const hn::RebindToSigned<D> di;
     const auto sqrt_half = hn::Set(di, 0x3f3504f3);
     const auto shifted = hn::Sub(hn::BitCast(di, x), sqrt_half);
@@ -53,8 +64,7 @@ HWY_INLINE V Log2(D d, V x)
 
 /// 2^x for x in [-126, 127]; relative error below 3e-7. Taylor series of e^(f ln 2), |f| <= 1/2.
 template <class D, class V = hn::Vec<D>>
-HWY_INLINE V Exp2(D d, V x)
-{
+HWY_INLINE V Exp2(D d, V x) {
     const hn::RebindToSigned<D> di;
     const V whole = hn::Round(x);
     const V f = hn::Sub(x, whole);

@@ -20,7 +20,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 using D = hn::ScalableTag<float>;
 using V = hn::Vec<D>;
-constexpr D d {};
+constexpr D d{};
 
 struct Color {
     V c0, c1, c2;
@@ -29,12 +29,10 @@ struct Color {
 // A 3x3 matrix times diagonal scalings, in float.
 struct Matrix {
     float m[3][3];
-    HWY_INLINE Color operator()(const Color& v) const
-    {
+    HWY_INLINE Color operator()(const Color& v) const {
         return {Row(m[0], v), Row(m[1], v), Row(m[2], v)};
     }
-    static HWY_INLINE V Row(const float (&r)[3], const Color& v)
-    {
+    static HWY_INLINE V Row(const float (&r)[3], const Color& v) {
         V sum = hn::Mul(hn::Set(d, r[0]), v.c0);
         sum = hn::MulAdd(hn::Set(d, r[1]), v.c1, sum);
         return hn::MulAdd(hn::Set(d, r[2]), v.c2, sum);
@@ -42,8 +40,7 @@ struct Matrix {
 };
 
 // Linear RGB to XYZ relative to white, and back.
-Matrix ToRelativeXyz()
-{
+Matrix ToRelativeXyz() {
     Matrix out;
     for (int i = 0; i < 3; ++i)
         for (int j = 0; j < 3; ++j)
@@ -51,8 +48,7 @@ Matrix ToRelativeXyz()
     return out;
 }
 
-Matrix FromRelativeXyz()
-{
+Matrix FromRelativeXyz() {
     Matrix out;
     for (int i = 0; i < 3; ++i)
         for (int j = 0; j < 3; ++j)
@@ -60,13 +56,11 @@ Matrix FromRelativeXyz()
     return out;
 }
 
-HWY_INLINE V Clamp01(V v)
-{
+HWY_INLINE V Clamp01(V v) {
     return hn::Min(hn::Max(v, hn::Zero(d)), hn::Set(d, 1.0f));
 }
 
-HWY_INLINE V Rational(const float (&k)[6], V x)
-{
+HWY_INLINE V Rational(const float (&k)[6], V x) {
     const V up = hn::MulAdd(hn::MulAdd(hn::Set(d, k[0]), x, hn::Set(d, k[1])), x, hn::Set(d, k[2]));
     const V down =
         hn::MulAdd(hn::MulAdd(hn::Set(d, k[3]), x, hn::Set(d, k[4])), x, hn::Set(d, k[5]));
@@ -81,21 +75,18 @@ struct NoCurve {
 
 struct RationalCurve {
     float k[6];
-    explicit RationalCurve(const ToneCurve& curve)
-    {
+    explicit RationalCurve(const ToneCurve& curve) {
         for (size_t i = 0; i < 6; ++i)
             k[i] = float(curve.k[i]);
     }
-    HWY_INLINE Color operator()(const Color& x) const
-    {
+    HWY_INLINE Color operator()(const Color& x) const {
         return {Rational(k, x.c0), Rational(k, x.c1), Rational(k, x.c2)};
     }
 };
 
 struct ReinhardCurve {
     explicit ReinhardCurve(const ToneCurve&) {}
-    HWY_INLINE Color operator()(const Color& x) const
-    {
+    HWY_INLINE Color operator()(const Color& x) const {
         V lum = hn::Mul(hn::Set(d, float(kLuminance[0])), x.c0);
         lum = hn::MulAdd(hn::Set(d, float(kLuminance[1])), x.c1, lum);
         lum = hn::MulAdd(hn::Set(d, float(kLuminance[2])), x.c2, lum);
@@ -105,32 +96,29 @@ struct ReinhardCurve {
 };
 
 template <class Curve>
-HWY_INLINE Color Display(const Curve& curve, const Color& linear, V scale)
-{
+HWY_INLINE Color Display(const Curve& curve, const Color& linear, V scale) {
     const V limit = hn::Set(d, kLargestExposed);
-    const Color y = curve(Color {hn::Min(hn::Mul(linear.c0, scale), limit),
-                                 hn::Min(hn::Mul(linear.c1, scale), limit),
-                                 hn::Min(hn::Mul(linear.c2, scale), limit)});
+    const Color y = curve(Color{hn::Min(hn::Mul(linear.c0, scale), limit),
+                                hn::Min(hn::Mul(linear.c1, scale), limit),
+                                hn::Min(hn::Mul(linear.c2, scale), limit)});
     return {Clamp01(y.c0), Clamp01(y.c1), Clamp01(y.c2)};
 }
 
 // Tone map `count` pixels, rounded up to whole vectors; `store(i, color)` takes them.
 template <class Curve, class Store>
 HWY_INLINE void ForDisplay(const float* const in[3], int64_t count, const Curve& curve, float scale,
-                           const Store& store)
-{
+                           const Store& store) {
     const V s = hn::Set(d, scale);
     for (int64_t i = 0; i < count; i += int64_t(hn::Lanes(d)))
         store(i, Display(curve,
-                         Color {hn::LoadU(d, in[0] + i), hn::LoadU(d, in[1] + i),
-                                hn::LoadU(d, in[2] + i)},
+                         Color{hn::LoadU(d, in[0] + i), hn::LoadU(d, in[1] + i),
+                               hn::LoadU(d, in[2] + i)},
                          s));
 }
 
 template <class Store>
 void WithCurve(const float* const in[3], int64_t count, const ToneCurve& curve, float scale,
-               const Store& store)
-{
+               const Store& store) {
     if (curve.kind == ToneKind::Rational)
         ForDisplay(in, count, RationalCurve(curve), scale, store);
     else if (curve.kind == ToneKind::ReinhardLuminance)
@@ -140,8 +128,7 @@ void WithCurve(const float* const in[3], int64_t count, const ToneCurve& curve, 
 }
 
 void ToneMapVectors(const float* const in[3], float* const out[3], int64_t count,
-                    const ToneCurve& curve, float scale)
-{
+                    const ToneCurve& curve, float scale) {
     WithCurve(in, count, curve, scale, [out](int64_t i, const Color& c) HWY_ATTR {
         hn::StoreU(c.c0, d, out[0] + i);
         hn::StoreU(c.c1, d, out[1] + i);
@@ -149,15 +136,13 @@ void ToneMapVectors(const float* const in[3], float* const out[3], int64_t count
     });
 }
 
-int64_t VectorLanes()
-{
+int64_t VectorLanes() {
     return int64_t(hn::Lanes(d));
 }
 
 // The opponent planes without the scale and offset of YCxCz: filters are linear and sum to 1.
 void ToOpponent(const float* const in[3], int64_t count, const ToneCurve& curve, float scale,
-                float* y, float* xy, float* yz)
-{
+                float* y, float* xy, float* yz) {
     const Matrix to_xyz = ToRelativeXyz();
     WithCurve(in, count, curve, scale, [&to_xyz, y, xy, yz](int64_t i, const Color& rgb) HWY_ATTR {
         const Color xyz = to_xyz(rgb);
@@ -167,20 +152,19 @@ void ToOpponent(const float* const in[3], int64_t count, const ToneCurve& curve,
     });
 }
 
-// Taps of an even filter at `at`, elements `step` apart.
-HWY_INLINE V Even(const float* HWY_RESTRICT at, ptrdiff_t step, const std::vector<float>& taps)
-{
-    V sum = hn::Mul(hn::Set(d, taps[0]), hn::LoadU(d, at));
-    for (ptrdiff_t i = 1; i < ptrdiff_t(taps.size()); ++i)
+// Taps of an even filter at `at`, elements `step` apart; from the outside in, so that the rounding
+// of the sum is that of its last few terms.
+HWY_INLINE V Even(const float* HWY_RESTRICT at, ptrdiff_t step, const std::vector<float>& taps) {
+    V sum = hn::Zero(d);
+    for (ptrdiff_t i = ptrdiff_t(taps.size()) - 1; i > 0; --i)
         sum = hn::MulAdd(hn::Set(d, taps[size_t(i)]),
                          hn::Add(hn::LoadU(d, at + i * step), hn::LoadU(d, at - i * step)), sum);
-    return sum;
+    return hn::MulAdd(hn::Set(d, taps[0]), hn::LoadU(d, at), sum);
 }
 
-HWY_INLINE V Odd(const float* HWY_RESTRICT at, ptrdiff_t step, const std::vector<float>& taps)
-{
+HWY_INLINE V Odd(const float* HWY_RESTRICT at, ptrdiff_t step, const std::vector<float>& taps) {
     V sum = hn::Zero(d);
-    for (ptrdiff_t i = 1; i < ptrdiff_t(taps.size()); ++i)
+    for (ptrdiff_t i = ptrdiff_t(taps.size()) - 1; i > 0; --i)
         sum = hn::MulAdd(hn::Set(d, taps[size_t(i)]),
                          hn::Sub(hn::LoadU(d, at + i * step), hn::LoadU(d, at - i * step)), sum);
     return sum;
@@ -190,8 +174,7 @@ enum RowPlane { kRowY, kRowCx, kRowCz1, kRowCz2, kRowG, kRowD1, kRowD2, kRowPlan
 
 // The x pass of one row: seven filters of three planes.
 void FilterRow(const float* y, const float* xy, const float* yz, int width,
-               const FlipTaps<float>& taps, float* const out[kRowPlanes])
-{
+               const FlipTaps<float>& taps, float* const out[kRowPlanes]) {
     for (ptrdiff_t x = 0; x < width; x += ptrdiff_t(hn::Lanes(d))) {
         hn::StoreU(Even(y + x, 1, taps.y), d, out[kRowY] + x);
         hn::StoreU(Even(xy + x, 1, taps.cx), d, out[kRowCx] + x);
@@ -203,45 +186,75 @@ void FilterRow(const float* y, const float* xy, const float* yz, int width,
     }
 }
 
-// CIELAB f(t) - 4/29: L without its offset, free of cancellation near black.
-HWY_INLINE V LabF(V t)
-{
-    const V root = hn::Sub(CubeRoot(d, hn::Max(t, hn::Set(d, float(kLabKnee)))),
-                           hn::Set(d, float(kLabOffset)));
-    return hn::IfThenElse(hn::Gt(t, hn::Set(d, float(kLabKnee))), root,
-                          hn::Mul(t, hn::Set(d, float(kLabSlope))));
+// CIELAB f(t). E is as steep as h^0.7 at h = 0: f is kept to more than float precision, so that
+// its differences are limited by t alone.
+HWY_INLINE Split<V> LabF(V t) {
+    const V knee = hn::Set(d, float(kLabKnee));
+    const Split<V> root = CubeRoot(d, hn::Max(t, knee));
+    const auto above = hn::Gt(t, knee);
+    const V line = hn::MulAdd(t, hn::Set(d, float(kLabSlope)),
+                              hn::Set(d, float(kLabOffset - double(float(kLabOffset)))));
+    return {hn::IfThenElse(above, root.high, hn::Set(d, float(kLabOffset))),
+            hn::IfThenElse(above, root.low, line)};
 }
 
-// Filtered opponent colour to Hunt-adjusted Lab.
-HWY_INLINE Color HuntLab(const Matrix& to_xyz, const Matrix& to_rgb, V y, V xy, V yz)
-{
-    const Color rgb = to_rgb(Color {hn::Add(y, xy), y, hn::Sub(y, yz)});
-    const Color xyz = to_xyz(Color {Clamp01(rgb.c0), Clamp01(rgb.c1), Clamp01(rgb.c2)});
-    const V fx = LabF(xyz.c0), fy = LabF(xyz.c1), fz = LabF(xyz.c2);
-    const V l = hn::Mul(hn::Set(d, 116.0f), fy);
-    return {l, hn::Mul(hn::Mul(l, hn::Set(d, 5.0f)), hn::Sub(fx, fy)),
-            hn::Mul(hn::Mul(l, hn::Set(d, 2.0f)), hn::Sub(fy, fz))};
+struct Lab {
+    Split<V> l;
+    V a, b;
+};
+
+HWY_INLINE V Difference(const Split<V>& p, const Split<V>& q) {
+    return hn::Add(hn::Sub(p.high, q.high), hn::Sub(p.low, q.low));
 }
 
-HWY_INLINE V Magnitude(V a, V b)
-{
+// f(p) - f(q), given p - q to its own precision: by (p - q) / (f(p)^2 + f(p) f(q) + f(q)^2) where
+// both are cube roots.
+HWY_INLINE V LabStep(V p, V q, V p_minus_q, const Split<V>& fp, const Split<V>& fq) {
+    const V a = hn::Add(fp.high, fp.low), b = hn::Add(fq.high, fq.low);
+    const V sum = hn::MulAdd(a, hn::Add(a, b), hn::Mul(b, b));
+    return hn::IfThenElse(hn::Gt(hn::Min(p, q), hn::Set(d, float(kLabKnee))),
+                          hn::Div(p_minus_q, sum), Difference(fp, fq));
+}
+
+// Filtered opponent colour to Hunt-adjusted Lab. The clamp of RGB is applied as a correction of
+// XYZ, which is exactly nothing for colours inside the gamut.
+HWY_INLINE Lab HuntLab(const Matrix& to_xyz, const Matrix& to_rgb, V y, V xy, V yz) {
+    const Color rgb = to_rgb(Color{hn::Add(y, xy), y, hn::Sub(y, yz)});
+    const Color moved =
+        to_xyz(Color{hn::Sub(Clamp01(rgb.c0), rgb.c0), hn::Sub(Clamp01(rgb.c1), rgb.c1),
+                     hn::Sub(Clamp01(rgb.c2), rgb.c2)});
+    y = hn::Add(y, moved.c1);
+    xy = hn::Add(xy, hn::Sub(moved.c0, moved.c1));
+    yz = hn::Add(yz, hn::Sub(moved.c1, moved.c2));
+    const V x = hn::Add(y, xy), z = hn::Sub(y, yz);
+    const Split<V> fx = LabF(x), fy = LabF(y), fz = LabF(z);
+    const V scale = hn::Set(d, 116.0f);
+    // Exact: `high` has 8 bits, 116 has 5.
+    const Split<V> l = {hn::Sub(hn::Mul(scale, fy.high), hn::Set(d, 16.0f)),
+                        hn::Mul(scale, fy.low)};
+    const V light = hn::Add(l.high, l.low);
+    return {l, hn::Mul(hn::Mul(light, hn::Set(d, 5.0f)), LabStep(x, y, xy, fx, fy)),
+            hn::Mul(hn::Mul(light, hn::Set(d, 2.0f)), LabStep(y, z, yz, fy, fz))};
+}
+
+HWY_INLINE V Magnitude(V a, V b) {
     return hn::Sqrt(hn::MulAdd(a, a, hn::Mul(b, b)));
 }
 
 // The y pass of one row of the tile, and everything per pixel up to the comparison.
 void FilterColumns(const float* const rows[kRowPlanes], ptrdiff_t stride, int width,
-                   const FlipTaps<float>& taps, float* const out[kFeaturePlanes])
-{
+                   const FlipTaps<float>& taps, float* const out[kFeaturePlanes]) {
     const Matrix to_xyz = ToRelativeXyz(), to_rgb = FromRelativeXyz();
     for (ptrdiff_t x = 0; x < width; x += ptrdiff_t(hn::Lanes(d))) {
         const V y = Even(rows[kRowY] + x, stride, taps.y);
         const V cx = Even(rows[kRowCx] + x, stride, taps.cx);
         const V cz = hn::Add(Even(rows[kRowCz1] + x, stride, taps.cz1),
                              Even(rows[kRowCz2] + x, stride, taps.cz2));
-        const Color lab = HuntLab(to_xyz, to_rgb, y, cx, cz);
-        hn::StoreU(lab.c0, d, out[kL] + x);
-        hn::StoreU(lab.c1, d, out[kA] + x);
-        hn::StoreU(lab.c2, d, out[kB] + x);
+        const Lab lab = HuntLab(to_xyz, to_rgb, y, cx, cz);
+        hn::StoreU(lab.l.high, d, out[kLHigh] + x);
+        hn::StoreU(lab.l.low, d, out[kLLow] + x);
+        hn::StoreU(lab.a, d, out[kA] + x);
+        hn::StoreU(lab.b, d, out[kB] + x);
         const V edge = Magnitude(Even(rows[kRowD1] + x, stride, taps.g),
                                  Odd(rows[kRowG] + x, stride, taps.d1));
         const V point = Magnitude(Even(rows[kRowD2] + x, stride, taps.g),
@@ -252,8 +265,7 @@ void FilterColumns(const float* const rows[kRowPlanes], ptrdiff_t stride, int wi
 }
 
 // log2 of the colour difference of h > 0 after the remap of q = h^0.7.
-HWY_INLINE V Log2ColorError(V h)
-{
+HWY_INLINE V Log2ColorError(V h) {
     constexpr double knee = kKneeShare * kLargestQ;
     const V log2_q = hn::Mul(hn::Set(d, float(kColorExponent)), Log2(d, h));
     const V low = hn::Add(log2_q, hn::Set(d, float(std::log2(kKneeError / knee))));
@@ -267,14 +279,14 @@ HWY_INLINE V Log2ColorError(V h)
 }
 
 HWY_INLINE V FlipError(const float* const r[kFeaturePlanes], const float* const t[kFeaturePlanes],
-                       ptrdiff_t x)
-{
+                       ptrdiff_t x) {
     const auto difference = [r, t, x](int plane) HWY_ATTR {
-        return hn::AbsDiff(hn::LoadU(d, r[plane] + x), hn::LoadU(d, t[plane] + x));
+        return hn::Sub(hn::LoadU(d, r[plane] + x), hn::LoadU(d, t[plane] + x));
     };
-    const V h = hn::Add(difference(kL), Magnitude(difference(kA), difference(kB)));
+    const V h = hn::Add(hn::Abs(hn::Add(difference(kLHigh), difference(kLLow))),
+                        Magnitude(difference(kA), difference(kB)));
     const V feature =
-        hn::Min(hn::Sqrt(hn::Mul(hn::Max(difference(kEdge), difference(kPoint)),
+        hn::Min(hn::Sqrt(hn::Mul(hn::Max(hn::Abs(difference(kEdge)), hn::Abs(difference(kPoint))),
                                  hn::Set(d, 0.70710678118654752f))),
                 hn::Set(d, 1.0f));
     // E = color^(1 - feature), with the power as a product of logarithms.
@@ -284,8 +296,7 @@ HWY_INLINE V FlipError(const float* const r[kFeaturePlanes], const float* const 
 }
 
 void CompareRow(const float* const r[kFeaturePlanes], const float* const t[kFeaturePlanes],
-                int width, float n, float* best, float* index, float* error)
-{
+                int width, float n, float* best, float* index, float* error) {
     for (ptrdiff_t x = 0; x < width; x += ptrdiff_t(hn::Lanes(d))) {
         const V e = FlipError(r, t, x), old = hn::LoadU(d, best + x);
         const auto larger = hn::Gt(e, old);
@@ -296,8 +307,7 @@ void CompareRow(const float* const r[kFeaturePlanes], const float* const t[kFeat
     }
 }
 
-const char* TargetName()
-{
+const char* TargetName() {
     return hwy::TargetName(HWY_TARGET);
 }
 
@@ -321,32 +331,27 @@ namespace {
 constexpr ptrdiff_t kSpare = 16;
 constexpr int kRowPlaneCount = 7;
 
-ptrdiff_t round_up(ptrdiff_t n)
-{
+ptrdiff_t round_up(ptrdiff_t n) {
     return (n + kSpare - 1) / kSpare * kSpare;
 }
 
 } // namespace
 
-TileShape::TileShape(int tile_width, int tile_height, int tile_halo) :
-    width(tile_width),
-    height(tile_height),
-    halo(tile_halo),
-    stride(round_up(tile_width)),
-    padded_stride(round_up(tile_width) + 2 * tile_halo + kSpare)
-{
-}
+TileShape::TileShape(int tile_width, int tile_height, int tile_halo)
+    : width(tile_width),
+      height(tile_height),
+      halo(tile_halo),
+      stride(round_up(tile_width)),
+      padded_stride(round_up(tile_width) + 2 * tile_halo + kSpare) {}
 
-Planes::Planes(int count, ptrdiff_t stride, int rows) :
-    m_data(hwy::AllocateAligned<float>(size_t(count * (stride * rows + kSpare)))),
-    m_size(stride * rows + kSpare)
-{
+Planes::Planes(int count, ptrdiff_t stride, int rows)
+    : m_data(hwy::AllocateAligned<float>(size_t(count * (stride * rows + kSpare)))),
+      m_size(stride * rows + kSpare) {
     std::fill_n(m_data.get(), count * m_size, 0.0f);
 }
 
-TilePixels::TilePixels(const TileShape& shape, const ConstRgb& image, int x0, int y0) :
-    rgb(3, shape.padded_stride, shape.padded_height())
-{
+TilePixels::TilePixels(const TileShape& shape, const ConstRgb& image, int x0, int y0)
+    : rgb(3, shape.padded_stride, shape.padded_height()) {
     const int left = x0 - shape.halo, width = shape.padded_width();
     const int inside_from = std::clamp(-left, 0, width);
     const int inside_to = std::clamp(image.width - left, inside_from, width);
@@ -361,22 +366,18 @@ TilePixels::TilePixels(const TileShape& shape, const ConstRgb& image, int x0, in
         }
 }
 
-bool TilePixels::same_as(const TilePixels& other) const
-{
+bool TilePixels::same_as(const TilePixels& other) const {
     return std::memcmp(rgb[0], other.rgb[0], size_t(3 * rgb.size()) * sizeof(float)) == 0;
 }
 
-FlipTile::FlipTile(const TileShape& shape, const FlipTaps<float>& taps) :
-    m_shape(shape),
-    m_taps(taps),
-    m_opponent(3, shape.padded_stride, shape.padded_height()),
-    m_rows(kRowPlaneCount, shape.stride, shape.padded_height())
-{
-}
+FlipTile::FlipTile(const TileShape& shape, const FlipTaps<float>& taps)
+    : m_shape(shape),
+      m_taps(taps),
+      m_opponent(3, shape.padded_stride, shape.padded_height()),
+      m_rows(kRowPlaneCount, shape.stride, shape.padded_height()) {}
 
 void FlipTile::prepare(const TilePixels& pixels, const ToneCurve& curve, float scale,
-                       Planes& features)
-{
+                       Planes& features) {
     const auto filter_row = HWY_DYNAMIC_DISPATCH(FilterRow);
     const auto filter_columns = HWY_DYNAMIC_DISPATCH(FilterColumns);
     const float* in[3] = {pixels.rgb[0], pixels.rgb[1], pixels.rgb[2]};
@@ -403,8 +404,7 @@ void FlipTile::prepare(const TilePixels& pixels, const ToneCurve& curve, float s
 }
 
 void FlipTile::compare(const Planes& reference, const Planes& test, float n, float* best,
-                       float* index, float* error) const
-{
+                       float* index, float* error) const {
     const auto compare_row = HWY_DYNAMIC_DISPATCH(CompareRow);
     for (int y = 0; y < m_shape.height; ++y) {
         const ptrdiff_t at = y * m_shape.stride;
@@ -419,8 +419,7 @@ void FlipTile::compare(const Planes& reference, const Planes& test, float n, flo
 }
 
 void tone_map_pixels(const float* const in[3], float* const out[3], int64_t count,
-                     const ToneCurve& curve, float scale)
-{
+                     const ToneCurve& curve, float scale) {
     const auto run = HWY_DYNAMIC_DISPATCH(ToneMapVectors);
     const int64_t whole = count - count % HWY_DYNAMIC_DISPATCH(VectorLanes)();
     run(in, out, whole, curve, scale);
@@ -436,8 +435,7 @@ void tone_map_pixels(const float* const in[3], float* const out[3], int64_t coun
         std::copy(rest[c], rest[c] + (count - whole), out[c] + whole);
 }
 
-const char* flip_tile_target()
-{
+const char* flip_tile_target() {
     return HWY_DYNAMIC_DISPATCH(TargetName)();
 }
 

@@ -47,8 +47,9 @@ struct TilePixels {
     Planes rgb;
 };
 
-/// What LDR-FLIP compares: Hunt-adjusted L, a, b of the filtered image, edge and point strength.
-enum FeaturePlane { kL, kA, kB, kEdge, kPoint, kFeaturePlanes };
+/// What LDR-FLIP compares: Hunt-adjusted L (in two parts), a, b of the filtered image, edge and
+/// point strength.
+enum FeaturePlane { kLHigh, kLLow, kA, kB, kEdge, kPoint, kFeaturePlanes };
 
 /// Work space for one tile; made once per tile, reused for every exposure and image.
 class FlipTile {

@@ -12,16 +12,14 @@ namespace {
 using Plane = std::vector<double>;
 using Color = std::array<double, 3>;
 
-Color multiply(const double (&m)[3][3], const Color& v)
-{
-    Color out {};
+Color multiply(const double (&m)[3][3], const Color& v) {
+    Color out{};
     for (size_t i = 0; i < 3; ++i)
         out[i] = m[i][0] * v[0] + m[i][1] * v[1] + m[i][2] * v[2];
     return out;
 }
 
-Color tone_map(const ToneCurve& curve, const Color& x)
-{
+Color tone_map(const ToneCurve& curve, const Color& x) {
     const auto& k = curve.k;
     Color y = x;
     if (curve.kind == ToneKind::ReinhardLuminance) {
@@ -38,27 +36,23 @@ Color tone_map(const ToneCurve& curve, const Color& x)
 }
 
 // YCxCz, the linear opponent space of the paper.
-Color to_ycxcz(const Color& rgb)
-{
+Color to_ycxcz(const Color& rgb) {
     const Color xyz = multiply(kRgbToXyz, rgb);
     const double x = xyz[0] / kWhite[0], y = xyz[1] / kWhite[1], z = xyz[2] / kWhite[2];
     return {116.0 * y - 16.0, 500.0 * (x - y), 200.0 * (y - z)};
 }
 
-Color from_ycxcz(const Color& c)
-{
+Color from_ycxcz(const Color& c) {
     const double y = (c[0] + 16.0) / 116.0;
     const double x = y + c[1] / 500.0, z = y - c[2] / 200.0;
     return multiply(kXyzToRgb, {x * kWhite[0], y * kWhite[1], z * kWhite[2]});
 }
 
-double lab_f(double t)
-{
+double lab_f(double t) {
     return t > kLabKnee ? std::cbrt(t) : t * kLabSlope + kLabOffset;
 }
 
-Color to_hunt_lab(const Color& rgb)
-{
+Color to_hunt_lab(const Color& rgb) {
     const Color xyz = multiply(kRgbToXyz, rgb);
     const double fx = lab_f(xyz[0] / kWhite[0]);
     const double fy = lab_f(xyz[1] / kWhite[1]);
@@ -69,8 +63,7 @@ Color to_hunt_lab(const Color& rgb)
 
 // Correlation along x (step 1) or y (step width), the border replicated.
 Plane filter(const Plane& in, int width, int height, const std::vector<double>& taps, bool odd,
-             bool along_x)
-{
+             bool along_x) {
     Plane out(in.size());
     const int radius = int(taps.size()) - 1;
     for (int y = 0; y < height; ++y)
@@ -93,22 +86,19 @@ struct Side {
 };
 
 Plane separable(const Plane& in, const TwinImage& image, const std::vector<double>& along_x,
-                bool odd_x, const std::vector<double>& along_y, bool odd_y)
-{
+                bool odd_x, const std::vector<double>& along_y, bool odd_y) {
     return filter(filter(in, image.width, image.height, along_x, odd_x, true), image.width,
                   image.height, along_y, odd_y, false);
 }
 
-Plane magnitude(const Plane& a, const Plane& b)
-{
+Plane magnitude(const Plane& a, const Plane& b) {
     Plane out(a.size());
     for (size_t i = 0; i < a.size(); ++i)
         out[i] = std::sqrt(a[i] * a[i] + b[i] * b[i]);
     return out;
 }
 
-Side prepare(const TwinImage& image, const FlipTaps<double>& taps)
-{
+Side prepare(const TwinImage& image, const FlipTaps<double>& taps) {
     const size_t n = image.plane[0].size();
     Plane c[3] = {Plane(n), Plane(n), Plane(n)};
     Plane luminance(n);
@@ -140,32 +130,30 @@ Side prepare(const TwinImage& image, const FlipTaps<double>& taps)
     return side;
 }
 
-double flip_error(const Side& r, const Side& t, size_t i)
-{
+double flip_error(const Side& r, const Side& t, size_t i) {
     const double da = r.lab[1][i] - t.lab[1][i], db = r.lab[2][i] - t.lab[2][i];
     const double h = std::abs(r.lab[0][i] - t.lab[0][i]) + std::sqrt(da * da + db * db);
     const double q = std::pow(h, kColorExponent), knee = kKneeShare * kLargestQ;
     const double color = q < knee
                              ? q * (kKneeError / knee)
                              : kKneeError + (q - knee) / (kLargestQ - knee) * (1.0 - kKneeError);
-    const double feature = std::sqrt(std::max(std::abs(r.edge[i] - t.edge[i]),
-                                              std::abs(r.point[i] - t.point[i])) /
-                                     std::sqrt(2.0));
+    const double feature =
+        std::sqrt(std::max(std::abs(r.edge[i] - t.edge[i]), std::abs(r.point[i] - t.point[i])) /
+                  std::sqrt(2.0));
     return color > 0 ? std::pow(color, 1.0 - std::min(feature, 1.0)) : 0.0;
 }
 
 } // namespace
 
-TwinImage tone_map_twin(const ConstRgb& image, const ToneCurve& curve, double stops)
-{
-    TwinImage out {image.width, image.height, {}};
+TwinImage tone_map_twin(const ConstRgb& image, const ToneCurve& curve, double stops) {
+    TwinImage out{image.width, image.height, {}};
     const double scale = std::exp2(stops);
     for (Plane& p : out.plane)
         p.resize(size_t(image.width) * size_t(image.height));
     size_t at = 0;
     for (int y = 0; y < image.height; ++y)
         for (int x = 0; x < image.width; ++x, ++at) {
-            Color v {};
+            Color v{};
             for (size_t c = 0; c < 3; ++c)
                 v[c] = std::min(double(image.plane[c][y * image.stride + x]) * scale,
                                 double(kLargestExposed));
@@ -177,8 +165,7 @@ TwinImage tone_map_twin(const ConstRgb& image, const ToneCurve& curve, double st
 }
 
 std::vector<double> ldr_flip_twin(const TwinImage& reference, const TwinImage& test,
-                                  const FlipTaps<double>& taps)
-{
+                                  const FlipTaps<double>& taps) {
     const Side r = prepare(reference, taps), t = prepare(test, taps);
     std::vector<double> out(r.edge.size());
     for (size_t i = 0; i < out.size(); ++i)
@@ -188,8 +175,7 @@ std::vector<double> ldr_flip_twin(const TwinImage& reference, const TwinImage& t
 
 std::vector<double> hdr_flip_twin(const ConstRgb& reference, const ConstRgb& test,
                                   const FlipTaps<double>& taps, const ToneCurve& curve,
-                                  const std::vector<double>& stops, std::vector<int>* index)
-{
+                                  const std::vector<double>& stops, std::vector<int>* index) {
     std::vector<double> best(size_t(reference.width) * size_t(reference.height), 0.0);
     if (index)
         index->assign(best.size(), 0);

@@ -15,7 +15,7 @@ enum class ToneKind {
 /// [0,1] wherever a curve is applied.
 struct ToneCurve {
     ToneKind kind = ToneKind::None;
-    std::array<double, 6> k {};
+    std::array<double, 6> k{};
 };
 
 /// Luminance weights of the exposures and of Reinhard's curve (Rec.709, as published).

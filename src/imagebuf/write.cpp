@@ -1,0 +1,341 @@
+// Files that are either the old one or the whole new one.
+#include "include/tonetool/write.h"
+
+#include <OpenImageIO/filesystem.h>
+#include <OpenImageIO/strutil.h>
+#include <atomic>
+#include <cerrno>
+#include <climits>
+#include <cstdlib>
+#include <cstring>
+#include <exception>
+#include <fcntl.h>
+#include <memory>
+#include <sys/stat.h>
+#include <unistd.h>
+
+namespace tonetool {
+namespace {
+
+using OIIO::Strutil::fmt::format;
+
+// Temporary files now being written, for a signal handler: fixed storage, no locks.
+constexpr int kMaxUnfinished = 64;
+struct Unfinished {
+    std::atomic<bool> used {false}, ready {false};
+    char path[PATH_MAX] {};
+};
+Unfinished g_unfinished[kMaxUnfinished];
+
+int remember(const std::string& path)
+{
+    for (int i = 0; i < kMaxUnfinished && path.size() < PATH_MAX; ++i)
+        if (!g_unfinished[i].used.exchange(true)) {
+            std::memcpy(g_unfinished[i].path, path.c_str(), path.size() + 1);
+            g_unfinished[i].ready = true;
+            return i;
+        }
+    return -1;
+}
+
+void forget(int slot)
+{
+    if (slot < 0)
+        return;
+    g_unfinished[slot].ready = false;
+    g_unfinished[slot].used = false;
+}
+
+std::string reason()
+{
+    return std::strerror(errno);
+}
+
+/// The file behind a name: symbolic links followed, also one that points to nothing yet.
+std::string resolve(const std::string& name)
+{
+    std::string path = name;
+    for (int hops = 0; hops < 40; ++hops) {
+        char target[PATH_MAX];
+        const ssize_t n = ::readlink(path.c_str(), target, sizeof target - 1);
+        if (n < 0)
+            break;
+        const std::string to(target, size_t(n));
+        const auto slash = path.rfind('/');
+        path = to[0] == '/' || slash == std::string::npos ? to : path.substr(0, slash + 1) + to;
+    }
+    return path;
+}
+
+// The descriptor a file is written through, and where it ends up.
+class Target {
+public:
+    explicit Target(const std::string& name) : m_final(resolve(name)) {}
+    Target(const Target&) = delete;
+    Target& operator=(const Target&) = delete;
+
+    ~Target()
+    {
+        if (m_fd >= 0)
+            ::close(m_fd);
+        if (!m_temporary.empty())
+            ::unlink(m_temporary.c_str());
+        forget(m_slot);
+    }
+
+    bool open(std::string& error)
+    {
+        struct stat info {};
+        const bool exists = ::stat(m_final.c_str(), &info) == 0;
+        if (exists && S_ISDIR(info.st_mode)) {
+            error = "is a directory";
+            return false;
+        }
+        if (exists && !S_ISREG(info.st_mode)) {
+            m_fd = ::open(m_final.c_str(), O_WRONLY | O_CLOEXEC);
+            error = m_fd < 0 ? reason() : "";
+            return m_fd >= 0;
+        }
+        if (exists && ::access(m_final.c_str(), W_OK) != 0) {
+            error = reason();
+            return false;
+        }
+        return open_temporary(exists ? info.st_mode & 0777 : 0, error);
+    }
+
+    // Everything to the disk, then the new name in one step.
+    bool commit(std::string& error)
+    {
+        const bool regular = !m_temporary.empty();
+        if (regular && ::fsync(m_fd) != 0) {
+            error = reason();
+            return false;
+        }
+        const int closed = ::close(m_fd);
+        m_fd = -1;
+        if (closed != 0 || (regular && ::rename(m_temporary.c_str(), m_final.c_str()) != 0)) {
+            error = reason();
+            return false;
+        }
+        m_temporary.clear();
+        return true;
+    }
+
+    int fd() const { return m_fd; }
+    bool seekable() const { return !m_temporary.empty(); }
+
+private:
+    bool open_temporary(mode_t mode, std::string& error)
+    {
+        const auto slash = m_final.rfind('/');
+        const std::string folder = slash == std::string::npos ? "" : m_final.substr(0, slash + 1);
+        std::string path =
+            folder + "." + m_final.substr(slash == std::string::npos ? 0 : slash + 1) + ".XXXXXX";
+        m_fd = ::mkostemp(path.data(), O_CLOEXEC);
+        if (m_fd < 0) {
+            error = "cannot create a file in \"" + (folder.empty() ? "." : folder) +
+                    "\": " + reason();
+            return false;
+        }
+        m_temporary = path;
+        m_slot = remember(path);
+        if (mode == 0) {
+            const mode_t mask = ::umask(0);
+            ::umask(mask);
+            mode = 0666 & ~mask;
+        }
+        if (::fchmod(m_fd, mode) != 0) {
+            error = reason();
+            return false;
+        }
+        return true;
+    }
+
+    std::string m_final, m_temporary;
+    int m_fd = -1, m_slot = -1;
+};
+
+// OpenImageIO's writers write through this; the first failure is kept, whatever they make of it.
+class CheckedProxy final : public OIIO::Filesystem::IOProxy {
+public:
+    CheckedProxy(const std::string& name, const Target& target) :
+        IOProxy(name, Write),
+        m_target(target)
+    {
+    }
+    const char* proxytype() const override { return "tonetool"; }
+    bool seek(int64_t offset) override
+    {
+        if (!m_target.seekable() && offset != m_pos)
+            return note("cannot seek in a device or pipe");
+        m_pos = offset;
+        return true;
+    }
+    size_t write(const void* data, size_t size) override
+    {
+        const size_t done = pwrite(data, size, m_pos);
+        m_pos += int64_t(done);
+        return done;
+    }
+    size_t pwrite(const void* data, size_t size, int64_t offset) override
+    {
+        size_t done = 0;
+        while (done < size && m_failure.empty()) {
+            const char* from = static_cast<const char*>(data) + done;
+            const ssize_t n = m_target.seekable()
+                                  ? ::pwrite(m_target.fd(), from, size - done,
+                                             offset + int64_t(done))
+                                  : ::write(m_target.fd(), from, size - done);
+            if (n < 0 && errno == EINTR)
+                continue;
+            if (n <= 0)
+                note(n < 0 ? reason() : "nothing could be written");
+            else
+                done += size_t(n);
+        }
+        m_size = std::max(m_size, offset + int64_t(done));
+        return done;
+    }
+    size_t size() const override { return size_t(m_size); }
+    const std::string& failure() const { return m_failure; }
+
+private:
+    bool note(const std::string& what)
+    {
+        if (m_failure.empty())
+            m_failure = what;
+        return false;
+    }
+
+    const Target& m_target;
+    int64_t m_size = 0;
+    std::string m_failure;
+};
+
+bool write_through(OIIO::ImageOutput& out, const std::vector<OutputImage>& images,
+                   const std::string& filename, std::string& error)
+{
+    std::vector<OIIO::ImageSpec> specs;
+    for (const OutputImage& image : images)
+        specs.push_back(image.spec);
+    for (size_t i = 0; i < images.size(); ++i) {
+        const bool opened =
+            i > 0 ? out.open(filename, specs[i], OIIO::ImageOutput::AppendSubimage)
+                  : (specs.size() > 1 ? out.open(filename, int(specs.size()), specs.data())
+                                      : out.open(filename, specs[0]));
+        if (!opened) {
+            error = out.geterror();
+            return false;
+        }
+        if (!images[i].pixels->write(&out)) {
+            error = images[i].pixels->geterror();
+            if (error.empty())
+                error = out.geterror();
+            return false;
+        }
+    }
+    if (out.close())
+        return true;
+    error = out.geterror();
+    return false;
+}
+
+bool check_images(const std::vector<OutputImage>& images, const OIIO::ImageOutput& out,
+                  std::string& error)
+{
+    if (images.empty()) {
+        error = "there is no image to write";
+        return false;
+    }
+    for (const OutputImage& image : images)
+        if (!image.pixels || !image.pixels->initialized() || image.pixels->has_error()) {
+            const std::string why = image.pixels ? image.pixels->geterror() : "";
+            error = why.empty() ? "the image holds no pixels" : why;
+            return false;
+        }
+    if (images.size() > 1 && !out.supports("multiimage")) {
+        error = format("{} files hold one image, there are {}", out.format_name(), images.size());
+        return false;
+    }
+    return true;
+}
+
+bool write_checked(const std::vector<OutputImage>& images, const std::string& filename,
+                   std::string& error)
+{
+    const auto out = OIIO::ImageOutput::create(filename);
+    if (!out) {
+        error = OIIO::geterror();
+        return false;
+    }
+    if (!check_images(images, *out, error))
+        return false;
+    if (!out->supports("ioproxy")) {
+        error = format("{} files cannot be written safely (the format cannot write through a "
+                       "proxy)",
+                       out->format_name());
+        return false;
+    }
+    Target target(filename);
+    if (!target.open(error))
+        return false;
+    CheckedProxy proxy(filename, target);
+    out->set_ioproxy(&proxy);
+    const bool written = write_through(*out, images, filename, error);
+    if (!proxy.failure().empty())
+        error = proxy.failure();
+    return written && proxy.failure().empty() && target.commit(error);
+}
+
+template <class F>
+bool guarded(const std::string& filename, std::string& error, const F& run)
+{
+    error.clear();
+    try {
+        if (run())
+            return true;
+    } catch (const std::exception& e) {
+        error = e.what();
+    }
+    if (error.empty())
+        error = "unknown reason";
+    if (error.find(filename) == std::string::npos)
+        error = format("could not write \"{}\": {}", filename, error);
+    return false;
+}
+
+} // namespace
+
+bool write_images(const std::vector<OutputImage>& images, const std::string& filename,
+                  std::string& error)
+{
+    return guarded(filename, error,
+                   [&] { return write_checked(images, filename, error); });
+}
+
+bool write_image(const OIIO::ImageBuf& image, const std::string& filename, std::string& error)
+{
+    return write_images({{&image, image.spec()}}, filename, error);
+}
+
+bool write_bytes(const std::string& bytes, const std::string& filename, std::string& error)
+{
+    return guarded(filename, error, [&] {
+        Target target(filename);
+        if (!target.open(error))
+            return false;
+        CheckedProxy proxy(filename, target);
+        proxy.write(bytes.data(), bytes.size());
+        error = proxy.failure();
+        return error.empty() && target.commit(error);
+    });
+}
+
+void remove_unfinished_outputs() noexcept
+{
+    for (Unfinished& entry : g_unfinished)
+        if (entry.ready)
+            ::unlink(entry.path);
+}
+
+} // namespace tonetool
