@@ -18,8 +18,7 @@ using kernels::Window;
 
 // Work space of a tile stays within a core's L2 cache at common viewing conditions; wide halos get
 // larger tiles so that the halo does not become most of the work.
-int tile_size(int halo)
-{
+int tile_size(int halo) {
     return std::clamp((4 * halo + 15) / 16 * 16, 96, 384);
 }
 
@@ -34,24 +33,22 @@ class TileRun {
 public:
     TileRun(const Evaluation& what, const kernels::ConstRgb& reference,
             const std::vector<kernels::ConstRgb>& tests, const std::vector<Output>& outputs,
-            const Window& window, const Window& tile) :
-        m_what(what),
-        m_outputs(outputs),
-        m_shape(tile.width, tile.height, reach(what.taps)),
-        m_reference(m_shape, reference, tile.x0, tile.y0),
-        m_column(tile.x0 - window.x0),
-        m_row(tile.y0 - window.y0)
-    {
+            const Window& window, const Window& tile)
+        : m_what(what),
+          m_outputs(outputs),
+          m_shape(tile.width, tile.height, reach(what.taps)),
+          m_reference(m_shape, reference, tile.x0, tile.y0),
+          m_column(tile.x0 - window.x0),
+          m_row(tile.y0 - window.y0) {
         for (const auto& test : tests) {
             TilePixels pixels(m_shape, test, tile.x0, tile.y0);
             const bool identical = pixels.same_as(m_reference);
-            m_tests.push_back({std::move(pixels), Planes(2, m_shape.stride, m_shape.height),
-                               identical});
+            m_tests.push_back(
+                {std::move(pixels), Planes(2, m_shape.stride, m_shape.height), identical});
         }
     }
 
-    void run()
-    {
+    void run() {
         const bool all_identical = std::all_of(m_tests.begin(), m_tests.end(),
                                                [](const TestTile& t) { return t.identical; });
         if (!all_identical)
@@ -66,8 +63,7 @@ public:
     }
 
 private:
-    void evaluate_exposures()
-    {
+    void evaluate_exposures() {
         FlipTile tile(m_shape, m_what.taps);
         Planes reference(kernels::kFeaturePlanes, m_shape.stride, m_shape.height);
         Planes features(kernels::kFeaturePlanes, m_shape.stride, m_shape.height);
@@ -88,16 +84,14 @@ private:
         }
     }
 
-    void clear_per_exposure()
-    {
+    void clear_per_exposure() {
         const Planes zero(1, m_shape.stride, m_shape.height);
         for (const Output& output : m_outputs)
             for (float* plane : output.per_exposure)
                 store(zero[0], plane, output);
     }
 
-    void store(const float* from, float* plane, const Output& output) const
-    {
+    void store(const float* from, float* plane, const Output& output) const {
         for (int y = 0; y < m_shape.height; ++y)
             std::copy_n(from + y * m_shape.stride, m_shape.width,
                         plane + (m_row + y) * output.stride + m_column);
@@ -115,13 +109,12 @@ private:
 
 void evaluate(const Evaluation& what, const kernels::ConstRgb& reference,
               const std::vector<kernels::ConstRgb>& tests, const kernels::Window& window,
-              const std::vector<Output>& outputs, const kernels::ParallelFor& parallel)
-{
+              const std::vector<Output>& outputs, const kernels::ParallelFor& parallel) {
     const int size = tile_size(reach(what.taps));
     const int64_t across = (window.width + size - 1) / size;
     const int64_t down = (window.height + size - 1) / size;
     parallel(across * down, [&](int64_t i) {
-        Window tile {int(i % across) * size, int(i / across) * size, 0, 0};
+        Window tile{int(i % across) * size, int(i / across) * size, 0, 0};
         tile.width = std::min(size, window.width - tile.x0);
         tile.height = std::min(size, window.height - tile.y0);
         tile.x0 += window.x0;

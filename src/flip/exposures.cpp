@@ -7,15 +7,13 @@
 namespace tonetool::flip {
 namespace {
 
-std::string text(const char* format, double a, double b = 0)
-{
+std::string text(const char* format, double a, double b = 0) {
     char buffer[320];
     std::snprintf(buffer, sizeof buffer, format, a, b);
     return buffer;
 }
 
-bool in_range(double stops, const char* name, std::string& error)
-{
+bool in_range(double stops, const char* name, std::string& error) {
     if (std::isfinite(stops) && stops >= kMinStops && stops <= kMaxStops)
         return true;
     error = std::string(name) + text(" exposure is %g stops", stops) +
@@ -25,8 +23,7 @@ bool in_range(double stops, const char* name, std::string& error)
 
 // One end of the range from a luminance.
 bool measure(const std::array<double, 6>& curve, double luminance, const char* name, double& stops,
-             std::string& error)
-{
+             std::string& error) {
     const auto x = bright_point(curve);
     if (!x) {
         error = text("the tone curve never reaches %g, so there is no automatic exposure: pass "
@@ -35,9 +32,10 @@ bool measure(const std::array<double, 6>& curve, double luminance, const char* n
         return false;
     }
     if (!(std::isfinite(luminance) && luminance > 0)) {
-        error = std::string(name) + text(" exposure cannot be measured: the luminance is %g, must "
-                                         "be positive and finite; pass ",
-                                         luminance) +
+        error = std::string(name) +
+                text(" exposure cannot be measured: the luminance is %g, must "
+                     "be positive and finite; pass ",
+                     luminance) +
                 name + "Exposure";
         return false;
     }
@@ -47,8 +45,7 @@ bool measure(const std::array<double, 6>& curve, double luminance, const char* n
 
 } // namespace
 
-std::optional<double> bright_point(const std::array<double, 6>& k)
-{
+std::optional<double> bright_point(const std::array<double, 6>& k) {
     const double a = k[0] - kBright * k[3], b = k[1] - kBright * k[4], c = k[2] - kBright * k[5];
     double x = 0;
     if (a == 0) {
@@ -63,8 +60,7 @@ std::optional<double> bright_point(const std::array<double, 6>& k)
 }
 
 bool make_exposures(const std::array<double, 6>& curve, const ExposureRequest& request,
-                    std::vector<double>& stops, std::string& error)
-{
+                    std::vector<double>& stops, std::string& error) {
     double start = request.start.value_or(0), stop = request.stop.value_or(0);
     const bool single = request.count == 1;
     if (!request.start && !measure(curve, request.max_luminance, "start", start, error))

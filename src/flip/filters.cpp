@@ -20,28 +20,24 @@ constexpr double kFeatureWidth = 0.082;
 
 using Taps = std::vector<double>;
 
-Taps gaussian(double amplitude, double b, double ppd, int radius)
-{
+Taps gaussian(double amplitude, double b, double ppd, int radius) {
     Taps taps;
     for (int i = 0; i <= radius; ++i)
         taps.push_back(amplitude * std::exp(-kPi * kPi * (i / ppd) * (i / ppd) / b));
     return taps;
 }
 
-double two_sided_sum(const Taps& taps)
-{
+double two_sided_sum(const Taps& taps) {
     return 2.0 * std::accumulate(taps.begin(), taps.end(), 0.0) - taps[0];
 }
 
-void scale(Taps& taps, double factor)
-{
+void scale(Taps& taps, double factor) {
     for (double& t : taps)
         t *= factor;
 }
 
 // Positive taps to sum to 1 and negative ones to -1, both sides of the filter counted.
-void normalize_signs(Taps& taps, bool odd)
-{
+void normalize_signs(Taps& taps, bool odd) {
     double positive = 0, negative = 0;
     for (size_t i = 0; i < taps.size(); ++i) {
         const double at_plus = taps[i], at_minus = i == 0 ? 0.0 : (odd ? -taps[i] : taps[i]);
@@ -52,8 +48,7 @@ void normalize_signs(Taps& taps, bool odd)
         t /= t > 0 ? positive : negative;
 }
 
-void make_detectors(kernels::FlipTaps<double>& taps, double ppd)
-{
+void make_detectors(kernels::FlipTaps<double>& taps, double ppd) {
     const double sigma = 0.5 * kFeatureWidth * ppd;
     const int radius = int(std::ceil(3.0 * sigma));
     for (int i = 0; i <= radius; ++i) {
@@ -68,8 +63,7 @@ void make_detectors(kernels::FlipTaps<double>& taps, double ppd)
 }
 
 // Shortest list whose dropped tail is below 1e-9 of the sum; the sums stay those of the full one.
-std::vector<float> to_float(const Taps& taps, bool trim)
-{
+std::vector<float> to_float(const Taps& taps, bool trim) {
     size_t n = taps.size();
     double tail = 0;
     while (trim && n > 1 && tail + 2.0 * taps[n - 1] < 1e-9)
@@ -79,13 +73,11 @@ std::vector<float> to_float(const Taps& taps, bool trim)
 
 } // namespace
 
-double pixels_per_degree(double distance, double width, double pixels)
-{
+double pixels_per_degree(double distance, double width, double pixels) {
     return distance * (pixels / width) * (kPi / 180.0);
 }
 
-kernels::FlipTaps<double> make_taps(double ppd)
-{
+kernels::FlipTaps<double> make_taps(double ppd) {
     kernels::FlipTaps<double> taps;
     const double widest = std::max({kYb, kCxB, kCzB1, kCzB2});
     const int radius = int(std::ceil(3.0 * std::sqrt(widest / (2.0 * kPi * kPi)) * ppd));
@@ -103,8 +95,7 @@ kernels::FlipTaps<double> make_taps(double ppd)
     return taps;
 }
 
-kernels::FlipTaps<float> float_taps(const kernels::FlipTaps<double>& taps)
-{
+kernels::FlipTaps<float> float_taps(const kernels::FlipTaps<double>& taps) {
     kernels::FlipTaps<float> out;
     out.y = to_float(taps.y, true);
     out.cx = to_float(taps.cx, true);
@@ -116,10 +107,9 @@ kernels::FlipTaps<float> float_taps(const kernels::FlipTaps<double>& taps)
     return out;
 }
 
-int reach(const kernels::FlipTaps<float>& taps)
-{
-    return int(std::max({taps.y.size(), taps.cx.size(), taps.cz1.size(), taps.cz2.size(),
-                         taps.g.size()})) -
+int reach(const kernels::FlipTaps<float>& taps) {
+    return int(std::max(
+               {taps.y.size(), taps.cx.size(), taps.cz1.size(), taps.cz2.size(), taps.g.size()})) -
            1;
 }
 

@@ -8,24 +8,20 @@ namespace {
 using OIIO::ImageSpec;
 using OIIO::Strutil::join;
 
-void number(ImageSpec& spec, const char* name, double value)
-{
+void number(ImageSpec& spec, const char* name, double value) {
     spec.attribute(std::string("FLIP:") + name, float(value));
 }
 
-void count(ImageSpec& spec, const char* name, int64_t value)
-{
+void count(ImageSpec& spec, const char* name, int64_t value) {
     // Attributes of files are 32-bit; a count beyond that stays at the largest.
     spec.attribute(std::string("FLIP:") + name, int(std::min<int64_t>(value, INT32_MAX)));
 }
 
-void text(ImageSpec& spec, const char* name, const std::string& value)
-{
+void text(ImageSpec& spec, const char* name, const std::string& value) {
     spec.attribute(std::string("FLIP:") + name, value);
 }
 
-void annotate_pool(ImageSpec& spec, const FlipPool& pool)
-{
+void annotate_pool(ImageSpec& spec, const FlipPool& pool) {
     number(spec, "meanerror", pool.mean);
     number(spec, "maxerror", pool.max);
     count(spec, "maxx", pool.max_x);
@@ -43,8 +39,7 @@ void annotate_pool(ImageSpec& spec, const FlipPool& pool)
     text(spec, "histogram", join(pool.histogram, " "));
 }
 
-void annotate_side(ImageSpec& spec, const std::string& who, const FlipSide& side)
-{
+void annotate_side(ImageSpec& spec, const std::string& who, const FlipSide& side) {
     text(spec, (who + "Layer").c_str(), side.layer.empty() ? "R,G,B" : side.layer);
     text(spec, (who + "Space").c_str(), side.space);
     count(spec, (who + "Nonfinite").c_str(), side.nonfinite);
@@ -52,8 +47,7 @@ void annotate_side(ImageSpec& spec, const std::string& who, const FlipSide& side
     count(spec, (who + "Uncovered").c_str(), side.uncovered);
 }
 
-void annotate_exposures(ImageSpec& spec, const FlipSummary& summary)
-{
+void annotate_exposures(ImageSpec& spec, const FlipSummary& summary) {
     text(spec, "tonemapper", summary.tonemapper);
     text(spec, "coefficients", join(summary.coeffs, " "));
     number(spec, "startExposure", summary.exposures.front());
@@ -68,8 +62,7 @@ void annotate_exposures(ImageSpec& spec, const FlipSummary& summary)
 
 } // namespace
 
-void annotate(ImageSpec& spec, const FlipSummary& summary)
-{
+void annotate(ImageSpec& spec, const FlipSummary& summary) {
     annotate_pool(spec, summary.pool);
     annotate_side(spec, "reference", summary.reference);
     annotate_side(spec, "test", summary.test);

@@ -17,20 +17,19 @@ constexpr const char* kPlain = "R,G,B";
 // compared in lower case without spaces, '_' and '-'.
 constexpr const char* kBeautyNames[] = {"combined", "rgba",  "rgb",        "c",     "ci",
                                         "beauty",   "color", "finalimage", "final", "image"};
-constexpr const char* kDataNames[] = {
-    "p",      "pworld",  "position", "worldposition", "n",        "normal",        "normals",
-    "nworld", "albedo",  "diffcol",  "basecolor",     "uv",       "st",            "motion",
-    "vector", "motionvector", "depth", "z",           "denoisingalbedo", "denoisingnormal"};
+constexpr const char* kDataNames[] = {"p",      "pworld",  "position",        "worldposition",
+                                      "n",      "normal",  "normals",         "nworld",
+                                      "albedo", "diffcol", "basecolor",       "uv",
+                                      "st",     "motion",  "vector",          "motionvector",
+                                      "depth",  "z",       "denoisingalbedo", "denoisingnormal"};
 
 template <size_t N>
-bool is_one_of(const std::string& name, const char* const (&list)[N])
-{
+bool is_one_of(const std::string& name, const char* const (&list)[N]) {
     return std::find(std::begin(list), std::end(list), name) != std::end(list);
 }
 
 // 0..3 for R, G, B, A in either case or written out, -1 for any other component.
-int component(const std::string& name)
-{
+int component(const std::string& name) {
     const std::string n = lower(name);
     constexpr const char* names[4][2] = {
         {"r", "red"}, {"g", "green"}, {"b", "blue"}, {"a", "alpha"}};
@@ -48,8 +47,7 @@ struct Layer {
 };
 
 // In the order of the file.
-std::vector<Layer> find_layers(const OIIO::ImageSpec& spec)
-{
+std::vector<Layer> find_layers(const OIIO::ImageSpec& spec) {
     std::vector<Layer> layers;
     for (int i = 0; i < spec.nchannels; ++i) {
         const std::string full = spec.channel_name(i);
@@ -61,19 +59,18 @@ std::vector<Layer> find_layers(const OIIO::ImageSpec& spec)
         auto at = std::find_if(layers.begin(), layers.end(),
                                [&](const Layer& l) { return l.name == prefix; });
         if (at == layers.end())
-            at = layers.insert(layers.end(), Layer {prefix, {-1, -1, -1, -1}});
+            at = layers.insert(layers.end(), Layer{prefix, {-1, -1, -1, -1}});
         if (at->channel[c] < 0)
             at->channel[c] = i;
     }
-    layers.erase(std::remove_if(layers.begin(), layers.end(),
-                                [](const Layer& l) { return !l.has_color(); }),
-                 layers.end());
+    layers.erase(
+        std::remove_if(layers.begin(), layers.end(), [](const Layer& l) { return !l.has_color(); }),
+        layers.end());
     return layers;
 }
 
 // The pass name of "ViewLayer.Denoising Normal": "denoisingnormal".
-std::string pass_name(const std::string& layer)
-{
+std::string pass_name(const std::string& layer) {
     const auto dot = layer.rfind('.');
     std::string name = lower(dot == std::string::npos ? layer : layer.substr(dot + 1));
     name.erase(std::remove_if(name.begin(), name.end(),
@@ -82,14 +79,12 @@ std::string pass_name(const std::string& layer)
     return name;
 }
 
-bool is_data(const Layer& layer)
-{
+bool is_data(const Layer& layer) {
     const std::string pass = pass_name(layer.name);
     return is_one_of(pass, kDataNames) || OIIO::Strutil::starts_with(pass, "crypto");
 }
 
-std::string list(const std::vector<Layer>& layers)
-{
+std::string list(const std::vector<Layer>& layers) {
     if (layers.empty())
         return "none";
     std::vector<std::string> names;
@@ -98,8 +93,7 @@ std::string list(const std::vector<Layer>& layers)
     return OIIO::Strutil::join(names, ", ");
 }
 
-std::string list_channels(const OIIO::ImageSpec& spec)
-{
+std::string list_channels(const OIIO::ImageSpec& spec) {
     constexpr size_t most = 16;
     std::vector<std::string> names(spec.channelnames.begin(),
                                    spec.channelnames.begin() +
@@ -109,16 +103,14 @@ std::string list_channels(const OIIO::ImageSpec& spec)
     return names.empty() ? "none" : OIIO::Strutil::join(names, ", ");
 }
 
-std::vector<Layer> only(const std::vector<Layer>& layers, bool (*keep)(const Layer&))
-{
+std::vector<Layer> only(const std::vector<Layer>& layers, bool (*keep)(const Layer&)) {
     std::vector<Layer> out;
     std::copy_if(layers.begin(), layers.end(), std::back_inserter(out), keep);
     return out;
 }
 
 // The layer a user named: exactly, else in any case, else by its last part.
-std::vector<Layer> named(const std::vector<Layer>& layers, const std::string& name)
-{
+std::vector<Layer> named(const std::vector<Layer>& layers, const std::string& name) {
     std::vector<Layer> exact, any_case, last_part;
     for (const Layer& layer : layers) {
         if (layer.shown() == name)
@@ -132,8 +124,7 @@ std::vector<Layer> named(const std::vector<Layer>& layers, const std::string& na
 }
 
 // The one picture of the file.
-std::vector<Layer> beauty(const std::vector<Layer>& layers)
-{
+std::vector<Layer> beauty(const std::vector<Layer>& layers) {
     auto plain = only(layers, [](const Layer& l) { return l.name.empty(); });
     if (!plain.empty())
         return plain;
@@ -142,12 +133,11 @@ std::vector<Layer> beauty(const std::vector<Layer>& layers)
     if (!beauties.empty())
         return beauties;
     auto pictures = only(layers, [](const Layer& l) { return !is_data(l); });
-    return pictures.size() == 1 ? pictures : std::vector<Layer> {};
+    return pictures.size() == 1 ? pictures : std::vector<Layer>{};
 }
 
 std::string no_layer_text(const OIIO::ImageSpec& spec, const std::vector<Layer>& layers,
-                          const PixelOptions& options)
-{
+                          const PixelOptions& options) {
     if (!options.layer.empty())
         return "no colour layer \"" + options.layer + "\"; layers with R,G,B: " + list(layers);
     if (layers.empty())
@@ -162,8 +152,7 @@ std::string no_layer_text(const OIIO::ImageSpec& spec, const std::vector<Layer>&
 namespace ToneAlgo {
 
 bool find_color(const OIIO::ImageSpec& spec, const PixelOptions& options, ColorChoice& choice,
-                std::string& error)
-{
+                std::string& error) {
     const auto layers = find_layers(spec);
     const auto found = options.layer.empty() ? beauty(layers) : named(layers, options.layer);
     if (found.empty()) {
@@ -190,8 +179,7 @@ bool find_color(const OIIO::ImageSpec& spec, const PixelOptions& options, ColorC
     return true;
 }
 
-std::vector<std::string> color_layers(const OIIO::ImageSpec& spec)
-{
+std::vector<std::string> color_layers(const OIIO::ImageSpec& spec) {
     std::vector<std::string> names;
     for (const Layer& layer : find_layers(spec))
         names.push_back(layer.shown());

@@ -21,29 +21,41 @@ struct Known {
     std::vector<const char*> aliases;
 };
 
-const std::vector<Known>& known_spaces()
-{
-    constexpr Chromaticities rec709 = {{0.640, 0.330}, {0.300, 0.600}, {0.150, 0.060}, {0.3127, 0.3290}};
+const std::vector<Known>& known_spaces() {
+    constexpr Chromaticities rec709 = {
+        {0.640, 0.330}, {0.300, 0.600}, {0.150, 0.060}, {0.3127, 0.3290}};
     static const std::vector<Known> spaces = {
-        {"rec709", false, rec709,
+        {"rec709",
+         false,
+         rec709,
          {"rec.709", "linear", "scene_linear", "lin_rec709", "lin_rec709_scene", "lin_srgb",
           "linear rec.709 (srgb)", "utility - linear - srgb", "utility - linear - rec.709"}},
-        {"acescg", false, {{0.713, 0.293}, {0.165, 0.830}, {0.128, 0.044}, {0.32168, 0.33767}},
+        {"acescg",
+         false,
+         {{0.713, 0.293}, {0.165, 0.830}, {0.128, 0.044}, {0.32168, 0.33767}},
          {"lin_ap1", "lin_ap1_scene", "aces - acescg"}},
-        {"aces2065-1", false, {{0.7347, 0.2653}, {0.0, 1.0}, {0.0001, -0.077}, {0.32168, 0.33767}},
+        {"aces2065-1",
+         false,
+         {{0.7347, 0.2653}, {0.0, 1.0}, {0.0001, -0.077}, {0.32168, 0.33767}},
          {"lin_ap0", "lin_ap0_scene", "aces", "aces - aces2065-1"}},
-        {"rec2020", false, {{0.708, 0.292}, {0.170, 0.797}, {0.131, 0.046}, {0.3127, 0.3290}},
-         {"rec.2020", "lin_rec2020", "lin_rec2020_scene", "linear rec.2020", "utility - linear - rec.2020"}},
-        {"p3-d65", false, {{0.680, 0.320}, {0.265, 0.690}, {0.150, 0.060}, {0.3127, 0.3290}},
+        {"rec2020",
+         false,
+         {{0.708, 0.292}, {0.170, 0.797}, {0.131, 0.046}, {0.3127, 0.3290}},
+         {"rec.2020", "lin_rec2020", "lin_rec2020_scene", "linear rec.2020",
+          "utility - linear - rec.2020"}},
+        {"p3-d65",
+         false,
+         {{0.680, 0.320}, {0.265, 0.690}, {0.150, 0.060}, {0.3127, 0.3290}},
          {"p3d65", "lin_p3d65", "lin_p3d65_scene", "linear p3-d65", "utility - linear - p3-d65"}},
-        {"srgb", true, rec709,
+        {"srgb",
+         true,
+         rec709,
          {"srgb_tx", "srgb_texture", "srgb texture", "srgb_rec709_scene", "srgb_rec709_display",
           "srgb - texture", "utility - srgb - texture", "output - srgb", "srgb - display"}}};
     return spaces;
 }
 
-const Known* find_known(const std::string& name)
-{
+const Known* find_known(const std::string& name) {
     const std::string n = lower(name);
     for (const Known& space : known_spaces())
         if (n == space.name || std::any_of(space.aliases.begin(), space.aliases.end(),
@@ -52,17 +64,15 @@ const Known* find_known(const std::string& name)
     return nullptr;
 }
 
-std::string known_names()
-{
+std::string known_names() {
     std::vector<std::string> names;
     for (const Known& space : known_spaces())
         names.emplace_back(space.name);
     return OIIO::Strutil::join(names, ", ");
 }
 
-Matrix3 multiply(const Matrix3& a, const Matrix3& b)
-{
-    Matrix3 out {};
+Matrix3 multiply(const Matrix3& a, const Matrix3& b) {
+    Matrix3 out{};
     for (size_t i = 0; i < 3; ++i)
         for (size_t j = 0; j < 3; ++j)
             for (size_t k = 0; k < 3; ++k)
@@ -70,8 +80,7 @@ Matrix3 multiply(const Matrix3& a, const Matrix3& b)
     return out;
 }
 
-std::optional<Matrix3> inverse(const Matrix3& m)
-{
+std::optional<Matrix3> inverse(const Matrix3& m) {
     const auto minor = [&](size_t i, size_t j) {
         const size_t r0 = (i + 1) % 3, r1 = (i + 2) % 3, c0 = (j + 1) % 3, c1 = (j + 2) % 3;
         return m[r0][c0] * m[r1][c1] - m[r0][c1] * m[r1][c0];
@@ -79,23 +88,21 @@ std::optional<Matrix3> inverse(const Matrix3& m)
     const double det = m[0][0] * minor(0, 0) + m[0][1] * minor(0, 1) + m[0][2] * minor(0, 2);
     if (!std::isfinite(det) || std::abs(det) < 1e-9)
         return std::nullopt;
-    Matrix3 out {};
+    Matrix3 out{};
     for (size_t i = 0; i < 3; ++i)
         for (size_t j = 0; j < 3; ++j)
             out[i][j] = minor(j, i) / det;
     return out;
 }
 
-std::array<double, 3> xyz_of(const double (&xy)[2])
-{
+std::array<double, 3> xyz_of(const double (&xy)[2]) {
     return {xy[0] / xy[1], 1.0, (1.0 - xy[0] - xy[1]) / xy[1]};
 }
 
 // RGB to XYZ from primaries and white, as SMPTE RP 177 derives it.
-std::optional<Matrix3> rgb_to_xyz(const Chromaticities& c)
-{
-    const double (*primaries[3])[2] = {&c.red, &c.green, &c.blue};
-    Matrix3 m {};
+std::optional<Matrix3> rgb_to_xyz(const Chromaticities& c) {
+    const double(*primaries[3])[2] = {&c.red, &c.green, &c.blue};
+    Matrix3 m{};
     for (size_t j = 0; j < 3; ++j) {
         const double x = (*primaries[j])[0], y = (*primaries[j])[1];
         m[0][j] = x;
@@ -116,13 +123,12 @@ std::optional<Matrix3> rgb_to_xyz(const Chromaticities& c)
 }
 
 // Bradford adaptation from one white to D65.
-Matrix3 adapt_to_d65(const double (&white)[2])
-{
-    const Matrix3 cone {
+Matrix3 adapt_to_d65(const double (&white)[2]) {
+    const Matrix3 cone{
         {{0.8951, 0.2664, -0.1614}, {-0.7502, 1.7135, 0.0367}, {0.0389, -0.0685, 1.0296}}};
-    const auto response = [&](const double (&xy)[2]) {
+    const auto response = [&](const double(&xy)[2]) {
         const auto xyz = xyz_of(xy);
-        std::array<double, 3> out {};
+        std::array<double, 3> out{};
         for (size_t i = 0; i < 3; ++i)
             out[i] = cone[i][0] * xyz[0] + cone[i][1] * xyz[1] + cone[i][2] * xyz[2];
         return out;
@@ -135,34 +141,30 @@ Matrix3 adapt_to_d65(const double (&white)[2])
     return multiply(*inverse(cone), scaled);
 }
 
-bool nearly_equal(const Chromaticities& a, const Chromaticities& b)
-{
+bool nearly_equal(const Chromaticities& a, const Chromaticities& b) {
     // Two units of the third decimal: files carry rounded figures.
-    const auto near = [](const double (&p)[2], const double (&q)[2]) {
+    const auto near = [](const double(&p)[2], const double(&q)[2]) {
         return std::abs(p[0] - q[0]) < 2e-3 && std::abs(p[1] - q[1]) < 2e-3;
     };
     return near(a.red, b.red) && near(a.green, b.green) && near(a.blue, b.blue) &&
            near(a.white, b.white);
 }
 
-std::optional<Chromaticities> read_chromaticities(const OIIO::ImageSpec& spec)
-{
+std::optional<Chromaticities> read_chromaticities(const OIIO::ImageSpec& spec) {
     float v[8] = {};
     if (!spec.getattribute("chromaticities", OIIO::TypeDesc("float[8]"), v))
         return std::nullopt;
-    return Chromaticities {{v[0], v[1]}, {v[2], v[3]}, {v[4], v[5]}, {v[6], v[7]}};
+    return Chromaticities{{v[0], v[1]}, {v[2], v[3]}, {v[4], v[5]}, {v[6], v[7]}};
 }
 
-bool from_known(const Known& known, ColorSpace& space)
-{
+bool from_known(const Known& known, ColorSpace& space) {
     space.name = known.name;
     space.srgb_encoded = known.srgb_encoded;
     space.is_rec709 = nearly_equal(known.primaries, known_spaces()[0].primaries);
     return space.is_rec709 || matrix_to_rec709(known.primaries, space.to_rec709);
 }
 
-bool from_chromaticities(const Chromaticities& c, ColorSpace& space, std::string& error)
-{
+bool from_chromaticities(const Chromaticities& c, ColorSpace& space, std::string& error) {
     for (const Known& known : known_spaces())
         if (nearly_equal(c, known.primaries))
             return from_known(known, space);
@@ -177,21 +179,19 @@ bool from_chromaticities(const Chromaticities& c, ColorSpace& space, std::string
 }
 
 // Readers tag with these where the file says no more than "not encoded".
-bool says_only_linear(const std::string& tag)
-{
+bool says_only_linear(const std::string& tag) {
     return tag.empty() || lower(tag) == "linear" || lower(tag) == "scene_linear";
 }
 
-bool from_tags(const OIIO::ImageSpec& spec, ColorSpace& space, std::string& error)
-{
+bool from_tags(const OIIO::ImageSpec& spec, ColorSpace& space, std::string& error) {
     const std::string tag = spec.get_string_attribute("oiio:ColorSpace");
     const auto chromaticities = read_chromaticities(spec);
     // OpenImageIO's readers call the Rec.709 camera curve so, not the linear space.
     const bool camera_curve = lower(tag) == "rec709";
     const Known* known = tag.empty() || camera_curve ? nullptr : find_known(tag);
     if (!tag.empty() && !known) {
-        error = "unknown colour space \"" + tag + "\" in oiio:ColorSpace; pass from= one of: " +
-                known_names();
+        error = "unknown colour space \"" + tag +
+                "\" in oiio:ColorSpace; pass from= one of: " + known_names();
         return false;
     }
     // A display-encoded tag is what a conversion leaves; the file's old chromaticities stay behind.
@@ -213,8 +213,7 @@ bool from_tags(const OIIO::ImageSpec& spec, ColorSpace& space, std::string& erro
 
 } // namespace
 
-bool matrix_to_rec709(const Chromaticities& primaries, Matrix3& matrix)
-{
+bool matrix_to_rec709(const Chromaticities& primaries, Matrix3& matrix) {
     const auto source = rgb_to_xyz(primaries);
     const auto rec709 = rgb_to_xyz(known_spaces()[0].primaries);
     if (!source || !rec709)
@@ -224,8 +223,7 @@ bool matrix_to_rec709(const Chromaticities& primaries, Matrix3& matrix)
 }
 
 bool find_space(const OIIO::ImageSpec& spec, const std::string& from, ColorSpace& space,
-                std::string& error)
-{
+                std::string& error) {
     if (from.empty())
         return from_tags(spec, space, error);
     if (const Known* known = find_known(from))
@@ -234,13 +232,11 @@ bool find_space(const OIIO::ImageSpec& spec, const std::string& from, ColorSpace
     return false;
 }
 
-double srgb_to_linear(double v)
-{
+double srgb_to_linear(double v) {
     return v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4);
 }
 
-double linear_to_srgb(double v)
-{
+double linear_to_srgb(double v) {
     return v <= 0.0031308 ? v * 12.92 : 1.055 * std::pow(v, 1.0 / 2.4) - 0.055;
 }
 

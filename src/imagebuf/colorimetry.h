@@ -15,10 +15,10 @@ struct Chromaticities {
 };
 
 struct ColorSpace {
-    std::string name;           ///< as printed: "rec709", "acescg", "chromaticities", "srgb", ...
-    bool srgb_encoded = false;  ///< values pass the sRGB curve first
-    bool is_rec709 = true;      ///< the matrix is the identity and need not be applied
-    Matrix3 to_rec709 {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
+    std::string name;          ///< as printed: "rec709", "acescg", "chromaticities", "srgb", ...
+    bool srgb_encoded = false; ///< values pass the sRGB curve first
+    bool is_rec709 = true;     ///< the matrix is the identity and need not be applied
+    Matrix3 to_rec709{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
 };
 
 /// The space of an image: `from` if given, else its `chromaticities`, else its `oiio:ColorSpace`,

@@ -14,8 +14,7 @@ using OIIO::ImageBuf;
 using OIIO::ROI;
 
 // An image the caller prepared takes the map's pixels in place; any other becomes the map.
-void deliver(ImageBuf& dst, ImageBuf&& map)
-{
+void deliver(ImageBuf& dst, ImageBuf&& map) {
     const bool in_place = dst.initialized() && dst.nchannels() == 1 &&
                           dst.pixeltype() == OIIO::TypeFloat && dst.localpixels() &&
                           dst.roi().contains(map.roi());
@@ -29,8 +28,7 @@ void deliver(ImageBuf& dst, ImageBuf&& map)
             dst.specmod().attribute(attribute.name(), attribute.type(), attribute.data());
 }
 
-bool fail(ImageBuf& dst, const char* function, const std::string& why)
-{
+bool fail(ImageBuf& dst, const char* function, const std::string& why) {
     dst.clear();
     dst.errorfmt("{}: {}", function, why);
     return false;
@@ -39,8 +37,8 @@ bool fail(ImageBuf& dst, const char* function, const std::string& why)
 // Runs, keeping every exception inside.
 bool guarded_run(const FlipPlan& plan, const ImageBuf& reference,
                  const std::vector<const ImageBuf*>& tests, ROI roi, int nthreads,
-                 std::vector<ImageBuf>& maps, std::vector<FlipResult>& results, std::string& error)
-{
+                 std::vector<ImageBuf>& maps, std::vector<FlipResult>& results,
+                 std::string& error) {
     try {
         return run_flip(plan, reference, tests, roi, nthreads, maps, results, error);
     } catch (const std::bad_alloc&) {
@@ -53,12 +51,10 @@ bool guarded_run(const FlipPlan& plan, const ImageBuf& reference,
 
 bool run_one(const char* function, bool planned, const FlipPlan& plan, std::string& error,
              ImageBuf& dst, const ImageBuf& reference, const ImageBuf& test, FlipResult* result,
-             ROI roi, int nthreads)
-{
+             ROI roi, int nthreads) {
     std::vector<ImageBuf> maps;
     std::vector<FlipResult> results;
-    if (!planned ||
-        !guarded_run(plan, reference, {&test}, roi, nthreads, maps, results, error))
+    if (!planned || !guarded_run(plan, reference, {&test}, roi, nthreads, maps, results, error))
         return fail(dst, function, error);
     deliver(dst, std::move(maps[0]));
     if (result)
@@ -71,8 +67,7 @@ bool run_one(const char* function, bool planned, const FlipPlan& plan, std::stri
 namespace ToneAlgo {
 
 bool ldr_flip(ImageBuf& dst, const ImageBuf& reference, const ImageBuf& test,
-              const FlipOptions& options, FlipResult* result, ROI roi, int nthreads)
-{
+              const FlipOptions& options, FlipResult* result, ROI roi, int nthreads) {
     FlipPlan plan;
     std::string error;
     const bool planned = plan_ldr(options, plan, error);
@@ -80,16 +75,14 @@ bool ldr_flip(ImageBuf& dst, const ImageBuf& reference, const ImageBuf& test,
 }
 
 ImageBuf ldr_flip(const ImageBuf& reference, const ImageBuf& test, const FlipOptions& options,
-                  FlipResult* result, ROI roi, int nthreads)
-{
+                  FlipResult* result, ROI roi, int nthreads) {
     ImageBuf dst;
     ldr_flip(dst, reference, test, options, result, roi, nthreads);
     return dst;
 }
 
 bool hdr_flip(ImageBuf& dst, const ImageBuf& reference, const ImageBuf& test,
-              const HdrFlipOptions& options, FlipResult* result, ROI roi, int nthreads)
-{
+              const HdrFlipOptions& options, FlipResult* result, ROI roi, int nthreads) {
     FlipPlan plan;
     std::string error;
     const bool planned = plan_hdr(options, plan, error);
@@ -97,8 +90,7 @@ bool hdr_flip(ImageBuf& dst, const ImageBuf& reference, const ImageBuf& test,
 }
 
 ImageBuf hdr_flip(const ImageBuf& reference, const ImageBuf& test, const HdrFlipOptions& options,
-                  FlipResult* result, ROI roi, int nthreads)
-{
+                  FlipResult* result, ROI roi, int nthreads) {
     ImageBuf dst;
     hdr_flip(dst, reference, test, options, result, roi, nthreads);
     return dst;
@@ -106,8 +98,7 @@ ImageBuf hdr_flip(const ImageBuf& reference, const ImageBuf& test, const HdrFlip
 
 bool hdr_flip(std::vector<ImageBuf>& dst, const ImageBuf& reference,
               const std::vector<const ImageBuf*>& tests, const HdrFlipOptions& options,
-              std::vector<FlipResult>* results, ROI roi, int nthreads)
-{
+              std::vector<FlipResult>* results, ROI roi, int nthreads) {
     FlipPlan plan;
     std::string error;
     std::vector<ImageBuf> maps;
@@ -126,8 +117,7 @@ bool hdr_flip(std::vector<ImageBuf>& dst, const ImageBuf& reference,
     return true;
 }
 
-std::vector<std::string> flip_tonemappers()
-{
+std::vector<std::string> flip_tonemappers() {
     return tonemap::rational_curve_names();
 }
 
@@ -151,16 +141,14 @@ constexpr Quantity kQuantities[] = {{"mean", &FlipPool::mean},
 
 } // namespace
 
-std::optional<double> flip_quantity(const FlipPool& pool, const std::string& name)
-{
+std::optional<double> flip_quantity(const FlipPool& pool, const std::string& name) {
     for (const Quantity& q : kQuantities)
         if (name == q.name)
             return pool.*q.value;
     return std::nullopt;
 }
 
-std::vector<std::string> flip_quantities()
-{
+std::vector<std::string> flip_quantities() {
     std::vector<std::string> names;
     for (const Quantity& q : kQuantities)
         names.emplace_back(q.name);

@@ -16,8 +16,7 @@ using OIIO::ROI;
 
 // Calls visit(index in the planes of the region, index in the maps, x, y) for every pixel.
 template <class F>
-void for_each_pixel(const Compared& c, const F& visit)
-{
+void for_each_pixel(const Compared& c, const F& visit) {
     const ROI& region = c.reference.region;
     size_t at = 0;
     for (int y = c.roi.ybegin; y < c.roi.yend; ++y)
@@ -26,14 +25,12 @@ void for_each_pixel(const Compared& c, const F& visit)
                   at, x, y);
 }
 
-size_t pixels_of(const ROI& r)
-{
+size_t pixels_of(const ROI& r) {
     return size_t(r.width()) * size_t(r.height());
 }
 
 // `channels` interleaved floats per pixel of `roi` as an image.
-ImageBuf make_image(const Compared& c, int channels, const float* pixels)
-{
+ImageBuf make_image(const Compared& c, int channels, const float* pixels) {
     OIIO::ImageSpec spec(c.roi.width(), c.roi.height(), channels, OIIO::TypeFloat);
     spec.x = c.roi.xbegin;
     spec.y = c.roi.ybegin;
@@ -46,8 +43,7 @@ ImageBuf make_image(const Compared& c, int channels, const float* pixels)
     return image;
 }
 
-void compare_alpha(const Compared& c, FlipMaps& maps, FlipSummary& s)
-{
+void compare_alpha(const Compared& c, FlipMaps& maps, FlipSummary& s) {
     s.alpha_compared = true;
     double sum = 0;
     for_each_pixel(c, [&](size_t i, size_t at, int x, int y) {
@@ -66,8 +62,7 @@ void compare_alpha(const Compared& c, FlipMaps& maps, FlipSummary& s)
 }
 
 // Error 1 where one image alone is non-finite, 0 where both are.
-void override_nonfinite(const Compared& c, FlipMaps& maps)
-{
+void override_nonfinite(const Compared& c, FlipMaps& maps) {
     if (c.reference.nonfinite_count == 0 && c.test.nonfinite_count == 0)
         return;
     for_each_pixel(c, [&](size_t i, size_t at, int, int) {
@@ -82,14 +77,12 @@ void override_nonfinite(const Compared& c, FlipMaps& maps)
     });
 }
 
-FlipSide side_of(const ColorPlanes& planes)
-{
-    return {planes.choice.layer, planes.choice.space, planes.nonfinite_count,
-            planes.negative_count, planes.uncovered_count};
+FlipSide side_of(const ColorPlanes& planes) {
+    return {planes.choice.layer, planes.choice.space, planes.nonfinite_count, planes.negative_count,
+            planes.uncovered_count};
 }
 
-void collect_warnings(const Compared& c, FlipSummary& s)
-{
+void collect_warnings(const Compared& c, FlipSummary& s) {
     const auto say = [&s](int64_t n, const char* what) {
         if (n > 0)
             s.warnings.push_back(std::to_string(n) + " " + what);
@@ -108,8 +101,7 @@ void collect_warnings(const Compared& c, FlipSummary& s)
         s.warnings.emplace_back("only one image has alpha: the other counts as opaque");
 }
 
-FlipSummary summarize(const Compared& c, FlipMaps& maps)
-{
+FlipSummary summarize(const Compared& c, FlipMaps& maps) {
     FlipSummary s;
     s.hdr = c.plan.hdr;
     s.ppd = c.plan.ppd;
@@ -135,8 +127,7 @@ FlipSummary summarize(const Compared& c, FlipMaps& maps)
 }
 
 // What the comparison saw of one image at one exposure.
-ImageBuf tone_mapped(const Compared& c, const ColorPlanes& planes, double stops)
-{
+ImageBuf tone_mapped(const Compared& c, const ColorPlanes& planes, double stops) {
     std::vector<float> mapped[3];
     const float* in[3];
     float* out[3];
@@ -157,8 +148,7 @@ ImageBuf tone_mapped(const Compared& c, const ColorPlanes& planes, double stops)
     return image;
 }
 
-void keep_exposure_maps(const Compared& c, const FlipMaps& maps, FlipResult& result)
-{
+void keep_exposure_maps(const Compared& c, const FlipMaps& maps, FlipResult& result) {
     std::vector<float> stops(maps.index.size());
     for (size_t i = 0; i < stops.size(); ++i)
         stops[i] = float(c.exposures.stops[size_t(maps.index[i])]);
@@ -168,16 +158,13 @@ void keep_exposure_maps(const Compared& c, const FlipMaps& maps, FlipResult& res
 
 } // namespace
 
-FlipMaps::FlipMaps(const FlipPlan& plan, size_t pixels, size_t exposures) :
-    error(pixels),
-    index(plan.hdr && plan.hdr_options.want_exposure_map ? pixels : 0),
-    per_exposure(plan.hdr && plan.hdr_options.want_exposures ? exposures : 0,
-                 std::vector<float>(pixels))
-{
-}
+FlipMaps::FlipMaps(const FlipPlan& plan, size_t pixels, size_t exposures)
+    : error(pixels),
+      index(plan.hdr && plan.hdr_options.want_exposure_map ? pixels : 0),
+      per_exposure(plan.hdr && plan.hdr_options.want_exposures ? exposures : 0,
+                   std::vector<float>(pixels)) {}
 
-flip::Output FlipMaps::output(int width)
-{
+flip::Output FlipMaps::output(int width) {
     flip::Output out;
     out.error = error.data();
     out.index = index.empty() ? nullptr : index.data();
@@ -187,8 +174,7 @@ flip::Output FlipMaps::output(int width)
     return out;
 }
 
-void finish(const Compared& c, FlipMaps& maps, ImageBuf& map, FlipResult& result)
-{
+void finish(const Compared& c, FlipMaps& maps, ImageBuf& map, FlipResult& result) {
     result.summary = summarize(c, maps);
     map = make_image(c, 1, maps.error.data());
     annotate(map.specmod(), result.summary);

@@ -14,21 +14,18 @@ namespace {
 
 using OIIO::Strutil::fmt::format;
 
-bool positive(double value, const char* name, const char* unit, std::string& error)
-{
+bool positive(double value, const char* name, const char* unit, std::string& error) {
     if (std::isfinite(value) && value > 0)
         return true;
     error = format("{} is {}: must be a positive number of {}", name, value, unit);
     return false;
 }
 
-bool plan_common(const FlipOptions& options, FlipPlan& plan, std::string& error)
-{
+bool plan_common(const FlipOptions& options, FlipPlan& plan, std::string& error) {
     plan.common = options;
-    if (!options.ppd &&
-        (!positive(options.distance, "distance", "metres", error) ||
-         !positive(options.width, "width", "metres", error) ||
-         !positive(options.pixels_across, "pixels", "pixels", error)))
+    if (!options.ppd && (!positive(options.distance, "distance", "metres", error) ||
+                         !positive(options.width, "width", "metres", error) ||
+                         !positive(options.pixels_across, "pixels", "pixels", error)))
         return false;
     plan.ppd = options.ppd ? *options.ppd
                            : flip::pixels_per_degree(options.distance, options.width,
@@ -43,9 +40,8 @@ bool plan_common(const FlipOptions& options, FlipPlan& plan, std::string& error)
 }
 
 // A quotient does not change when all six are scaled; lanes square large values in float.
-std::array<double, 6> scaled(const std::vector<double>& coeffs)
-{
-    std::array<double, 6> k {};
+std::array<double, 6> scaled(const std::vector<double>& coeffs) {
+    std::array<double, 6> k{};
     std::copy_n(coeffs.begin(), 6, k.begin());
     double largest = 0;
     for (double v : k)
@@ -56,13 +52,12 @@ std::array<double, 6> scaled(const std::vector<double>& coeffs)
     return k;
 }
 
-bool plan_curve(const HdrFlipOptions& options, FlipPlan& plan, std::string& error)
-{
+bool plan_curve(const HdrFlipOptions& options, FlipPlan& plan, std::string& error) {
     if (options.coeffs.empty()) {
         const auto curve = tonemap::rational_curve(options.tonemapper);
         if (!curve) {
-            error = "unknown tone mapper \"" + options.tonemapper + "\"; valid: " +
-                    OIIO::Strutil::join(tonemap::rational_curve_names(), ", ");
+            error = "unknown tone mapper \"" + options.tonemapper +
+                    "\"; valid: " + OIIO::Strutil::join(tonemap::rational_curve_names(), ", ");
             return false;
         }
         plan.tonemapper = options.tonemapper;
@@ -88,8 +83,7 @@ bool plan_curve(const HdrFlipOptions& options, FlipPlan& plan, std::string& erro
     return true;
 }
 
-bool check_exposures(const HdrFlipOptions& options, std::string& error)
-{
+bool check_exposures(const HdrFlipOptions& options, std::string& error) {
     if (options.num_exposures &&
         (*options.num_exposures < 1 || *options.num_exposures > flip::kMaxExposures)) {
         error = format("numExposures is {}: must be 1 to {}", *options.num_exposures,
@@ -112,8 +106,7 @@ bool check_exposures(const HdrFlipOptions& options, std::string& error)
 }
 
 // The reference's own finite pixels.
-LuminanceStats measure(const ColorPlanes& reference, const OIIO::ROI& covered)
-{
+LuminanceStats measure(const ColorPlanes& reference, const OIIO::ROI& covered) {
     std::vector<uint8_t> skip = reference.nonfinite;
     const OIIO::ROI& all = reference.region;
     size_t at = 0;
@@ -126,14 +119,12 @@ LuminanceStats measure(const ColorPlanes& reference, const OIIO::ROI& covered)
 
 } // namespace
 
-bool plan_ldr(const FlipOptions& options, FlipPlan& plan, std::string& error)
-{
+bool plan_ldr(const FlipOptions& options, FlipPlan& plan, std::string& error) {
     plan.evaluation.stops = {0.0};
     return plan_common(options, plan, error);
 }
 
-bool plan_hdr(const HdrFlipOptions& options, FlipPlan& plan, std::string& error)
-{
+bool plan_hdr(const HdrFlipOptions& options, FlipPlan& plan, std::string& error) {
     plan.hdr = true;
     plan.hdr_options = options;
     return plan_common(options, plan, error) && plan_curve(options, plan, error) &&
@@ -141,8 +132,7 @@ bool plan_hdr(const HdrFlipOptions& options, FlipPlan& plan, std::string& error)
 }
 
 bool choose_exposures(const FlipPlan& plan, const ColorPlanes& reference, const OIIO::ROI& covered,
-                      Exposures& exposures, std::string& error)
-{
+                      Exposures& exposures, std::string& error) {
     if (!plan.hdr) {
         exposures.stops = plan.evaluation.stops;
         return true;
@@ -160,23 +150,23 @@ bool choose_exposures(const FlipPlan& plan, const ColorPlanes& reference, const 
         }
         exposures.median_of_lit = need_median && !o.median_luminance && stats.median <= 0;
         maximum = o.max_luminance.value_or(stats.max);
-        median = o.median_luminance.value_or(exposures.median_of_lit ? stats.median_lit
-                                                                     : stats.median);
+        median =
+            o.median_luminance.value_or(exposures.median_of_lit ? stats.median_lit : stats.median);
     }
     exposures.max_luminance = need_max ? maximum : 0;
     exposures.median_luminance = need_median ? median : 0;
-    return flip::make_exposures(plan.evaluation.curve.k,
-                                {o.start_exposure, o.stop_exposure, o.num_exposures, maximum, median},
-                                exposures.stops, error);
+    return flip::make_exposures(
+        plan.evaluation.curve.k,
+        {o.start_exposure, o.stop_exposure, o.num_exposures, maximum, median}, exposures.stops,
+        error);
 }
 
 bool check_curve(const FlipPlan& plan, const Exposures& exposures, double largest,
-                 std::string& error)
-{
+                 std::string& error) {
     if (!plan.hdr || plan.hdr_options.coeffs.empty())
         return true;
-    const double exposed = std::min(largest * std::exp2(exposures.stops.back()),
-                                    double(kernels::kLargestExposed));
+    const double exposed =
+        std::min(largest * std::exp2(exposures.stops.back()), double(kernels::kLargestExposed));
     const std::string fault = tonemap::curve_fault(plan.evaluation.curve.k, exposed);
     if (fault.empty())
         return true;

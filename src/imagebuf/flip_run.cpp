@@ -12,24 +12,20 @@ namespace {
 using OIIO::ImageBuf;
 using OIIO::ROI;
 
-bool same_pixels(const ROI& a, const ROI& b)
-{
+bool same_pixels(const ROI& a, const ROI& b) {
     return a.xbegin == b.xbegin && a.xend == b.xend && a.ybegin == b.ybegin && a.yend == b.yend;
 }
 
 // The tests that share one region with the reference, compared together.
 class Group {
 public:
-    Group(const FlipPlan& plan, const ImageBuf& reference, int nthreads) :
-        m_plan(plan),
-        m_image(reference),
-        m_nthreads(nthreads)
-    {
-    }
+    Group(const FlipPlan& plan, const ImageBuf& reference, int nthreads)
+        : m_plan(plan),
+          m_image(reference),
+          m_nthreads(nthreads) {}
 
     bool run(const FittedTest* tests, size_t count, const ROI& roi, std::vector<ImageBuf>& maps,
-             std::vector<FlipResult>& results, std::string& error)
-    {
+             std::vector<FlipResult>& results, std::string& error) {
         if (!clip(roi, tests[0].region(), error) || !read(tests, count, error) ||
             !choose_exposures(m_plan, m_reference, m_image.roi(), m_exposures, error))
             return false;
@@ -52,8 +48,7 @@ public:
     }
 
 private:
-    bool clip(const ROI& roi, const ROI& region, std::string& error)
-    {
+    bool clip(const ROI& roi, const ROI& region, std::string& error) {
         m_region = region;
         m_roi = roi.defined() ? OIIO::roi_intersection(roi, region) : region;
         if (m_roi.width() > 0 && m_roi.height() > 0)
@@ -62,8 +57,7 @@ private:
         return false;
     }
 
-    bool read(const FittedTest* tests, size_t count, std::string& error)
-    {
+    bool read(const FittedTest* tests, size_t count, std::string& error) {
         if (!read_side(m_image, m_plan.common.pixels, m_region, m_plan.alpha(), m_nthreads,
                        "reference", m_reference, error))
             return false;
@@ -75,8 +69,7 @@ private:
         return true;
     }
 
-    bool comparable(const ColorPlanes& test, std::string& error) const
-    {
+    bool comparable(const ColorPlanes& test, std::string& error) const {
         if (m_plan.alpha() && m_reference.choice.a < 0 && test.choice.a < 0) {
             error = "alpha=error, but neither image has an alpha channel";
             return false;
@@ -92,8 +85,7 @@ private:
     }
 
     void evaluate(size_t from, size_t count, std::vector<ImageBuf>& maps,
-                  std::vector<FlipResult>& results)
-    {
+                  std::vector<FlipResult>& results) {
         flip::Evaluation evaluation = m_plan.evaluation;
         evaluation.stops = m_exposures.stops;
         const size_t pixels = size_t(m_roi.width()) * size_t(m_roi.height());
@@ -106,9 +98,8 @@ private:
             views.push_back(m_tests[from + t].view());
             outputs.push_back(planes[t].output(m_roi.width()));
         }
-        const kernels::Window window {m_roi.xbegin - m_region.xbegin,
-                                      m_roi.ybegin - m_region.ybegin, m_roi.width(),
-                                      m_roi.height()};
+        const kernels::Window window{m_roi.xbegin - m_region.xbegin, m_roi.ybegin - m_region.ybegin,
+                                     m_roi.width(), m_roi.height()};
         flip::evaluate(evaluation, m_reference.view(), views, window, outputs,
                        make_parallel(m_nthreads));
         for (size_t t = 0; t < count; ++t) {
@@ -133,8 +124,7 @@ private:
 
 bool run_flip(const FlipPlan& plan, const ImageBuf& reference,
               const std::vector<const ImageBuf*>& tests, ROI roi, int nthreads,
-              std::vector<ImageBuf>& maps, std::vector<FlipResult>& results, std::string& error)
-{
+              std::vector<ImageBuf>& maps, std::vector<FlipResult>& results, std::string& error) {
     std::vector<FittedTest> fitted(tests.size());
     bool one_region = true;
     for (size_t t = 0; t < tests.size(); ++t) {

@@ -15,8 +15,7 @@ using OIIO::ImageBuf;
 using OIIO::ROI;
 
 bool measure(LuminanceStats& stats, const ImageBuf& src, const PixelOptions& options, ROI roi,
-             int nthreads, std::string& error)
-{
+             int nthreads, std::string& error) {
     if (!check_readable(src, "source", error))
         return false;
     const ROI region = roi.defined() ? OIIO::roi_intersection(roi, src.roi()) : src.roi();
@@ -42,8 +41,7 @@ bool measure(LuminanceStats& stats, const ImageBuf& src, const PixelOptions& opt
 }
 
 bool scale_color(ImageBuf& dst, const ImageBuf& src, double stops, const PixelOptions& options,
-                 ROI roi, int nthreads, std::string& error)
-{
+                 ROI roi, int nthreads, std::string& error) {
     ColorChoice choice;
     if (!check_readable(src, "source", error) ||
         !ToneAlgo::find_color(deciding_spec(src), options, choice, error))
@@ -71,8 +69,7 @@ bool scale_color(ImageBuf& dst, const ImageBuf& src, double stops, const PixelOp
 namespace ToneAlgo {
 
 bool luminance_stats(LuminanceStats& stats, const ImageBuf& src, const PixelOptions& options,
-                     ROI roi, int nthreads)
-{
+                     ROI roi, int nthreads) {
     std::string error;
     try {
         if (measure(stats, src, options, roi, nthreads, error))
@@ -85,8 +82,7 @@ bool luminance_stats(LuminanceStats& stats, const ImageBuf& src, const PixelOpti
 }
 
 bool exposure(ImageBuf& dst, const ImageBuf& src, double stops, const PixelOptions& options,
-              ROI roi, int nthreads)
-{
+              ROI roi, int nthreads) {
     std::string error;
     try {
         if (scale_color(dst, src, stops, options, roi, nthreads, error))
@@ -99,8 +95,7 @@ bool exposure(ImageBuf& dst, const ImageBuf& src, double stops, const PixelOptio
 }
 
 ImageBuf exposure(const ImageBuf& src, double stops, const PixelOptions& options, ROI roi,
-                  int nthreads)
-{
+                  int nthreads) {
     ImageBuf dst;
     exposure(dst, src, stops, options, roi, nthreads);
     return dst;

@@ -9,18 +9,15 @@ namespace {
 using OIIO::ImageBuf;
 using OIIO::ROI;
 
-std::string window_text(const ROI& r)
-{
+std::string window_text(const ROI& r) {
     return OIIO::Strutil::fmt::format("{}x{}{:+}{:+}", r.width(), r.height(), r.xbegin, r.ybegin);
 }
 
-bool same_window(const ROI& a, const ROI& b)
-{
+bool same_window(const ROI& a, const ROI& b) {
     return a.xbegin == b.xbegin && a.xend == b.xend && a.ybegin == b.ybegin && a.yend == b.yend;
 }
 
-ROI plane_of(ROI r)
-{
+ROI plane_of(ROI r) {
     r.zbegin = 0;
     r.zend = 1;
     r.chbegin = 0;
@@ -31,8 +28,7 @@ ROI plane_of(ROI r)
 } // namespace
 
 bool compared_region(const ImageBuf& reference, const ImageBuf& test, SizePolicy size, ROI& region,
-                     std::string& error)
-{
+                     std::string& error) {
     const ROI ref_full = reference.roi_full(), test_full = test.roi_full();
     region = plane_of(OIIO::roi_union(reference.roi(), test.roi()));
     if (size == SizePolicy::Crop) {
@@ -52,8 +48,7 @@ bool compared_region(const ImageBuf& reference, const ImageBuf& test, SizePolicy
 }
 
 bool FittedTest::open(const ImageBuf& reference, const ImageBuf& test, const FlipOptions& options,
-                      int nthreads, std::string& error)
-{
+                      int nthreads, std::string& error) {
     if (!check_readable(reference, "reference", error) || !check_readable(test, "test", error))
         return false;
     m_test = &test;
@@ -70,16 +65,15 @@ bool FittedTest::open(const ImageBuf& reference, const ImageBuf& test, const Fli
 }
 
 // Only the channels that are compared, so that 40 AOVs are not resized with them.
-bool FittedTest::resize(const ROI& window, bool alpha, int nthreads, std::string& error)
-{
+bool FittedTest::resize(const ROI& window, bool alpha, int nthreads, std::string& error) {
     std::vector<int> order = {m_choice.r, m_choice.g, m_choice.b};
     std::vector<std::string> names = {"R", "G", "B"};
     if (alpha && m_choice.a >= 0) {
         order.push_back(m_choice.a);
         names.emplace_back("A");
     }
-    const ImageBuf color = OIIO::ImageBufAlgo::channels(*m_test, int(order.size()), order, {},
-                                                        names, false, nthreads);
+    const ImageBuf color =
+        OIIO::ImageBufAlgo::channels(*m_test, int(order.size()), order, {}, names, false, nthreads);
     ROI target = window;
     target.chbegin = 0;
     target.chend = color.nchannels();
@@ -95,8 +89,7 @@ bool FittedTest::resize(const ROI& window, bool alpha, int nthreads, std::string
     return true;
 }
 
-bool FittedTest::read(bool alpha, int nthreads, ColorPlanes& planes, std::string& error) const
-{
+bool FittedTest::read(bool alpha, int nthreads, ColorPlanes& planes, std::string& error) const {
     if (!read_side(*m_test, m_pixels, m_region, alpha, nthreads, "test", planes, error))
         return false;
     planes.choice.layer = m_choice.layer;
@@ -104,16 +97,14 @@ bool FittedTest::read(bool alpha, int nthreads, ColorPlanes& planes, std::string
 }
 
 bool read_side(const ImageBuf& image, const PixelOptions& options, const ROI& region, bool alpha,
-               int nthreads, const char* what, ColorPlanes& planes, std::string& error)
-{
+               int nthreads, const char* what, ColorPlanes& planes, std::string& error) {
     if (read_planes(image, options, region, alpha, nthreads, planes, error))
         return true;
     error = std::string(what) + " image \"" + std::string(image.name()) + "\": " + error;
     return false;
 }
 
-int64_t mend_nonfinite(ColorPlanes& r, ColorPlanes& t)
-{
+int64_t mend_nonfinite(ColorPlanes& r, ColorPlanes& t) {
     int64_t both = 0;
     if (r.nonfinite_count == 0 && t.nonfinite_count == 0)
         return both;

@@ -18,8 +18,7 @@ using OIIO::ROI;
 constexpr int kBand = 64;
 
 // `count` channels from `first` of the pixels of `roi`, interleaved.
-bool get_channels(const ImageBuf& image, ROI roi, int first, int count, float* out)
-{
+bool get_channels(const ImageBuf& image, ROI roi, int first, int count, float* out) {
     roi.chbegin = first;
     roi.chend = first + count;
     return image.get_pixels(roi, OIIO::TypeFloat, out);
@@ -27,15 +26,12 @@ bool get_channels(const ImageBuf& image, ROI roi, int first, int count, float* o
 
 class Reader {
 public:
-    Reader(const ImageBuf& image, const ColorSpace& space, ColorPlanes& out) :
-        m_image(image),
-        m_space(space),
-        m_out(out)
-    {
-    }
+    Reader(const ImageBuf& image, const ColorSpace& space, ColorPlanes& out)
+        : m_image(image),
+          m_space(space),
+          m_out(out) {}
 
-    bool read(int nthreads)
-    {
+    bool read(int nthreads) {
         const int bands = (m_out.height() + kBand - 1) / kBand;
         make_parallel(nthreads)(bands, [this](int64_t band) { read_band(int(band) * kBand); });
         m_out.nonfinite_count = m_nonfinite;
@@ -47,8 +43,7 @@ public:
     }
 
 private:
-    void read_band(int from)
-    {
+    void read_band(int from) {
         ROI roi = m_out.region;
         roi.ybegin = m_out.region.ybegin + from;
         roi.yend = std::min(roi.ybegin + kBand, m_out.region.yend);
@@ -65,8 +60,7 @@ private:
         m_negative += negative;
     }
 
-    bool read_color(const ROI& roi, size_t at, size_t n)
-    {
+    bool read_color(const ROI& roi, size_t at, size_t n) {
         const ColorChoice& c = m_out.choice;
         const int channel[3] = {c.r, c.g, c.b};
         if (c.g == c.r + 1 && c.b == c.r + 2) {
@@ -84,8 +78,7 @@ private:
         return true;
     }
 
-    bool read_alpha(const ROI& roi, size_t at)
-    {
+    bool read_alpha(const ROI& roi, size_t at) {
         if (m_out.alpha.empty())
             return true;
         if (m_out.choice.a >= 0)
@@ -99,8 +92,7 @@ private:
     }
 
     // One pixel to finite linear Rec.709 >= 0.
-    void clean(size_t i, int64_t& nonfinite, int64_t& negative)
-    {
+    void clean(size_t i, int64_t& nonfinite, int64_t& negative) {
         double v[3] = {m_out.plane[0][i], m_out.plane[1][i], m_out.plane[2][i]};
         bool finite = std::isfinite(v[0]) && std::isfinite(v[1]) && std::isfinite(v[2]);
         if (!m_out.alpha.empty() && !std::isfinite(m_out.alpha[i])) {
@@ -128,19 +120,17 @@ private:
     const ImageBuf& m_image;
     const ColorSpace& m_space;
     ColorPlanes& m_out;
-    std::atomic<int64_t> m_nonfinite {0}, m_negative {0};
-    std::atomic<bool> m_failed {false};
+    std::atomic<int64_t> m_nonfinite{0}, m_negative{0};
+    std::atomic<bool> m_failed{false};
 };
 
 } // namespace
 
-kernels::ConstRgb ColorPlanes::view() const
-{
+kernels::ConstRgb ColorPlanes::view() const {
     return {{plane[0].data(), plane[1].data(), plane[2].data()}, width(), width(), height()};
 }
 
-bool check_readable(const ImageBuf& image, const char* what, std::string& error)
-{
+bool check_readable(const ImageBuf& image, const char* what, std::string& error) {
     const auto fail = [&](const std::string& why) {
         error = std::string(what) + " image" +
                 (image.name().empty() ? "" : " \"" + std::string(image.name()) + "\"") + ": " + why;
@@ -161,8 +151,7 @@ bool check_readable(const ImageBuf& image, const char* what, std::string& error)
     return true;
 }
 
-OIIO::ImageSpec deciding_spec(const ImageBuf& image)
-{
+OIIO::ImageSpec deciding_spec(const ImageBuf& image) {
     OIIO::ImageSpec spec = image.spec();
     if (!image.nativespec().format.is_floating_point())
         spec.format = image.nativespec().format;
@@ -170,8 +159,7 @@ OIIO::ImageSpec deciding_spec(const ImageBuf& image)
 }
 
 bool read_planes(const ImageBuf& image, const PixelOptions& options, ROI region, bool want_alpha,
-                 int nthreads, ColorPlanes& out, std::string& error)
-{
+                 int nthreads, ColorPlanes& out, std::string& error) {
     const OIIO::ImageSpec spec = deciding_spec(image);
     ColorSpace space;
     if (!ToneAlgo::find_color(spec, options, out.choice, error) ||

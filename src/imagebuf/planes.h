@@ -16,8 +16,8 @@ struct ColorPlanes {
     OIIO::ROI region;
     ColorChoice choice;
     std::vector<float> plane[3];
-    std::vector<float> alpha;        ///< empty unless asked for
-    std::vector<uint8_t> nonfinite;  ///< 1 where R, G, B (or the alpha asked for) is NaN or Inf
+    std::vector<float> alpha;       ///< empty unless asked for
+    std::vector<uint8_t> nonfinite; ///< 1 where R, G, B (or the alpha asked for) is NaN or Inf
     int64_t nonfinite_count = 0, negative_count = 0, uncovered_count = 0;
     float largest = 0; ///< largest component
 

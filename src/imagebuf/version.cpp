@@ -2,8 +2,7 @@
 
 namespace tonetool {
 
-const char* version() noexcept
-{
+const char* version() noexcept {
     return TONETOOL_VERSION;
 }
 

@@ -22,13 +22,12 @@ using OIIO::Strutil::fmt::format;
 // Temporary files now being written, for a signal handler: fixed storage, no locks.
 constexpr int kMaxUnfinished = 64;
 struct Unfinished {
-    std::atomic<bool> used {false}, ready {false};
-    char path[PATH_MAX] {};
+    std::atomic<bool> used{false}, ready{false};
+    char path[PATH_MAX]{};
 };
 Unfinished g_unfinished[kMaxUnfinished];
 
-int remember(const std::string& path)
-{
+int remember(const std::string& path) {
     for (int i = 0; i < kMaxUnfinished && path.size() < PATH_MAX; ++i)
         if (!g_unfinished[i].used.exchange(true)) {
             std::memcpy(g_unfinished[i].path, path.c_str(), path.size() + 1);
@@ -38,22 +37,19 @@ int remember(const std::string& path)
     return -1;
 }
 
-void forget(int slot)
-{
+void forget(int slot) {
     if (slot < 0)
         return;
     g_unfinished[slot].ready = false;
     g_unfinished[slot].used = false;
 }
 
-std::string reason()
-{
+std::string reason() {
     return std::strerror(errno);
 }
 
 /// The file behind a name: symbolic links followed, also one that points to nothing yet.
-std::string resolve(const std::string& name)
-{
+std::string resolve(const std::string& name) {
     std::string path = name;
     for (int hops = 0; hops < 40; ++hops) {
         char target[PATH_MAX];
@@ -74,8 +70,7 @@ public:
     Target(const Target&) = delete;
     Target& operator=(const Target&) = delete;
 
-    ~Target()
-    {
+    ~Target() {
         if (m_fd >= 0)
             ::close(m_fd);
         if (!m_temporary.empty())
@@ -83,8 +78,7 @@ public:
         forget(m_slot);
     }
 
-    bool open(std::string& error)
-    {
+    bool open(std::string& error) {
         struct stat info {};
         const bool exists = ::stat(m_final.c_str(), &info) == 0;
         if (exists && S_ISDIR(info.st_mode)) {
@@ -104,8 +98,7 @@ public:
     }
 
     // Everything to the disk, then the new name in one step.
-    bool commit(std::string& error)
-    {
+    bool commit(std::string& error) {
         const bool regular = !m_temporary.empty();
         if (regular && ::fsync(m_fd) != 0) {
             error = reason();
@@ -125,16 +118,15 @@ public:
     bool seekable() const { return !m_temporary.empty(); }
 
 private:
-    bool open_temporary(mode_t mode, std::string& error)
-    {
+    bool open_temporary(mode_t mode, std::string& error) {
         const auto slash = m_final.rfind('/');
         const std::string folder = slash == std::string::npos ? "" : m_final.substr(0, slash + 1);
         std::string path =
             folder + "." + m_final.substr(slash == std::string::npos ? 0 : slash + 1) + ".XXXXXX";
         m_fd = ::mkostemp(path.data(), O_CLOEXEC);
         if (m_fd < 0) {
-            error = "cannot create a file in \"" + (folder.empty() ? "." : folder) +
-                    "\": " + reason();
+            error =
+                "cannot create a file in \"" + (folder.empty() ? "." : folder) + "\": " + reason();
             return false;
         }
         m_temporary = path;
@@ -158,34 +150,28 @@ private:
 // OpenImageIO's writers write through this; the first failure is kept, whatever they make of it.
 class CheckedProxy final : public OIIO::Filesystem::IOProxy {
 public:
-    CheckedProxy(const std::string& name, const Target& target) :
-        IOProxy(name, Write),
-        m_target(target)
-    {
-    }
+    CheckedProxy(const std::string& name, const Target& target)
+        : IOProxy(name, Write),
+          m_target(target) {}
     const char* proxytype() const override { return "tonetool"; }
-    bool seek(int64_t offset) override
-    {
+    bool seek(int64_t offset) override {
         if (!m_target.seekable() && offset != m_pos)
             return note("cannot seek in a device or pipe");
         m_pos = offset;
         return true;
     }
-    size_t write(const void* data, size_t size) override
-    {
+    size_t write(const void* data, size_t size) override {
         const size_t done = pwrite(data, size, m_pos);
         m_pos += int64_t(done);
         return done;
     }
-    size_t pwrite(const void* data, size_t size, int64_t offset) override
-    {
+    size_t pwrite(const void* data, size_t size, int64_t offset) override {
         size_t done = 0;
         while (done < size && m_failure.empty()) {
             const char* from = static_cast<const char*>(data) + done;
-            const ssize_t n = m_target.seekable()
-                                  ? ::pwrite(m_target.fd(), from, size - done,
-                                             offset + int64_t(done))
-                                  : ::write(m_target.fd(), from, size - done);
+            const ssize_t n = m_target.seekable() ? ::pwrite(m_target.fd(), from, size - done,
+                                                             offset + int64_t(done))
+                                                  : ::write(m_target.fd(), from, size - done);
             if (n < 0 && errno == EINTR)
                 continue;
             if (n <= 0)
@@ -200,8 +186,7 @@ public:
     const std::string& failure() const { return m_failure; }
 
 private:
-    bool note(const std::string& what)
-    {
+    bool note(const std::string& what) {
         if (m_failure.empty())
             m_failure = what;
         return false;
@@ -213,8 +198,7 @@ private:
 };
 
 bool write_through(OIIO::ImageOutput& out, const std::vector<OutputImage>& images,
-                   const std::string& filename, std::string& error)
-{
+                   const std::string& filename, std::string& error) {
     std::vector<OIIO::ImageSpec> specs;
     for (const OutputImage& image : images)
         specs.push_back(image.spec);
@@ -241,8 +225,7 @@ bool write_through(OIIO::ImageOutput& out, const std::vector<OutputImage>& image
 }
 
 bool check_images(const std::vector<OutputImage>& images, const OIIO::ImageOutput& out,
-                  std::string& error)
-{
+                  std::string& error) {
     if (images.empty()) {
         error = "there is no image to write";
         return false;
@@ -261,8 +244,7 @@ bool check_images(const std::vector<OutputImage>& images, const OIIO::ImageOutpu
 }
 
 bool write_checked(const std::vector<OutputImage>& images, const std::string& filename,
-                   std::string& error)
-{
+                   std::string& error) {
     const auto out = OIIO::ImageOutput::create(filename);
     if (!out) {
         error = OIIO::geterror();
@@ -288,8 +270,7 @@ bool write_checked(const std::vector<OutputImage>& images, const std::string& fi
 }
 
 template <class F>
-bool guarded(const std::string& filename, std::string& error, const F& run)
-{
+bool guarded(const std::string& filename, std::string& error, const F& run) {
     error.clear();
     try {
         if (run())
@@ -307,19 +288,15 @@ bool guarded(const std::string& filename, std::string& error, const F& run)
 } // namespace
 
 bool write_images(const std::vector<OutputImage>& images, const std::string& filename,
-                  std::string& error)
-{
-    return guarded(filename, error,
-                   [&] { return write_checked(images, filename, error); });
+                  std::string& error) {
+    return guarded(filename, error, [&] { return write_checked(images, filename, error); });
 }
 
-bool write_image(const OIIO::ImageBuf& image, const std::string& filename, std::string& error)
-{
+bool write_image(const OIIO::ImageBuf& image, const std::string& filename, std::string& error) {
     return write_images({{&image, image.spec()}}, filename, error);
 }
 
-bool write_bytes(const std::string& bytes, const std::string& filename, std::string& error)
-{
+bool write_bytes(const std::string& bytes, const std::string& filename, std::string& error) {
     return guarded(filename, error, [&] {
         Target target(filename);
         if (!target.open(error))
@@ -331,8 +308,7 @@ bool write_bytes(const std::string& bytes, const std::string& filename, std::str
     });
 }
 
-void remove_unfinished_outputs() noexcept
-{
+void remove_unfinished_outputs() noexcept {
     for (Unfinished& entry : g_unfinished)
         if (entry.ready)
             ::unlink(entry.path);

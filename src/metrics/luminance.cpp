@@ -13,8 +13,7 @@ using kernels::ConstRgb;
 using kernels::kLuminance;
 
 // Luminance of every pixel, NaN where it is to be skipped.
-std::vector<float> luminance_plane(const ConstRgb& image, const std::vector<uint8_t>& skip)
-{
+std::vector<float> luminance_plane(const ConstRgb& image, const std::vector<uint8_t>& skip) {
     std::vector<float> out(size_t(image.width) * size_t(image.height));
     size_t at = 0;
     for (int y = 0; y < image.height; ++y) {
@@ -32,8 +31,7 @@ std::vector<float> luminance_plane(const ConstRgb& image, const std::vector<uint
 }
 
 // Mean and geometric mean, row by row in order.
-void averages(const std::vector<float>& plane, int width, int64_t count, LuminanceStats& stats)
-{
+void averages(const std::vector<float>& plane, int width, int64_t count, LuminanceStats& stats) {
     double sum = 0, logs = 0;
     int64_t lit = 0;
     for (size_t row = 0; row < plane.size(); row += size_t(width)) {
@@ -56,8 +54,7 @@ void averages(const std::vector<float>& plane, int width, int64_t count, Luminan
 
 } // namespace
 
-LuminanceStats luminance(const ConstRgb& image, const std::vector<uint8_t>& skip)
-{
+LuminanceStats luminance(const ConstRgb& image, const std::vector<uint8_t>& skip) {
     LuminanceStats stats;
     if (image.width <= 0 || image.height <= 0)
         return stats;

@@ -12,15 +12,13 @@ constexpr uint32_t kInfinity = 0x7f800000u;
 constexpr size_t kBuckets = kInfinity >> 16;
 constexpr size_t kLow = size_t(1) << 16;
 
-uint32_t bits_of(float value)
-{
+uint32_t bits_of(float value) {
     uint32_t bits = 0;
     std::memcpy(&bits, &value, sizeof bits);
     return bits;
 }
 
-float float_of(uint32_t bits)
-{
+float float_of(uint32_t bits) {
     float value = 0;
     std::memcpy(&value, &bits, sizeof value);
     return value;
@@ -29,8 +27,7 @@ float float_of(uint32_t bits)
 } // namespace
 
 template <class F>
-void OrderStatistics::for_each(const F& visit) const
-{
+void OrderStatistics::for_each(const F& visit) const {
     for (int y = 0; y < m_height; ++y)
         for (int x = 0; x < m_width; ++x) {
             const float value = m_data[y * m_stride + x];
@@ -40,13 +37,12 @@ void OrderStatistics::for_each(const F& visit) const
         }
 }
 
-OrderStatistics::OrderStatistics(const float* data, int width, int height, ptrdiff_t stride) :
-    m_data(data),
-    m_width(width),
-    m_height(height),
-    m_stride(stride),
-    m_buckets(kBuckets)
-{
+OrderStatistics::OrderStatistics(const float* data, int width, int height, ptrdiff_t stride)
+    : m_data(data),
+      m_width(width),
+      m_height(height),
+      m_stride(stride),
+      m_buckets(kBuckets) {
     for_each([this](uint32_t bits, float) {
         ++m_buckets[bits >> 16];
         m_zeros += bits == 0;
@@ -54,8 +50,7 @@ OrderStatistics::OrderStatistics(const float* data, int width, int height, ptrdi
     m_count = std::accumulate(m_buckets.begin(), m_buckets.end(), int64_t(0));
 }
 
-std::vector<uint32_t> OrderStatistics::bucket_values(size_t bucket) const
-{
+std::vector<uint32_t> OrderStatistics::bucket_values(size_t bucket) const {
     std::vector<uint32_t> counts(kLow);
     for_each([&](uint32_t bits, float) {
         if (bits >> 16 == bucket)
@@ -64,8 +59,7 @@ std::vector<uint32_t> OrderStatistics::bucket_values(size_t bucket) const
     return counts;
 }
 
-float OrderStatistics::at_rank(int64_t rank) const
-{
+float OrderStatistics::at_rank(int64_t rank) const {
     if (m_count == 0)
         return 0;
     rank = std::clamp<int64_t>(rank, 0, m_count - 1);
@@ -79,13 +73,11 @@ float OrderStatistics::at_rank(int64_t rank) const
     return float_of(uint32_t(bucket << 16 | low));
 }
 
-float OrderStatistics::percentile(double share) const
-{
+float OrderStatistics::percentile(double share) const {
     return at_rank(int64_t(std::ceil(share * double(m_count))) - 1);
 }
 
-const std::vector<double>& OrderStatistics::masses() const
-{
+const std::vector<double>& OrderStatistics::masses() const {
     if (m_masses.empty()) {
         m_masses.resize(kBuckets);
         for_each([this](uint32_t bits, float value) { m_masses[bits >> 16] += double(value); });
@@ -93,8 +85,7 @@ const std::vector<double>& OrderStatistics::masses() const
     return m_masses;
 }
 
-float OrderStatistics::weighted_percentile(double share) const
-{
+float OrderStatistics::weighted_percentile(double share) const {
     const auto& mass = masses();
     const double target = share * std::accumulate(mass.begin(), mass.end(), 0.0);
     double running = 0;

@@ -28,7 +28,8 @@ public:
 private:
     std::vector<uint32_t> bucket_values(size_t bucket) const;
     const std::vector<double>& masses() const;
-    template <class F> void for_each(const F& visit) const;
+    template <class F>
+    void for_each(const F& visit) const;
 
     const float* m_data;
     int m_width, m_height;

@@ -8,8 +8,7 @@ namespace tonetool::metrics {
 namespace {
 
 // Mean, extremes and histogram in one pass; a sum per row, then over rows, both in order.
-void scan(FlipPool& pool, const float* map, int width, int height, ptrdiff_t stride)
-{
+void scan(FlipPool& pool, const float* map, int width, int height, ptrdiff_t stride) {
     const double buckets = double(pool.histogram.size());
     double sum = 0;
     pool.min = pool.max = map[0];
@@ -39,8 +38,7 @@ void scan(FlipPool& pool, const float* map, int width, int height, ptrdiff_t str
 
 } // namespace
 
-FlipPool pool(const float* map, int width, int height, ptrdiff_t stride, int x0, int y0)
-{
+FlipPool pool(const float* map, int width, int height, ptrdiff_t stride, int x0, int y0) {
     FlipPool out;
     if (width <= 0 || height <= 0)
         return out;

@@ -22,8 +22,7 @@ constexpr Named kCurves[] = {
     {"reinhard", {kernels::ToneKind::ReinhardLuminance, {0.0, 1.0, 0.0, 0.0, 1.0, 1.0}}}};
 
 // Roots of a x^2 + b x + c in [0, largest], ascending.
-std::vector<double> roots_within(double a, double b, double c, double largest)
-{
+std::vector<double> roots_within(double a, double b, double c, double largest) {
     std::vector<double> roots;
     if (a == 0) {
         if (b != 0)
@@ -42,8 +41,7 @@ std::vector<double> roots_within(double a, double b, double c, double largest)
     return roots;
 }
 
-std::string at(const char* format, double x, double largest)
-{
+std::string at(const char* format, double x, double largest) {
     char buffer[256];
     std::snprintf(buffer, sizeof buffer, format, x, largest);
     return buffer;
@@ -51,24 +49,21 @@ std::string at(const char* format, double x, double largest)
 
 } // namespace
 
-std::optional<kernels::ToneCurve> rational_curve(std::string_view name)
-{
+std::optional<kernels::ToneCurve> rational_curve(std::string_view name) {
     for (const Named& entry : kCurves)
         if (name == entry.name)
             return entry.curve;
     return std::nullopt;
 }
 
-std::vector<std::string> rational_curve_names()
-{
+std::vector<std::string> rational_curve_names() {
     std::vector<std::string> names;
     for (const Named& entry : kCurves)
         names.emplace_back(entry.name);
     return names;
 }
 
-std::string curve_fault(const std::array<double, 6>& k, double largest)
-{
+std::string curve_fault(const std::array<double, 6>& k, double largest) {
     if (!std::all_of(k.begin(), k.end(), [](double v) { return std::isfinite(v); }))
         return "a coefficient is not finite";
     if (k[3] == 0 && k[4] == 0 && k[5] == 0)

@@ -1,6 +1,7 @@
 // Everything tonetool offers to C++.
 #pragma once
 
+#include "tonetool/display.h"
 #include "tonetool/export.h"
 #include "tonetool/flip.h"
 #include "tonetool/luminance.h"
