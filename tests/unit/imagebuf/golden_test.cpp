@@ -8,10 +8,15 @@
 #include <cmath>
 #include <cstdlib>
 #include <fstream>
+#include <functional>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "flip/filters.h"
 #include "include/tonetool/flip.h"
+#include "kernels/flip_twin.h"
+#include "tonemap/rational.h"
 
 namespace {
 
@@ -29,8 +34,9 @@ constexpr double kClose = 1e-5, kCloseBelow = 1e-4, kSmallError = 0.01;
 constexpr double kExposure = 1e-5, kMean = 2e-6, kQuartile = 2e-4;
 constexpr double kExposureMapShare = 0.999, kExposureMapFrom = 0.001;
 
-std::vector<float> channel(const ImageBuf& image, int c)
-{
+const std::map<std::string, int> kGoldenIsOff = {{"gallery_16_ldr", 13}};
+
+std::vector<float> channel(const ImageBuf& image, int c) {
     OIIO::ROI roi = image.roi();
     roi.chbegin = c;
     roi.chend = c + 1;
@@ -39,8 +45,7 @@ std::vector<float> channel(const ImageBuf& image, int c)
     return out;
 }
 
-tonetool::HdrFlipOptions parse(const std::string& options)
-{
+tonetool::HdrFlipOptions parse(const std::string& options) {
     tonetool::HdrFlipOptions out;
     std::istringstream words(options);
     for (std::string key, value; words >> key && key != "--ldr" && words >> value;) {
@@ -61,28 +66,66 @@ tonetool::HdrFlipOptions parse(const std::string& options)
     return out;
 }
 
-void compare_maps(const std::vector<float>& ours, const std::vector<float>& golden)
-{
-    ASSERT_EQ(ours.size(), golden.size());
-    double worst = 0, worst_below = 0, sum = 0, golden_sum = 0;
-    for (size_t i = 0; i < ours.size(); ++i) {
-        const double difference = std::abs(double(ours[i]) - golden[i]);
-        double& bound = golden[i] >= kSmallError ? worst : worst_below;
-        bound = std::max(bound, difference);
-        sum += ours[i];
-        golden_sum += golden[i];
+// The double twin's map of what a comparison saw.
+std::vector<double> twin_map(const ImageBuf& reference, const ImageBuf& test,
+                             const tonetool::FlipSummary& summary) {
+    std::vector<float> planes[2][3];
+    tonetool::kernels::ConstRgb views[2];
+    for (int side = 0; side < 2; ++side) {
+        const ImageBuf& image = side == 0 ? reference : test;
+        tonetool::ColorChoice choice;
+        std::string error;
+        EXPECT_TRUE(tonetool::ToneAlgo::find_color(image.spec(), {}, choice, error)) << error;
+        const int channels[3] = {choice.r, choice.g, choice.b};
+        views[side] = {{}, image.spec().width, image.spec().width, image.spec().height};
+        for (int c = 0; c < 3; ++c) {
+            planes[side][c] = channel(image, channels[c]);
+            views[side].plane[c] = planes[side][c].data();
+        }
     }
-    const auto n = double(ours.size());
-    EXPECT_LE(worst, kClose);
+    tonetool::kernels::ToneCurve curve;
+    if (summary.hdr)
+        curve = *tonetool::tonemap::rational_curve(summary.tonemapper);
+    return tonetool::kernels::hdr_flip_twin(
+        views[0], views[1], tonetool::flip::make_taps(summary.ppd), curve,
+        summary.hdr ? summary.exposures : std::vector<double>{0.0}, nullptr);
+}
+
+struct Maps {
+    std::vector<float> ours, golden;
+    std::function<std::vector<double>()> twin; ///< slow: only made when it must decide
+};
+
+void compare_maps(const Maps& maps, const std::string& name) {
+    ASSERT_EQ(maps.ours.size(), maps.golden.size());
+    double worst = 0, worst_below = 0, sum = 0, golden_sum = 0;
+    std::vector<size_t> beyond;
+    for (size_t i = 0; i < maps.ours.size(); ++i) {
+        const double golden = maps.golden[i], difference = std::abs(maps.ours[i] - golden);
+        double& largest = golden >= kSmallError ? worst : worst_below;
+        largest = std::max(largest, difference);
+        if (golden >= kSmallError && difference > kClose)
+            beyond.push_back(i);
+        sum += maps.ours[i];
+        golden_sum += golden;
+    }
+    const auto n = double(maps.ours.size());
     EXPECT_LE(worst_below, kCloseBelow);
     EXPECT_NEAR(sum / n, golden_sum / n, kMean);
-    std::printf("  worst %.3g (below 0.01: %.3g), mean off by %.3g\n", worst, worst_below,
-                sum / n - golden_sum / n);
+    const auto allowed = kGoldenIsOff.find(name);
+    EXPECT_LE(beyond.size(), allowed == kGoldenIsOff.end() ? 0u : size_t(allowed->second))
+        << "worst " << worst;
+    const auto twin = beyond.empty() ? std::vector<double>{} : maps.twin();
+    for (size_t i : beyond) {
+        EXPECT_LE(std::abs(maps.ours[i] - twin[i]), kClose) << "pixel " << i;
+        EXPECT_GT(std::abs(maps.golden[i] - twin[i]), std::abs(maps.ours[i] - twin[i]));
+    }
+    std::printf("  worst %.3g (below 0.01: %.3g), beyond the bound %zu, mean off by %.3g\n", worst,
+                worst_below, beyond.size(), sum / n - golden_sum / n);
 }
 
 void compare_exposures(const tonetool::FlipResult& result, const ImageBuf& golden,
-                       const std::vector<float>& error)
-{
+                       const std::vector<float>& error) {
     const auto n = result.summary.exposures.size();
     const auto index = channel(result.exposure_index, 0);
     const auto expected = channel(golden, golden.spec().channelindex("exposure"));
@@ -97,8 +140,7 @@ void compare_exposures(const tonetool::FlipResult& result, const ImageBuf& golde
     std::printf("  exposure map: %zu of %zu differ\n", counted - same, counted);
 }
 
-void compare_summary(const tonetool::FlipSummary& summary, const json& line)
-{
+void compare_summary(const tonetool::FlipSummary& summary, const json& line) {
     EXPECT_NEAR(summary.pool.weighted_q1, line["weighted_q1"], kQuartile);
     EXPECT_NEAR(summary.pool.weighted_median, line["weighted_median"], kQuartile);
     EXPECT_NEAR(summary.pool.weighted_q3, line["weighted_q3"], kQuartile);
@@ -113,20 +155,21 @@ void compare_summary(const tonetool::FlipSummary& summary, const json& line)
 
 class Goldens : public testing::TestWithParam<Golden> {};
 
-TEST_P(Goldens, MatchesPublishedProgram)
-{
+TEST_P(Goldens, MatchesPublishedProgram) {
     const auto& [root, line] = GetParam();
     const ImageBuf reference(root + line["reference"].get<std::string>());
     const ImageBuf test(root + line["test"].get<std::string>());
     const ImageBuf golden(root + line["map"].get<std::string>());
     const auto options = parse(line["options"]);
     tonetool::FlipResult result;
-    const ImageBuf map =
-        line["hdr"] == 1 ? tonetool::ToneAlgo::hdr_flip(reference, test, options, &result)
-                         : tonetool::ToneAlgo::ldr_flip(reference, test, options, &result);
+    const ImageBuf map = line["hdr"] == 1
+                             ? tonetool::ToneAlgo::hdr_flip(reference, test, options, &result)
+                             : tonetool::ToneAlgo::ldr_flip(reference, test, options, &result);
     ASSERT_FALSE(map.has_error()) << map.geterror();
     const auto expected = channel(golden, golden.spec().channelindex("flip"));
-    compare_maps(channel(map, 0), expected);
+    compare_maps(
+        {channel(map, 0), expected, [&] { return twin_map(reference, test, result.summary); }},
+        line["name"]);
     compare_summary(result.summary, line);
     if (line["hdr"] == 1)
         compare_exposures(result, golden, expected);
@@ -135,8 +178,7 @@ TEST_P(Goldens, MatchesPublishedProgram)
     }
 }
 
-std::vector<Golden> read_lines(const std::string& root, const std::string& file)
-{
+std::vector<Golden> read_lines(const std::string& root, const std::string& file) {
     std::vector<Golden> out;
     std::ifstream in(root + file);
     for (std::string text; std::getline(in, text);)
@@ -145,8 +187,7 @@ std::vector<Golden> read_lines(const std::string& root, const std::string& file)
     return out;
 }
 
-std::string shared_dir()
-{
+std::string shared_dir() {
     const char* dir = std::getenv("SHARED_DIR");
     return dir ? std::string(dir) + "/" : "";
 }
@@ -163,13 +204,11 @@ INSTANTIATE_TEST_SUITE_P(Shared, Goldens,
                          name_of);
 GTEST_ALLOW_UNINSTANTIATED_PARAMETERIZED_TEST(Goldens);
 
-TEST(GoldenFiles, SmallOnesAreThere)
-{
+TEST(GoldenFiles, SmallOnesAreThere) {
     EXPECT_FALSE(read_lines(TESTIMAGES_DIR "/", "golden/results.jsonl").empty());
 }
 
-TEST(GoldenFiles, SharedOnesAreThere)
-{
+TEST(GoldenFiles, SharedOnesAreThere) {
     if (read_lines(shared_dir(), "golden/flip/results.jsonl").empty())
         GTEST_SKIP() << "no golden/flip/results.jsonl below SHARED_DIR (\"" << shared_dir()
                      << "\"): the large goldens are not compared";
