@@ -130,10 +130,10 @@ def test_compression(tonetool, oiiotool, make_image, read):
 
 
 def test_metadata_goes_on_and_the_command_line_is_noted(tonetool, make_image, read):
-    a = make_image("a.exr", attributes={"owner": "somebody"})
+    a = make_image("a.exr", attributes={"ShotNote": "somebody"})
     tonetool(a, "--exposure", "1", "-o", "x.exr")
     _, spec = read("x.exr")
-    assert spec.get_string_attribute("owner") == "somebody"
+    assert spec.get_string_attribute("ShotNote") == "somebody"
     assert spec.get_string_attribute("Exif:ImageHistory") == \
         "tonetool a.exr --exposure 1 -o x.exr"
 
