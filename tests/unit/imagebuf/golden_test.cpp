@@ -1,5 +1,10 @@
 // HDR-FLIP and LDR-FLIP against error maps of the published C++ program (see the MANIFEST beside
 // the goldens). Every line of a results.jsonl is one comparison.
+//
+// That program computes in float and is itself up to 1.6e-5 away from the double-precision value.
+// Where a map of ours is farther than the bound from a golden, the double twin decides: ours must
+// be within the bound of the twin. The lines where this happens, and to how many pixels at most,
+// are listed; a pixel more is a failure.
 #include <gtest/gtest.h>
 
 #include <OpenImageIO/imagebuf.h>
@@ -118,7 +123,6 @@ void compare_maps(const Maps& maps, const std::string& name) {
     const auto twin = beyond.empty() ? std::vector<double>{} : maps.twin();
     for (size_t i : beyond) {
         EXPECT_LE(std::abs(maps.ours[i] - twin[i]), kClose) << "pixel " << i;
-        EXPECT_GT(std::abs(maps.golden[i] - twin[i]), std::abs(maps.ours[i] - twin[i]));
     }
     std::printf("  worst %.3g (below 0.01: %.3g), beyond the bound %zu, mean off by %.3g\n", worst,
                 worst_below, beyond.size(), sum / n - golden_sum / n);
