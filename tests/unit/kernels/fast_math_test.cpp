@@ -1,0 +1,171 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "fast_math_test.cpp"
+#include <hwy/foreach_target.h>
+// After foreach_target.h, which includes this file once per instruction set.
+#include <hwy/highway.h>
+
+#include "kernels/fast_math-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace tonetool::kernels::HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+constexpr hn::ScalableTag<float> d{};
+
+// `count` is a multiple of every vector length; what is exact is added up in double.
+void CubeRoots(const float* in, size_t count, double* out) {
+    float high[64], low[64];
+    for (size_t i = 0; i < count; i += hn::Lanes(d)) {
+        const auto root = CubeRoot(d, hn::LoadU(d, in + i));
+        hn::StoreU(root.high, d, high);
+        hn::StoreU(root.low, d, low);
+        for (size_t j = 0; j < hn::Lanes(d); ++j)
+            out[i + j] = double(high[j]) + double(low[j]);
+    }
+}
+
+void Logs(const float* in, size_t count, double* out) {
+    float values[64];
+    for (size_t i = 0; i < count; i += hn::Lanes(d)) {
+        hn::StoreU(Log2(d, hn::LoadU(d, in + i)), d, values);
+        for (size_t j = 0; j < hn::Lanes(d); ++j)
+            out[i + j] = double(values[j]);
+    }
+}
+
+void Powers(const float* in, size_t count, double* out) {
+    float values[64];
+    for (size_t i = 0; i < count; i += hn::Lanes(d)) {
+        hn::StoreU(Exp2(d, hn::LoadU(d, in + i)), d, values);
+        for (size_t j = 0; j < hn::Lanes(d); ++j)
+            out[i + j] = double(values[j]);
+    }
+}
+
+int64_t Target() {
+    return HWY_TARGET;
+}
+
+} // namespace tonetool::kernels::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace tonetool::kernels {
+
+HWY_EXPORT(CubeRoots);
+HWY_EXPORT(Logs);
+HWY_EXPORT(Powers);
+HWY_EXPORT(Target);
+
+namespace {
+
+constexpr size_t kCount = size_t(1) << 18; // a multiple of every vector length
+
+// From `low` to `high`, evenly in the logarithm, both ends and the floats around 1 included.
+std::vector<float> geometric(double low, double high) {
+    std::vector<float> x(kCount);
+    const double span = std::log2(high / low);
+    for (size_t i = 0; i < kCount; ++i)
+        x[i] = float(low * std::exp2(span * double(i) / double(kCount - 1)));
+    x.front() = float(low);
+    x.back() = float(high);
+    for (size_t i = 0; i < 64; ++i)
+        x[1000 + i] = float(1.0 + (double(i) - 32) * 5.960464477539063e-8); // 2^-24
+    return x;
+}
+
+class FastMath : public testing::TestWithParam<int64_t> {
+protected:
+    void SetUp() override {
+        hwy::SetSupportedTargetsForTest(GetParam());
+        hwy::GetChosenTarget().Update(GetParam());
+        ASSERT_EQ(HWY_DYNAMIC_DISPATCH(Target)(), GetParam());
+    }
+    void TearDown() override {
+        hwy::SetSupportedTargetsForTest(0);
+        hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+    }
+};
+
+// The bounds are those the header promises.
+
+TEST_P(FastMath, CubeRootIsExactTo1e9) {
+    // 1e-30 and 1e30 as floats lie on either side of the promised ends, by half an ulp at most.
+    const auto x = geometric(1e-30, 1e30);
+    std::vector<double> root(kCount);
+    HWY_DYNAMIC_DISPATCH(CubeRoots)(x.data(), kCount, root.data());
+    double worst = 0, at = 0;
+    for (size_t i = 0; i < kCount; ++i) {
+        const double exact = std::cbrt(double(x[i])), off = std::abs(root[i] / exact - 1);
+        if (!(off <= worst)) {
+            worst = off;
+            at = double(x[i]);
+        }
+    }
+    EXPECT_LE(worst, 1e-9) << "at " << at;
+}
+
+TEST_P(FastMath, Log2IsExactTo3e7) {
+    const auto x = geometric(1.17549435e-38, 3.4028234e38);
+    std::vector<double> log(kCount);
+    HWY_DYNAMIC_DISPATCH(Logs)(x.data(), kCount, log.data());
+    double worst = 0, at = 0;
+    for (size_t i = 0; i < kCount; ++i) {
+        const double exact = std::log2(double(x[i]));
+        const double off = std::abs(log[i] - exact) / (1 + std::abs(exact));
+        if (!(off <= worst)) {
+            worst = off;
+            at = double(x[i]);
+        }
+    }
+    EXPECT_LT(worst, 3e-7) << "at " << at;
+}
+
+TEST_P(FastMath, Log2OfPowersOfTwoIsExact) {
+    std::vector<float> x(256, 1.0f);
+    for (int e = -126; e <= 127; ++e)
+        x[size_t(e + 126)] = std::ldexp(1.0f, e);
+    std::vector<double> log(x.size());
+    HWY_DYNAMIC_DISPATCH(Logs)(x.data(), x.size(), log.data());
+    for (int e = -126; e <= 127; ++e)
+        EXPECT_EQ(log[size_t(e + 126)], e);
+}
+
+TEST_P(FastMath, Exp2IsExactTo3e7) {
+    std::vector<float> x(kCount);
+    for (size_t i = 0; i < kCount; ++i)
+        x[i] = float(-126.0 + 253.0 * double(i) / double(kCount - 1));
+    std::vector<double> power(kCount);
+    HWY_DYNAMIC_DISPATCH(Powers)(x.data(), kCount, power.data());
+    double worst = 0, at = 0;
+    for (size_t i = 0; i < kCount; ++i) {
+        const double off = std::abs(power[i] / std::exp2(double(x[i])) - 1);
+        if (!(off <= worst)) {
+            worst = off;
+            at = double(x[i]);
+        }
+    }
+    EXPECT_LT(worst, 3e-7) << "at " << at;
+}
+
+TEST_P(FastMath, Exp2OfWholeNumbersIsExact) {
+    std::vector<float> x(256, 0.0f);
+    for (int e = -126; e <= 127; ++e)
+        x[size_t(e + 126)] = float(e);
+    std::vector<double> power(x.size());
+    HWY_DYNAMIC_DISPATCH(Powers)(x.data(), x.size(), power.data());
+    for (int e = -126; e <= 127; ++e)
+        EXPECT_EQ(power[size_t(e + 126)], std::ldexp(1.0, e));
+}
+
+INSTANTIATE_TEST_SUITE_P(Targets, FastMath, testing::ValuesIn(hwy::SupportedAndGeneratedTargets()),
+                         [](const auto& test) { return hwy::TargetName(test.param); });
+
+} // namespace
+} // namespace tonetool::kernels
+#endif

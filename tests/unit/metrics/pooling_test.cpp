@@ -1,0 +1,116 @@
+#include "metrics/pooling.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <random>
+#include <vector>
+
+namespace tonetool::metrics {
+namespace {
+
+std::vector<float> random_map(size_t n) {
+    std::mt19937 random(3);
+    std::vector<float> map(n);
+    for (float& v : map)
+        v = float(random()) * 0x1p-32f;
+    return map;
+}
+
+TEST(Pool, AgreesWithBruteForce) {
+    constexpr int width = 31, height = 23;
+    auto map = random_map(size_t(width) * size_t(height));
+    map[100] = 0.0f;
+    map[200] = 1.0f;
+    const FlipPool p = pool(map.data(), width, height, width, 0, 0);
+    // A sum of doubles in another order.
+    EXPECT_NEAR(p.mean, std::accumulate(map.begin(), map.end(), 0.0) / double(map.size()), 1e-14);
+    EXPECT_EQ(p.pixels, width * height);
+    EXPECT_EQ(p.min, 0.0);
+    EXPECT_EQ(p.min_x, 100 % width);
+    EXPECT_EQ(p.min_y, 100 / width);
+    EXPECT_EQ(p.max, 1.0);
+    EXPECT_EQ(p.max_x, 200 % width);
+    EXPECT_EQ(p.max_y, 200 / width);
+    std::array<int64_t, 100> histogram{};
+    for (float v : map)
+        ++histogram[std::min<size_t>(99, size_t(double(v) * 100))];
+    EXPECT_EQ(p.histogram, histogram);
+    std::sort(map.begin(), map.end());
+    const auto rank = [&](double share) {
+        return double(map[size_t(std::ceil(share * double(map.size()))) - 1]);
+    };
+    EXPECT_EQ(p.p50, rank(0.5));
+    EXPECT_EQ(p.p95, rank(0.95));
+    EXPECT_EQ(p.p99, rank(0.99));
+    EXPECT_EQ(p.p999, rank(0.999));
+    EXPECT_LE(p.weighted_q1, p.weighted_median);
+    EXPECT_LE(p.weighted_median, p.weighted_q3);
+    EXPECT_GT(p.weighted_median, p.p50) << "error mass lies above the pixels' median";
+}
+
+TEST(Pool, FindsTheFirstExtremes) {
+    const std::vector<float> map = {0.5f, 0.9f, 0.1f, 0.9f, 0.1f, 0.5f};
+    const FlipPool p = pool(map.data(), 3, 2, 3, -10, 20);
+    EXPECT_EQ(p.max_x, -9);
+    EXPECT_EQ(p.max_y, 20);
+    EXPECT_EQ(p.min_x, -8);
+    EXPECT_EQ(p.min_y, 20);
+}
+
+TEST(Pool, StridedMapsGiveTheSameBits) {
+    constexpr int width = 17, height = 12, stride = 29;
+    const auto map = random_map(size_t(width) * size_t(height));
+    std::vector<float> padded(size_t(stride) * size_t(height), 7.0f);
+    for (int y = 0; y < height; ++y)
+        std::copy_n(map.data() + y * width, width, padded.data() + y * stride);
+    const FlipPool a = pool(map.data(), width, height, width, 0, 0);
+    const FlipPool b = pool(padded.data(), width, height, stride, 0, 0);
+    const auto figures = [](const FlipPool& p) {
+        return std::vector<double>{p.mean,          p.weighted_q1,   p.weighted_median,
+                                   p.weighted_q3,   p.p50,           p.p95,
+                                   p.p99,           p.p999,          p.min,
+                                   p.max,           double(p.min_x), double(p.min_y),
+                                   double(p.max_x), double(p.max_y), double(p.pixels)};
+    };
+    EXPECT_EQ(figures(a), figures(b));
+    EXPECT_EQ(a.histogram, b.histogram);
+}
+
+TEST(Pool, ConstantMaps) {
+    for (float value : {0.0f, 0.25f, 1.0f}) {
+        const std::vector<float> map(60, value);
+        const FlipPool p = pool(map.data(), 10, 6, 10, 0, 0);
+        for (double v : {p.mean, p.min, p.max, p.p50, p.p999, p.weighted_q1, p.weighted_q3})
+            EXPECT_EQ(v, double(value));
+        EXPECT_EQ(p.histogram[std::min<size_t>(99, size_t(value * 100))], 60);
+        EXPECT_EQ(p.max_x, 0);
+        EXPECT_EQ(p.max_y, 0);
+    }
+}
+
+TEST(Pool, OnePixelAndNone) {
+    const float one = 0.5f;
+    const FlipPool p = pool(&one, 1, 1, 1, 4, 5);
+    EXPECT_EQ(p.mean, 0.5);
+    EXPECT_EQ(p.weighted_median, 0.5);
+    EXPECT_EQ(p.max_x, 4);
+    EXPECT_EQ(p.min_y, 5);
+    EXPECT_EQ(p.pixels, 1);
+    EXPECT_EQ(pool(nullptr, 0, 5, 0, 0, 0).pixels, 0);
+}
+
+// 8K worth of equal errors: a sum in float would be 9 % off.
+TEST(Pool, MeanOfManyPixelsIsExact) {
+    const std::vector<float> row(8192, 0.1f);
+    constexpr int height = 4320;
+    // Every row is the same memory: stride 0.
+    const FlipPool p = pool(row.data(), 8192, height, 0, 0, 0);
+    EXPECT_NEAR(p.mean, double(0.1f), 1e-15); // 12 512 additions of rounding 2^-53, averaged
+    EXPECT_EQ(p.pixels, int64_t(8192) * height);
+}
+
+} // namespace
+} // namespace tonetool::metrics
