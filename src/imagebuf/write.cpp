@@ -1,6 +1,7 @@
 // Files that are either the old one or the whole new one.
 #include "include/tonetool/write.h"
 
+#include <OpenImageIO/deepdata.h>
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/strutil.h>
 #include <atomic>
@@ -115,15 +116,19 @@ public:
     }
 
     int fd() const { return m_fd; }
-    bool seekable() const { return !m_temporary.empty(); }
+    bool is_device() const { return m_temporary.empty(); }
+    /// What a writer is told to open: never the final name of a file.
+    const std::string& path() const { return is_device() ? m_final : m_temporary; }
 
 private:
+    // The temporary keeps the extension: some writers look at it.
     bool open_temporary(mode_t mode, std::string& error) {
         const auto slash = m_final.rfind('/');
         const std::string folder = slash == std::string::npos ? "" : m_final.substr(0, slash + 1);
-        std::string path =
-            folder + "." + m_final.substr(slash == std::string::npos ? 0 : slash + 1) + ".XXXXXX";
-        m_fd = ::mkostemp(path.data(), O_CLOEXEC);
+        const std::string base = m_final.substr(slash == std::string::npos ? 0 : slash + 1);
+        const std::string extension = OIIO::Filesystem::extension(base);
+        std::string path = folder + "." + base + ".XXXXXX" + extension;
+        m_fd = ::mkostemps(path.data(), int(extension.size()), O_CLOEXEC);
         if (m_fd < 0) {
             error =
                 "cannot create a file in \"" + (folder.empty() ? "." : folder) + "\": " + reason();
@@ -150,12 +155,10 @@ private:
 // OpenImageIO's writers write through this; the first failure is kept, whatever they make of it.
 class CheckedProxy final : public OIIO::Filesystem::IOProxy {
 public:
-    CheckedProxy(const std::string& name, const Target& target)
-        : IOProxy(name, Write),
-          m_target(target) {}
+    explicit CheckedProxy(const Target& target) : IOProxy(target.path(), Write), m_target(target) {}
     const char* proxytype() const override { return "tonetool"; }
     bool seek(int64_t offset) override {
-        if (!m_target.seekable() && offset != m_pos)
+        if (m_target.is_device() && offset != m_pos)
             return note("cannot seek in a device or pipe");
         m_pos = offset;
         return true;
@@ -169,9 +172,9 @@ public:
         size_t done = 0;
         while (done < size && m_failure.empty()) {
             const char* from = static_cast<const char*>(data) + done;
-            const ssize_t n = m_target.seekable() ? ::pwrite(m_target.fd(), from, size - done,
-                                                             offset + int64_t(done))
-                                                  : ::write(m_target.fd(), from, size - done);
+            const ssize_t n = m_target.is_device() ? ::write(m_target.fd(), from, size - done)
+                                                   : ::pwrite(m_target.fd(), from, size - done,
+                                                              offset + int64_t(done));
             if (n < 0 && errno == EINTR)
                 continue;
             if (n <= 0)
@@ -243,6 +246,33 @@ bool check_images(const std::vector<OutputImage>& images, const OIIO::ImageOutpu
     return true;
 }
 
+// Reads every pixel of a file back; a writer that buffers may not notice that its last bytes were
+// lost.
+bool reads_back(const std::string& path, size_t subimages, std::string& error) {
+    const auto in = OIIO::ImageInput::open(path);
+    for (int s = 0; in && s < int(subimages); ++s) {
+        const OIIO::ImageSpec spec = in->spec(s, 0);
+        if (spec.undefined())
+            break;
+        OIIO::DeepData deep;
+        std::vector<unsigned char> pixels(spec.deep ? 0 : spec.image_bytes(true));
+        const bool read = spec.deep ? in->read_native_deep_image(s, 0, deep)
+                                    : in->read_image(s, 0, 0, -1, OIIO::TypeUnknown, pixels.data());
+        if (!read)
+            break;
+        if (s + 1 == int(subimages))
+            return true;
+    }
+    error = "the file that was written cannot be read back: " +
+            (in ? in->geterror() : OIIO::geterror());
+    return false;
+}
+
+// TIFF files with Exif data come out corrupt through a proxy (OpenImageIO 2.4, libtiff 4.5).
+bool takes_proxy(const OIIO::ImageOutput& out) {
+    return out.supports("ioproxy") && std::strcmp(out.format_name(), "tiff") != 0;
+}
+
 bool write_checked(const std::vector<OutputImage>& images, const std::string& filename,
                    std::string& error) {
     const auto out = OIIO::ImageOutput::create(filename);
@@ -252,21 +282,26 @@ bool write_checked(const std::vector<OutputImage>& images, const std::string& fi
     }
     if (!check_images(images, *out, error))
         return false;
-    if (!out->supports("ioproxy")) {
-        error = format("{} files cannot be written safely (the format cannot write through a "
-                       "proxy)",
-                       out->format_name());
-        return false;
-    }
     Target target(filename);
     if (!target.open(error))
         return false;
-    CheckedProxy proxy(filename, target);
-    out->set_ioproxy(&proxy);
-    const bool written = write_through(*out, images, filename, error);
+    CheckedProxy proxy(target);
+    if (takes_proxy(*out))
+        out->set_ioproxy(&proxy);
+    else if (target.is_device()) {
+        error = format("{} files cannot be written to a device or pipe", out->format_name());
+        return false;
+    }
+    const bool written = write_through(*out, images, target.path(), error);
     if (!proxy.failure().empty())
         error = proxy.failure();
-    return written && proxy.failure().empty() && target.commit(error);
+    if (!written || !proxy.failure().empty())
+        return false;
+    // Writers without a proxy, and those that pass it over (several subimages, deep pixels), have
+    // opened the file by its name.
+    if (proxy.size() == 0 && !reads_back(target.path(), images.size(), error))
+        return false;
+    return target.commit(error);
 }
 
 template <class F>
@@ -301,7 +336,7 @@ bool write_bytes(const std::string& bytes, const std::string& filename, std::str
         Target target(filename);
         if (!target.open(error))
             return false;
-        CheckedProxy proxy(filename, target);
+        CheckedProxy proxy(target);
         proxy.write(bytes.data(), bytes.size());
         error = proxy.failure();
         return error.empty() && target.commit(error);
