@@ -89,8 +89,7 @@ std::vector<Command> color_commands() {
          1,
          1,
          {},
-         "Show values as colours: inferno, viridis, magma, turbo, plasma, blue-red, spectrum, "
-         "heat, or RGB triples",
+         "Show values as colours: " + join(ToneAlgo::color_maps(), ", ") + ", or RGB triples",
          Group::Color,
          run_colormap},
         {{"luminancestats"},

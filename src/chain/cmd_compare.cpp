@@ -116,7 +116,7 @@ void run_hdrflip(Session& session, const Call& call) {
     for (size_t i = 0; i < compared.maps.size(); ++i) {
         FlipResult& result = compared.results[i];
         report(session, call, result.summary, i);
-        judge(session, call.row().label(), result.summary.pool, thresholds);
+        judge(session, call, result.summary.pool, thresholds, i);
         save_exposures(call, result, i);
         if (exposure_map) {
             push_map(session, call,
@@ -142,7 +142,7 @@ void run_ldrflip(Session& session, const Call& call) {
     (void)call.flag("print", true);
     Compared compared = compare(session, call, ldr_function(options));
     report(session, call, compared.results[0].summary, 0);
-    judge(session, call.row().label(), compared.results[0].summary.pool, thresholds);
+    judge(session, call, compared.results[0].summary.pool, thresholds);
     push_map(session, call, std::move(compared.maps[0]));
 }
 
@@ -162,7 +162,7 @@ void run_flipdiff(Session& session, const Call& call) {
     Compared compared = compare(session, call, hdr ? hdr_function : ldr_function(options));
     const FlipSummary& summary = compared.results[0].summary;
     report(session, call, summary, 0);
-    bool failed = judge(session, call.row().label(), summary.pool, thresholds);
+    bool failed = judge(session, call, summary.pool, thresholds);
     if (failed) {
         session.print("FAILURE");
     } else if (thresholds.fail) {
@@ -189,7 +189,7 @@ void run_filmstrip(Session& session, const Call& call) {
                                             &results[0]);
         });
     report(session, call, compared.results[0].summary, 0);
-    judge(session, call.row().label(), compared.results[0].summary.pool, thresholds);
+    judge(session, call, compared.results[0].summary.pool, thresholds);
     compared.maps[0].specmod().attribute("oiio:ColorSpace", "sRGB");
     push_map(session, call, std::move(compared.maps[0]));
 }

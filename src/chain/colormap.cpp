@@ -1,20 +1,12 @@
 #include "chain/colormap.h"
 
-#include <OpenImageIO/imagebufalgo.h>
-#include <algorithm>
-
 #include "chain/call.h"
 #include "chain/error.h"
+#include "include/tonetool/display.h"
 
 namespace tonetool::chain {
 
 namespace {
-
-const Strings& map_names() {
-    static const Strings names = {"inferno", "viridis",  "magma",    "turbo",
-                                  "plasma",  "blue-red", "spectrum", "heat"};
-    return names;
-}
 
 bool is_list(const std::string& map) {
     return map.find(',') != std::string::npos;
@@ -38,30 +30,19 @@ void check_colormap(const std::string& map) {
     if (is_list(map)) {
         knots_of(map);
     } else {
-        check_choice("colour map", map, map_names());
+        check_choice("colour map", map, ToneAlgo::color_maps());
     }
 }
 
 OIIO::ImageBuf colored(const OIIO::ImageBuf& pixels, const std::string& map) {
     check_colormap(map);
-    int channel = pixels.nchannels() < 3 ? 0 : -1;
+    const int channel = pixels.nchannels() < 3 ? 0 : -1;
     OIIO::ImageBuf result;
-    if (is_list(map)) {
-        std::vector<float> knots = knots_of(map);
-        int count = static_cast<int>(knots.size() / 3);
-        result = OIIO::ImageBufAlgo::color_map(pixels, channel, count, 3, knots);
-    } else {
-        result = OIIO::ImageBufAlgo::color_map(pixels, channel, map);
-    }
-    if (result.has_error()) {
+    const bool done = is_list(map) ? ToneAlgo::color_map(result, pixels, knots_of(map), channel)
+                                   : ToneAlgo::color_map(result, pixels, map, channel);
+    if (!done) {
         throw CommandError(result.geterror());
     }
-    OIIO::ImageSpec& spec = result.specmod();
-    spec.channelnames = {"R", "G", "B"};
-    spec.alpha_channel = -1;
-    spec.z_channel = -1;
-    spec.attribute("oiio:ColorSpace", "sRGB");
-    spec.erase_attribute("chromaticities");
     return result;
 }
 

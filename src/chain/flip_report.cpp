@@ -86,15 +86,17 @@ std::string summary_text(const std::string& label, const FlipSummary& summary,
     return lines.text;
 }
 
-bool judge(Session& session, const std::string& label, const FlipPool& pool,
-           const Thresholds& thresholds) {
+bool judge(Session& session, const Call& call, const FlipPool& pool, const Thresholds& thresholds,
+           size_t test) {
+    const std::string label = call.row().label();
+    const std::string of = " (" + call.images.at(test + 1)->name() + ")";
     auto value = ToneAlgo::flip_quantity(pool, thresholds.quantity);
     if (!value) {
         throw CommandError("unknown quantity \"" + thresholds.quantity + "\"");
     }
     auto compared = [&](const char* sign, double limit) {
         return thresholds.quantity + " " + format_apart(*value, limit) + sign +
-               format_apart(limit, *value);
+               format_apart(limit, *value) + of;
     };
     if (thresholds.warn && !(*value <= *thresholds.warn)) {
         session.warning(label, compared(" > ", *thresholds.warn));

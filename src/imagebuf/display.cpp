@@ -23,20 +23,19 @@ bool fail(ImageBuf& dst, const char* function, const std::string& why) {
     return false;
 }
 
-// One channel within [0,1], NaN as 0.
-ImageBuf unit_channel(const ImageBuf& src, int channel, ROI roi, int nthreads) {
-    const int order[1] = {channel};
-    ImageBuf one = IBA::channels(IBA::cut(src, roi, nthreads), 1, order, {}, {}, false, nthreads);
-    one.set_origin(roi.xbegin, roi.ybegin);
+// Values within [0,1], NaN as 0.
+ImageBuf unit_values(const ImageBuf& src, ROI roi, int nthreads) {
+    const ImageBuf part = IBA::crop(src, roi, nthreads);
     ImageBuf fixed;
-    IBA::fixNonFinite(fixed, one, IBA::NONFINITE_BLACK, nullptr, {}, nthreads);
+    IBA::fixNonFinite(fixed, part, IBA::NONFINITE_BLACK, nullptr, {}, nthreads);
     return IBA::clamp(fixed, 0.0f, 1.0f, false, {}, nthreads);
 }
 
 template <class Map>
 bool mapped(ImageBuf& dst, const ImageBuf& src, int channel, ROI roi, int nthreads,
             const Map& map) {
-    if (!src.initialized() || src.deep() || channel < 0 || channel >= src.nchannels())
+    if (!src.initialized() || src.deep() || channel < -1 || channel >= src.nchannels() ||
+        (channel == -1 && src.nchannels() < 3))
         return fail(dst, "color_map",
                     OIIO::Strutil::fmt::format("needs channel {} of a flat image; there are {}",
                                                channel, src.nchannels()));
@@ -44,10 +43,13 @@ bool mapped(ImageBuf& dst, const ImageBuf& src, int channel, ROI roi, int nthrea
         if (!roi.defined())
             roi = src.roi();
         ImageBuf linear;
-        if (!map(linear, unit_channel(src, channel, roi, nthreads)))
+        if (!map(linear, unit_values(src, roi, nthreads)))
             return fail(dst, "color_map", linear.geterror());
         linear.set_roi_full(src.roi_full());
-        linear.specmod().channelnames = {"R", "G", "B"};
+        OIIO::ImageSpec& spec = linear.specmod();
+        spec.channelnames = {"R", "G", "B"};
+        spec.alpha_channel = spec.z_channel = -1;
+        spec.erase_attribute("chromaticities");
         return ToneAlgo::encode_srgb(dst, linear, {}, nthreads);
     } catch (const std::exception& e) {
         return fail(dst, "color_map", e.what());
@@ -66,7 +68,7 @@ bool color_map(ImageBuf& dst, const ImageBuf& src, const std::string& map, int c
                     "unknown colour map \"" + map +
                         "\"; valid: " + OIIO::Strutil::join(names, ", "));
     return mapped(dst, src, channel, roi, nthreads, [&](ImageBuf& out, const ImageBuf& values) {
-        return IBA::color_map(out, values, 0, map, {}, nthreads);
+        return IBA::color_map(out, values, channel, map, {}, nthreads);
     });
 }
 
@@ -76,7 +78,8 @@ bool color_map(ImageBuf& dst, const ImageBuf& src, const std::vector<float>& tri
         return fail(dst, "color_map",
                     std::to_string(triples.size()) + " numbers: must be two or more RGB triples");
     return mapped(dst, src, channel, roi, nthreads, [&](ImageBuf& out, const ImageBuf& values) {
-        return IBA::color_map(out, values, 0, int(triples.size() / 3), 3, triples, {}, nthreads);
+        return IBA::color_map(out, values, channel, int(triples.size() / 3), 3, triples, {},
+                              nthreads);
     });
 }
 

@@ -9,11 +9,11 @@
 
 namespace tonetool::ToneAlgo {
 
-/// False colours for a screen: one channel of `src`, 0 to 1 (values beyond are clamped, NaN is 0),
-/// through one of OpenImageIO's colour maps, or through two or more evenly spaced RGB triples.
-/// OpenImageIO's maps are in linear light; here they are sRGB-encoded, so that a PNG shows the
-/// colours that the maps are known for, and tagged so. dst: R, G, B. An unknown name is an error
-/// that lists the valid ones.
+/// False colours for a screen: one channel of `src` (-1: the luminance of the first three), 0 to 1
+/// (values beyond are clamped, NaN is 0), through one of OpenImageIO's colour maps, or through two
+/// or more evenly spaced RGB triples. OpenImageIO's maps are in linear light; here they are
+/// sRGB-encoded, so that a PNG shows the colours that the maps are known for, and tagged so. dst:
+/// R, G, B. An unknown name is an error that lists the valid ones.
 TONETOOL_API bool color_map(OIIO::ImageBuf& dst, const OIIO::ImageBuf& src, const std::string& map,
                             int channel = 0, OIIO::ROI roi = {}, int nthreads = 0);
 TONETOOL_API bool color_map(OIIO::ImageBuf& dst, const OIIO::ImageBuf& src,
