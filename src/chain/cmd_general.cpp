@@ -5,7 +5,7 @@
 #include "chain/error.h"
 #include "chain/help.h"
 #include "chain/session.h"
-#include "tonetool/export.h"
+#include "include/tonetool/export.h"
 
 namespace tonetool::chain {
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "chain/call.h"
-#include "tonetool/tonetool.h"
+#include "include/tonetool/tonetool.h"
 
 namespace tonetool::chain {
 

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "tonetool/export.h"
+#include "include/tonetool/export.h"
 
 namespace tonetool::chain {
 

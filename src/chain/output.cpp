@@ -7,7 +7,7 @@
 #include "chain/channels.h"
 #include "chain/error.h"
 #include "chain/oiio_compat.h"
-#include "tonetool/tonetool.h"
+#include "include/tonetool/tonetool.h"
 
 namespace tonetool::chain {
 

@@ -21,63 +21,63 @@ struct Split {
 /// Cube root of x in [1e-30, 1e30]; the sum is exact to 1e-9 relative. `high` is so short that its
 /// cube is exact in float, hence also what is missing, x - high^3; the rest is a series in it.
 template <class D, class V = hn::Vec<D>>
-HWY_INLINE Split<V> CubeRoot(D d, V x) {
+HWY_INLINE Split<V> CubeRoot(D tag, V x) {
     const hn::RebindToSigned<D> di;
     // A third of the exponent as the first guess (3 % off), a Halley step cubes the error.
-    const V third = hn::Mul(hn::ConvertTo(d, hn::BitCast(di, x)), hn::Set(d, 1.0f / 3.0f));
-    V y = hn::BitCast(d, hn::ConvertTo(di, hn::Add(third, hn::Set(d, 709921077.0f))));
+    const V third = hn::Mul(hn::ConvertTo(tag, hn::BitCast(di, x)), hn::Set(tag, 1.0f / 3.0f));
+    V y = hn::BitCast(tag, hn::ConvertTo(di, hn::Add(third, hn::Set(tag, 709921077.0f))));
     const V cube = hn::Mul(hn::Mul(y, y), y);
-    const V two = hn::Set(d, 2.0f);
+    const V two = hn::Set(tag, 2.0f);
     y = hn::Mul(y, hn::Div(hn::MulAdd(two, x, cube), hn::MulAdd(two, cube, x)));
     const auto rounded = hn::Add(hn::BitCast(di, y), hn::Set(di, 0x8000));
-    const V high = hn::BitCast(d, hn::And(rounded, hn::Set(di, int32_t(0xffff0000))));
+    const V high = hn::BitCast(tag, hn::And(rounded, hn::Set(di, int32_t(0xffff0000))));
     const V high_cube = hn::Mul(hn::Mul(high, high), high);
     const V u = hn::Div(hn::Sub(x, high_cube), high_cube);
     // (1 + u)^(1/3) - 1, |u| < 0.012
-    V p = hn::Set(d, -10.0f / 243.0f);
-    p = hn::MulAdd(p, u, hn::Set(d, 5.0f / 81.0f));
-    p = hn::MulAdd(p, u, hn::Set(d, -1.0f / 9.0f));
-    p = hn::MulAdd(p, u, hn::Set(d, 1.0f / 3.0f));
+    V p = hn::Set(tag, -10.0f / 243.0f);
+    p = hn::MulAdd(p, u, hn::Set(tag, 5.0f / 81.0f));
+    p = hn::MulAdd(p, u, hn::Set(tag, -1.0f / 9.0f));
+    p = hn::MulAdd(p, u, hn::Set(tag, 1.0f / 3.0f));
     return {high, hn::Mul(high, hn::Mul(p, u))};
 }
 
 /// log2 of a normal x > 0; absolute error below 3e-7 (1 + |log2 x|).
 /// x = 2^e m with m in [sqrt(1/2), sqrt(2)); log2 m = 2/ln 2 artanh((m - 1) / (m + 1)).
 template <class D, class V = hn::Vec<D>>
-HWY_INLINE V Log2(D d, V x) {
+HWY_INLINE V Log2(D tag, V x) {
     const hn::RebindToSigned<D> di;
     const auto sqrt_half = hn::Set(di, 0x3f3504f3);
     const auto shifted = hn::Sub(hn::BitCast(di, x), sqrt_half);
     const auto exponent = hn::ShiftRight<23>(shifted);
-    const V m = hn::BitCast(d, hn::Sub(hn::BitCast(di, x), hn::ShiftLeft<23>(exponent)));
-    const V one = hn::Set(d, 1.0f);
+    const V m = hn::BitCast(tag, hn::Sub(hn::BitCast(di, x), hn::ShiftLeft<23>(exponent)));
+    const V one = hn::Set(tag, 1.0f);
     const V s = hn::Div(hn::Sub(m, one), hn::Add(m, one));
     const V s2 = hn::Mul(s, s);
     constexpr double c = 2.885390081777927; // 2 / ln 2
-    V p = hn::Set(d, float(c / 9));
-    p = hn::MulAdd(p, s2, hn::Set(d, float(c / 7)));
-    p = hn::MulAdd(p, s2, hn::Set(d, float(c / 5)));
-    p = hn::MulAdd(p, s2, hn::Set(d, float(c / 3)));
-    p = hn::MulAdd(p, s2, hn::Set(d, float(c)));
-    return hn::MulAdd(p, s, hn::ConvertTo(d, exponent));
+    V p = hn::Set(tag, float(c / 9));
+    p = hn::MulAdd(p, s2, hn::Set(tag, float(c / 7)));
+    p = hn::MulAdd(p, s2, hn::Set(tag, float(c / 5)));
+    p = hn::MulAdd(p, s2, hn::Set(tag, float(c / 3)));
+    p = hn::MulAdd(p, s2, hn::Set(tag, float(c)));
+    return hn::MulAdd(p, s, hn::ConvertTo(tag, exponent));
 }
 
 /// 2^x for x in [-126, 127]; relative error below 3e-7. Taylor series of e^(f ln 2), |f| <= 1/2.
 template <class D, class V = hn::Vec<D>>
-HWY_INLINE V Exp2(D d, V x) {
+HWY_INLINE V Exp2(D tag, V x) {
     const hn::RebindToSigned<D> di;
     const V whole = hn::Round(x);
     const V f = hn::Sub(x, whole);
-    V p = hn::Set(d, 1.525273380405984e-5f);
-    p = hn::MulAdd(p, f, hn::Set(d, 1.540353039338161e-4f));
-    p = hn::MulAdd(p, f, hn::Set(d, 1.333355814642844e-3f));
-    p = hn::MulAdd(p, f, hn::Set(d, 9.618129107628477e-3f));
-    p = hn::MulAdd(p, f, hn::Set(d, 5.550410866482158e-2f));
-    p = hn::MulAdd(p, f, hn::Set(d, 2.402265069591007e-1f));
-    p = hn::MulAdd(p, f, hn::Set(d, 6.931471805599453e-1f));
-    p = hn::MulAdd(p, f, hn::Set(d, 1.0f));
+    V p = hn::Set(tag, 1.525273380405984e-5f);
+    p = hn::MulAdd(p, f, hn::Set(tag, 1.540353039338161e-4f));
+    p = hn::MulAdd(p, f, hn::Set(tag, 1.333355814642844e-3f));
+    p = hn::MulAdd(p, f, hn::Set(tag, 9.618129107628477e-3f));
+    p = hn::MulAdd(p, f, hn::Set(tag, 5.550410866482158e-2f));
+    p = hn::MulAdd(p, f, hn::Set(tag, 2.402265069591007e-1f));
+    p = hn::MulAdd(p, f, hn::Set(tag, 6.931471805599453e-1f));
+    p = hn::MulAdd(p, f, hn::Set(tag, 1.0f));
     const auto bits = hn::Add(hn::ConvertTo(di, whole), hn::Set(di, 127));
-    return hn::Mul(p, hn::BitCast(d, hn::ShiftLeft<23>(bits)));
+    return hn::Mul(p, hn::BitCast(tag, hn::ShiftLeft<23>(bits)));
 }
 
 } // namespace tonetool::kernels::HWY_NAMESPACE

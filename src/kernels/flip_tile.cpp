@@ -12,120 +12,12 @@
 // After foreach_target.h, which includes this file once per instruction set.
 #include <hwy/highway.h>
 
-#include "kernels/fast_math-inl.h"
+#include "kernels/hunt_lab-inl.h"
+#include "kernels/tone_curve-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace tonetool::kernels::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
-
-using D = hn::ScalableTag<float>;
-using V = hn::Vec<D>;
-constexpr D d{};
-
-struct Color {
-    V c0, c1, c2;
-};
-
-// A 3x3 matrix times diagonal scalings, in float.
-struct Matrix {
-    float m[3][3];
-    HWY_INLINE Color operator()(const Color& v) const {
-        return {Row(m[0], v), Row(m[1], v), Row(m[2], v)};
-    }
-    static HWY_INLINE V Row(const float (&r)[3], const Color& v) {
-        V sum = hn::Mul(hn::Set(d, r[0]), v.c0);
-        sum = hn::MulAdd(hn::Set(d, r[1]), v.c1, sum);
-        return hn::MulAdd(hn::Set(d, r[2]), v.c2, sum);
-    }
-};
-
-// Linear RGB to XYZ relative to white, and back.
-Matrix ToRelativeXyz() {
-    Matrix out;
-    for (int i = 0; i < 3; ++i)
-        for (int j = 0; j < 3; ++j)
-            out.m[i][j] = float(kRgbToXyz[i][j] / kWhite[i]);
-    return out;
-}
-
-Matrix FromRelativeXyz() {
-    Matrix out;
-    for (int i = 0; i < 3; ++i)
-        for (int j = 0; j < 3; ++j)
-            out.m[i][j] = float(kXyzToRgb[i][j] * kWhite[j]);
-    return out;
-}
-
-HWY_INLINE V Clamp01(V v) {
-    return hn::Min(hn::Max(v, hn::Zero(d)), hn::Set(d, 1.0f));
-}
-
-HWY_INLINE V Rational(const float (&k)[6], V x) {
-    const V up = hn::MulAdd(hn::MulAdd(hn::Set(d, k[0]), x, hn::Set(d, k[1])), x, hn::Set(d, k[2]));
-    const V down =
-        hn::MulAdd(hn::MulAdd(hn::Set(d, k[3]), x, hn::Set(d, k[4])), x, hn::Set(d, k[5]));
-    return hn::Div(up, down);
-}
-
-// Each curve is a type, so that the pixel loop holds no branch.
-struct NoCurve {
-    explicit NoCurve(const ToneCurve&) {}
-    HWY_INLINE Color operator()(const Color& x) const { return x; }
-};
-
-struct RationalCurve {
-    float k[6];
-    explicit RationalCurve(const ToneCurve& curve) {
-        for (size_t i = 0; i < 6; ++i)
-            k[i] = float(curve.k[i]);
-    }
-    HWY_INLINE Color operator()(const Color& x) const {
-        return {Rational(k, x.c0), Rational(k, x.c1), Rational(k, x.c2)};
-    }
-};
-
-struct ReinhardCurve {
-    explicit ReinhardCurve(const ToneCurve&) {}
-    HWY_INLINE Color operator()(const Color& x) const {
-        V lum = hn::Mul(hn::Set(d, float(kLuminance[0])), x.c0);
-        lum = hn::MulAdd(hn::Set(d, float(kLuminance[1])), x.c1, lum);
-        lum = hn::MulAdd(hn::Set(d, float(kLuminance[2])), x.c2, lum);
-        const V scale = hn::Div(hn::Set(d, 1.0f), hn::Add(hn::Set(d, 1.0f), lum));
-        return {hn::Mul(x.c0, scale), hn::Mul(x.c1, scale), hn::Mul(x.c2, scale)};
-    }
-};
-
-template <class Curve>
-HWY_INLINE Color Display(const Curve& curve, const Color& linear, V scale) {
-    const V limit = hn::Set(d, kLargestExposed);
-    const Color y = curve(Color{hn::Min(hn::Mul(linear.c0, scale), limit),
-                                hn::Min(hn::Mul(linear.c1, scale), limit),
-                                hn::Min(hn::Mul(linear.c2, scale), limit)});
-    return {Clamp01(y.c0), Clamp01(y.c1), Clamp01(y.c2)};
-}
-
-// Tone map `count` pixels, rounded up to whole vectors; `store(i, color)` takes them.
-template <class Curve, class Store>
-HWY_INLINE void ForDisplay(const float* const in[3], int64_t count, const Curve& curve, float scale,
-                           const Store& store) {
-    const V s = hn::Set(d, scale);
-    for (int64_t i = 0; i < count; i += int64_t(hn::Lanes(d)))
-        store(i, Display(curve,
-                         Color{hn::LoadU(d, in[0] + i), hn::LoadU(d, in[1] + i),
-                               hn::LoadU(d, in[2] + i)},
-                         s));
-}
-
-template <class Store>
-void WithCurve(const float* const in[3], int64_t count, const ToneCurve& curve, float scale,
-               const Store& store) {
-    if (curve.kind == ToneKind::Rational)
-        ForDisplay(in, count, RationalCurve(curve), scale, store);
-    else if (curve.kind == ToneKind::ReinhardLuminance)
-        ForDisplay(in, count, ReinhardCurve(curve), scale, store);
-    else
-        ForDisplay(in, count, NoCurve(curve), scale, store);
-}
 
 void ToneMapVectors(const float* const in[3], float* const out[3], int64_t count,
                     const ToneCurve& curve, float scale) {
@@ -184,57 +76,6 @@ void FilterRow(const float* y, const float* xy, const float* yz, int width,
         hn::StoreU(Odd(y + x, 1, taps.d1), d, out[kRowD1] + x);
         hn::StoreU(Even(y + x, 1, taps.d2), d, out[kRowD2] + x);
     }
-}
-
-// CIELAB f(t). E is as steep as h^0.7 at h = 0: f is kept to more than float precision, so that
-// its differences are limited by t alone.
-HWY_INLINE Split<V> LabF(V t) {
-    const V knee = hn::Set(d, float(kLabKnee));
-    const Split<V> root = CubeRoot(d, hn::Max(t, knee));
-    const auto above = hn::Gt(t, knee);
-    const V line = hn::MulAdd(t, hn::Set(d, float(kLabSlope)),
-                              hn::Set(d, float(kLabOffset - double(float(kLabOffset)))));
-    return {hn::IfThenElse(above, root.high, hn::Set(d, float(kLabOffset))),
-            hn::IfThenElse(above, root.low, line)};
-}
-
-struct Lab {
-    Split<V> l;
-    V a, b;
-};
-
-HWY_INLINE V Difference(const Split<V>& p, const Split<V>& q) {
-    return hn::Add(hn::Sub(p.high, q.high), hn::Sub(p.low, q.low));
-}
-
-// f(p) - f(q), given p - q to its own precision: by (p - q) / (f(p)^2 + f(p) f(q) + f(q)^2) where
-// both are cube roots.
-HWY_INLINE V LabStep(V p, V q, V p_minus_q, const Split<V>& fp, const Split<V>& fq) {
-    const V a = hn::Add(fp.high, fp.low), b = hn::Add(fq.high, fq.low);
-    const V sum = hn::MulAdd(a, hn::Add(a, b), hn::Mul(b, b));
-    return hn::IfThenElse(hn::Gt(hn::Min(p, q), hn::Set(d, float(kLabKnee))),
-                          hn::Div(p_minus_q, sum), Difference(fp, fq));
-}
-
-// Filtered opponent colour to Hunt-adjusted Lab. The clamp of RGB is applied as a correction of
-// XYZ, which is exactly nothing for colours inside the gamut.
-HWY_INLINE Lab HuntLab(const Matrix& to_xyz, const Matrix& to_rgb, V y, V xy, V yz) {
-    const Color rgb = to_rgb(Color{hn::Add(y, xy), y, hn::Sub(y, yz)});
-    const Color moved =
-        to_xyz(Color{hn::Sub(Clamp01(rgb.c0), rgb.c0), hn::Sub(Clamp01(rgb.c1), rgb.c1),
-                     hn::Sub(Clamp01(rgb.c2), rgb.c2)});
-    y = hn::Add(y, moved.c1);
-    xy = hn::Add(xy, hn::Sub(moved.c0, moved.c1));
-    yz = hn::Add(yz, hn::Sub(moved.c1, moved.c2));
-    const V x = hn::Add(y, xy), z = hn::Sub(y, yz);
-    const Split<V> fx = LabF(x), fy = LabF(y), fz = LabF(z);
-    const V scale = hn::Set(d, 116.0f);
-    // Exact: `high` has 8 bits, 116 has 5.
-    const Split<V> l = {hn::Sub(hn::Mul(scale, fy.high), hn::Set(d, 16.0f)),
-                        hn::Mul(scale, fy.low)};
-    const V light = hn::Add(l.high, l.low);
-    return {l, hn::Mul(hn::Mul(light, hn::Set(d, 5.0f)), LabStep(x, y, xy, fx, fy)),
-            hn::Mul(hn::Mul(light, hn::Set(d, 2.0f)), LabStep(y, z, yz, fy, fz))};
 }
 
 HWY_INLINE V Magnitude(V a, V b) {

@@ -5,7 +5,7 @@
 #include <iostream>
 
 #include "chain/chain.h"
-#include "tonetool/write.h"
+#include "include/tonetool/write.h"
 
 namespace {
 

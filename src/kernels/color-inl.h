@@ -1,0 +1,43 @@
+// Colours in lanes. Included once per target.
+#if defined(TONETOOL_KERNELS_COLOR_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef TONETOOL_KERNELS_COLOR_INL_H_
+#undef TONETOOL_KERNELS_COLOR_INL_H_
+#else
+#define TONETOOL_KERNELS_COLOR_INL_H_
+#endif
+
+#include <hwy/highway.h>
+
+HWY_BEFORE_NAMESPACE();
+namespace tonetool::kernels::HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+using D = hn::ScalableTag<float>;
+using V = hn::Vec<D>;
+constexpr D d{};
+
+struct Color {
+    V c0, c1, c2;
+};
+
+// A 3x3 matrix times diagonal scalings, in float.
+struct Matrix {
+    float m[3][3];
+    HWY_INLINE Color operator()(const Color& v) const {
+        return {Row(m[0], v), Row(m[1], v), Row(m[2], v)};
+    }
+    static HWY_INLINE V Row(const float (&r)[3], const Color& v) {
+        V sum = hn::Mul(hn::Set(d, r[0]), v.c0);
+        sum = hn::MulAdd(hn::Set(d, r[1]), v.c1, sum);
+        return hn::MulAdd(hn::Set(d, r[2]), v.c2, sum);
+    }
+};
+
+HWY_INLINE V Clamp01(V v) {
+    return hn::Min(hn::Max(v, hn::Zero(d)), hn::Set(d, 1.0f));
+}
+
+} // namespace tonetool::kernels::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif
