@@ -13,6 +13,9 @@ std::string window_text(const ROI& r) {
     return OIIO::Strutil::fmt::format("{}x{}{:+}{:+}", r.width(), r.height(), r.xbegin, r.ybegin);
 }
 
+// Of a region that is compared at once: 32 times an 8K frame.
+constexpr double kMostPixels = 1 << 30;
+
 bool same_window(const ROI& a, const ROI& b) {
     return a.xbegin == b.xbegin && a.xend == b.xend && a.ybegin == b.ybegin && a.yend == b.yend;
 }
@@ -30,20 +33,29 @@ ROI plane_of(ROI r) {
 bool compared_region(const ImageBuf& reference, const ImageBuf& test, SizePolicy size, ROI& region,
                      std::string& error) {
     const ROI ref_full = reference.roi_full(), test_full = test.roi_full();
+    if (size != SizePolicy::Crop && !same_window(ref_full, test_full)) {
+        error = "the reference's display window is " + window_text(ref_full) + ", the test's " +
+                window_text(test_full) + "; they must be the same, or ask for resize= or crop=";
+        return false;
+    }
     region = plane_of(OIIO::roi_union(reference.roi(), test.roi()));
     if (size == SizePolicy::Crop) {
         region = OIIO::roi_intersection(region, plane_of(ref_full));
         region = OIIO::roi_intersection(region, plane_of(test_full));
-        if (region.width() > 0 && region.height() > 0)
-            return true;
+    }
+    if (region.xbegin >= region.xend || region.ybegin >= region.yend) {
         error = "nothing to compare: the display windows " + window_text(ref_full) + " and " +
                 window_text(test_full) + " do not overlap";
         return false;
     }
-    if (same_window(ref_full, test_full))
+    // In double: corrupt windows overflow everything else.
+    const double pixels =
+        (double(region.xend) - region.xbegin) * (double(region.yend) - region.ybegin);
+    if (pixels <= kMostPixels)
         return true;
-    error = "the reference's display window is " + window_text(ref_full) + ", the test's " +
-            window_text(test_full) + "; they must be the same, or ask for resize= or crop=";
+    error = OIIO::Strutil::fmt::format("the union of the data windows has {} pixels, more than {}; "
+                                       "crop=1 compares the display window only",
+                                       pixels, kMostPixels);
     return false;
 }
 
