@@ -1,0 +1,126 @@
+#include "imagebuf/pair.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "images.h"
+
+namespace tonetool {
+namespace {
+
+using testing::HasSubstr;
+
+constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+
+ImageBuf window(ROI data, ROI display) {
+    auto spec = make_spec(data.width(), data.height(), {"R", "G", "B"});
+    spec.x = data.xbegin;
+    spec.y = data.ybegin;
+    spec.full_x = display.xbegin;
+    spec.full_y = display.ybegin;
+    spec.full_width = display.width();
+    spec.full_height = display.height();
+    return noise(spec, 1);
+}
+
+ROI rect(int x0, int x1, int y0, int y1) {
+    return {x0, x1, y0, y1, 0, 1, 0, 1};
+}
+
+TEST(ComparedRegion, IsTheUnionOfTheDataWindows) {
+    const ROI display = rect(0, 10, 0, 10);
+    ROI region;
+    std::string error;
+    ASSERT_TRUE(compared_region(window(rect(1, 4, 2, 5), display),
+                                window(rect(3, 9, -2, 3), display), SizePolicy::Match, region,
+                                error));
+    EXPECT_EQ(region, rect(1, 9, -2, 5));
+}
+
+TEST(ComparedRegion, DifferentDisplayWindowsAreAnError) {
+    ROI region;
+    std::string error;
+    EXPECT_FALSE(compared_region(window(rect(0, 10, 0, 8), rect(0, 10, 0, 8)),
+                                 window(rect(0, 10, 0, 8), rect(-1, 10, 2, 8)), SizePolicy::Match,
+                                 region, error));
+    for (const char* word : {"10x8+0+0", "11x6-1+2", "resize=", "crop="})
+        EXPECT_THAT(error, HasSubstr(word));
+}
+
+TEST(ComparedRegion, CropTakesTheCommonDisplayWindow) {
+    ROI region;
+    std::string error;
+    ASSERT_TRUE(compared_region(window(rect(0, 10, 0, 8), rect(0, 10, 0, 8)),
+                                window(rect(4, 20, 3, 20), rect(4, 20, 3, 20)), SizePolicy::Crop,
+                                region, error));
+    EXPECT_EQ(region, rect(4, 10, 3, 8));
+    EXPECT_FALSE(compared_region(window(rect(0, 4, 0, 4), rect(0, 4, 0, 4)),
+                                 window(rect(4, 8, 0, 4), rect(4, 8, 0, 4)), SizePolicy::Crop,
+                                 region, error));
+    EXPECT_THAT(error, HasSubstr("4x4+0+0 and 4x4+4+0 do not overlap"));
+}
+
+TEST(MendNonfinite, TakesTheOtherImagesPixel) {
+    const auto clean = noise(4, 1, 1), other = noise(4, 1, 2);
+    const auto r = with_pixel(with_pixel(clean, 0, 0, {kNan, 1, 1}), 2, 0, {1, kNan, 1});
+    const auto t = with_pixel(with_pixel(other, 1, 0, {1, 1, kNan}), 2, 0, {kNan, 1, 1});
+    ColorPlanes pr, pt;
+    std::string error;
+    ASSERT_TRUE(read_planes(r, {}, r.roi(), false, 1, pr, error));
+    ASSERT_TRUE(read_planes(t, {}, t.roi(), false, 1, pt, error));
+    EXPECT_EQ(mend_nonfinite(pr, pt), 1);
+    for (int p = 0; p < 3; ++p) {
+        EXPECT_EQ(pr.plane[p][0], pt.plane[p][0]);
+        EXPECT_EQ(pr.plane[p][0], pixel_of(other, 0, 0)[size_t(p)]);
+        EXPECT_EQ(pt.plane[p][1], pixel_of(clean, 1, 0)[size_t(p)]);
+        EXPECT_EQ(pr.plane[p][2], 0.0f);
+        EXPECT_EQ(pt.plane[p][2], 0.0f);
+        EXPECT_EQ(pr.plane[p][3], pixel_of(clean, 3, 0)[size_t(p)]);
+    }
+}
+
+FlipOptions with_size(SizePolicy size) {
+    FlipOptions options;
+    options.size = size;
+    return options;
+}
+
+TEST(FittedTest, ResizesToTheReferencesDisplayWindow) {
+    const auto reference = noise(20, 10, 1);
+    const auto test =
+        constant(make_spec(10, 5, {"Z", "B", "G", "R", "A"}), {9, 0.25f, 0.5f, 0.75f, 0.5f});
+    FittedTest fitted;
+    std::string error;
+    FlipOptions options = with_size(SizePolicy::Resize);
+    options.alpha = AlphaPolicy::Error;
+    ASSERT_TRUE(fitted.open(reference, test, options, 1, error)) << error;
+    EXPECT_EQ(fitted.region(), rect(0, 20, 0, 10));
+    ColorPlanes planes;
+    ASSERT_TRUE(fitted.read(true, 1, planes, error)) << error;
+    const float expected[3] = {0.75f, 0.5f, 0.25f};
+    for (int p = 0; p < 3; ++p)
+        for (float v : planes.plane[p]) // filter weights of a constant sum to 1 within rounding
+            EXPECT_NEAR(v, expected[p], 1e-6);
+    for (float a : planes.alpha)
+        EXPECT_NEAR(a, 0.5, 1e-6);
+}
+
+TEST(FittedTest, ResizeKeepsTheColorSpace) {
+    auto spec = make_spec(6, 6, {"R", "G", "B"});
+    spec.attribute("oiio:ColorSpace", "acescg");
+    const auto test = constant(spec, {0.2f, 0.5f, 0.1f});
+    ColorPlanes resized, plain;
+    std::string error;
+    FittedTest fitted;
+    ASSERT_TRUE(fitted.open(noise(12, 12, 1), test, with_size(SizePolicy::Resize), 1, error));
+    ASSERT_TRUE(fitted.read(false, 1, resized, error)) << error;
+    ASSERT_TRUE(read_planes(test, {}, test.roi(), false, 1, plain, error));
+    for (int p = 0; p < 3; ++p)
+        EXPECT_NEAR(resized.plane[p][70], plain.plane[p][0], 1e-6); // resampling's rounding
+    EXPECT_EQ(resized.choice.space, "acescg");
+}
+
+} // namespace
+} // namespace tonetool
