@@ -988,7 +988,8 @@ def test_saved_exposures_that_cannot_be_written(tonetool, two, tmp_path):
 def test_full_disk_after_a_pass(tonetool, two, name, tmp_path):
     (tmp_path / name).symlink_to("/dev/full")
     ran = tonetool(two[0], two[0], "--hdrflip:fail=0", "-o", name, status=1)
-    assert "No space left" in ran.err and name in ran.err
+    assert name in ran.err
+    assert "No space left" in ran.err or "cannot be written to a device" in ran.err  # TIFF seeks
     tonetool(*two, "--hdrflip:fail=0", "-o", name, status=1)
 
 
