@@ -26,13 +26,13 @@ std::vector<double> roots_within(double a, double b, double c, double largest) {
     std::vector<double> roots;
     if (a == 0) {
         if (b != 0)
-            roots.push_back(-c / b);
+            roots.push_back(-c / b + 0.0);
     } else if (const double square = b * b - 4 * a * c; square >= 0) {
-        // The form without cancellation.
+        // The form without cancellation; + 0.0 turns a root of -0 into 0.
         const double q = -0.5 * (b + std::copysign(std::sqrt(square), b));
-        roots.push_back(q / a);
+        roots.push_back(q / a + 0.0);
         if (q != 0)
-            roots.push_back(c / q);
+            roots.push_back(c / q + 0.0);
     }
     roots.erase(std::remove_if(roots.begin(), roots.end(),
                                [=](double x) { return !(x >= 0 && x <= largest); }),
