@@ -41,6 +41,7 @@ private:
     void run_or_postpone(Call call);
     void run_call(Call& call);
     void run_postponed();
+    void warn_of_unused();
     void finish();
 
     Session& m_session;
@@ -117,6 +118,9 @@ void Runner::run_call(Call& call) {
     auto first = stack.end() - call.pops();
     call.images.assign(first, stack.end());
     stack.erase(first, stack.end());
+    for (const ImagePtr& image : call.images) {
+        image->used = true;
+    }
     size_t expected = stack.size() + static_cast<size_t>(call.pushes());
     call.row().run(m_session, call);
     if (stack.size() != expected) {
@@ -133,6 +137,16 @@ void Runner::run_postponed() {
     }
 }
 
+// "ref a b --hdrflip" compares a with b: the forgotten tests=2 must not go unnoticed.
+void Runner::warn_of_unused() {
+    const bool listing = m_session.info || m_session.stats;
+    for (const ImagePtr& image : m_session.stack) {
+        if (!listing && !image->used && image->part().from_file()) {
+            m_session.warning("", "\"" + image->name() + "\" was read, but no command used it");
+        }
+    }
+}
+
 void Runner::finish() {
     if (!m_postponed.empty()) {
         const Call& call = m_postponed.front();
@@ -142,6 +156,7 @@ void Runner::finish() {
     }
     m_where.clear();
     check_outputs(m_session);
+    warn_of_unused();
     if (!m_session.produced) {
         throw CommandError("produced no output. Did you forget -o?");
     }

@@ -11,8 +11,7 @@ namespace {
 void run_exposure(Session& session, const Call& call) {
     const Image& image = *call.images[0];
     double stops = call.number_argument(0, {-126, 126});
-    warn_of_other_parts(session, call, image);
-    OIIO::ImageBuf view = image.part().color_view();
+    OIIO::ImageBuf view = color_input(session, call, image, pixel_options(call));
     OIIO::ImageBuf result = ToneAlgo::exposure(view, stops, pixel_options(call));
     if (result.has_error()) {
         throw CommandError(result.geterror());
@@ -48,8 +47,7 @@ std::string luminance_text(const std::string& label, const LuminanceStats& stats
 void run_luminance(Session& session, const Call& call) {
     const Image& image = *call.images[0];
     const std::string label = call.row().label();
-    warn_of_other_parts(session, call, image);
-    OIIO::ImageBuf view = image.part().color_view();
+    OIIO::ImageBuf view = color_input(session, call, image, pixel_options(call));
     LuminanceStats stats;
     if (!ToneAlgo::luminance_stats(stats, view, pixel_options(call))) {
         throw CommandError(view.geterror());

@@ -26,8 +26,7 @@ Compared compare(Session& session, const Call& call, const Compare& function) {
     std::vector<OIIO::ImageBuf> views;
     views.reserve(call.images.size());
     for (const ImagePtr& image : call.images) {
-        warn_of_other_parts(session, call, *image);
-        views.push_back(image->part().color_view());
+        views.push_back(color_input(session, call, *image, pixel_options(call)));
     }
     Tests tests;
     for (size_t i = 1; i < views.size(); ++i) {
@@ -75,14 +74,15 @@ int hdrflip_pushes(const Call& call) {
     return test_count(call) * (call.has("exposuremap") ? 2 : 1);
 }
 
-void save(const OIIO::ImageBuf& image, const std::string& filename) {
+void save(Session& session, const OIIO::ImageBuf& image, const std::string& filename) {
+    session.keep_pixels_of(filename);
     std::string why;
     if (!write_image(image, filename, why)) {
         throw CommandError(why);
     }
 }
 
-void save_exposures(const Call& call, const FlipResult& result, size_t test) {
+void save_exposures(Session& session, const Call& call, const FlipResult& result, size_t test) {
     auto prefix = call.text("saveexposures");
     if (!prefix) {
         return;
@@ -93,9 +93,9 @@ void save_exposures(const Call& call, const FlipResult& result, size_t test) {
     }
     for (size_t i = 0; i < result.exposures.size(); ++i) {
         std::string name = start + (i < 10 ? ".0" : ".") + std::to_string(i);
-        save(result.exposures[i].reference, name + ".reference.exr");
-        save(result.exposures[i].test, name + ".test.exr");
-        save(result.exposures[i].flip, name + ".flip.exr");
+        save(session, result.exposures[i].reference, name + ".reference.exr");
+        save(session, result.exposures[i].test, name + ".test.exr");
+        save(session, result.exposures[i].flip, name + ".flip.exr");
     }
 }
 
@@ -117,7 +117,7 @@ void run_hdrflip(Session& session, const Call& call) {
         FlipResult& result = compared.results[i];
         report(session, call, result.summary, i);
         judge(session, call, result.summary.pool, thresholds, i);
-        save_exposures(call, result, i);
+        save_exposures(session, call, result, i);
         if (exposure_map) {
             push_map(session, call,
                      *exposure_map == "stops" ? result.exposure_stops : result.exposure_index);

@@ -12,6 +12,22 @@ void warn_of_other_parts(Session& session, const Call& call, const Image& image)
     }
 }
 
+OIIO::ImageBuf color_input(Session& session, const Call& call, const Image& image,
+                           const PixelOptions& options) {
+    warn_of_other_parts(session, call, image);
+    Part& part = image.part();
+    OIIO::ImageSpec header = part.header();
+    if (part.integer_encoded()) {
+        header.format = part.format().type;
+    }
+    ColorChoice choice;
+    std::string why;
+    if (!ToneAlgo::find_color(header, options, choice, why)) {
+        throw CommandError("\"" + image.name() + "\": " + why);
+    }
+    return part.color_view();
+}
+
 const OIIO::ImageBuf& flat_pixels(const Image& image) {
     const OIIO::ImageBuf& pixels = image.part().pixels();
     if (pixels.deep()) {

@@ -3,11 +3,17 @@
 
 #include "chain/call.h"
 #include "chain/session.h"
+#include "include/tonetool/pixels.h"
 
 namespace tonetool::chain {
 
 /// A warning if the image has subimages beyond the first.
 void warn_of_other_parts(Session& session, const Call& call, const Image& image);
+
+/// The first subimage for a function that looks at its colour, which is checked to be one; valid as
+/// long as the image is.
+OIIO::ImageBuf color_input(Session& session, const Call& call, const Image& image,
+                           const PixelOptions& options);
 
 /// The pixels of the first subimage; a CommandError if it is deep.
 const OIIO::ImageBuf& flat_pixels(const Image& image);

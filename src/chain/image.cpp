@@ -14,9 +14,19 @@ DataFormat format_of(const OIIO::ImageSpec& spec) {
     return {spec.format, spec.channelformats, spec.get_int_attribute("oiio:BitsPerSample")};
 }
 
+FileState state_of(const std::string& filename) {
+    std::error_code ignored;
+    return {std::filesystem::last_write_time(filename, ignored),
+            std::filesystem::file_size(filename, ignored)};
+}
+
 std::unique_ptr<OIIO::ImageInput> open_input(const std::string& filename) {
     if (!OIIO::Filesystem::exists(filename)) {
         throw CommandError("File does not exist: \"" + filename + "\"");
+    }
+    std::error_code ignored;
+    if (std::filesystem::is_fifo(filename, ignored)) {
+        throw CommandError("\"" + filename + "\" is a pipe, which images cannot be read from");
     }
     auto input = OIIO::ImageInput::open(filename);
     if (!input) {
@@ -41,6 +51,7 @@ Part::Part(std::string file, int subimage, int mip_levels, const OIIO::ImageSpec
     : m_header(header),
       m_format(format_of(header)),
       m_file(std::move(file)),
+      m_state(state_of(m_file)),
       m_subimage(subimage),
       m_mip_levels(mip_levels),
       m_integer_encoded(!header.format.is_floating_point()) {}
@@ -60,8 +71,22 @@ const OIIO::ImageBuf& Part::pixels() {
     return m_pixels;
 }
 
+void Part::read_before_replacing(const std::string& filename) {
+    std::error_code ignored;
+    if (!m_read && std::filesystem::equivalent(m_file, filename, ignored)) {
+        pixels();
+    }
+}
+
 void Part::read() {
+    if (!(state_of(m_file) == m_state)) {
+        throw CommandError("\"" + m_file + "\" has changed since it was opened");
+    }
     auto input = open_input(m_file);
+    const OIIO::ImageSpec now = input->spec(m_subimage, 0);
+    if (now.roi() != m_header.roi() || now.deep != m_header.deep) {
+        throw CommandError("\"" + m_file + "\" has changed since it was opened");
+    }
     OIIO::ImageSpec spec = m_header;
     bool done = false;
     if (spec.deep) {

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <OpenImageIO/imagebuf.h>
+#include <cstdint>
+#include <filesystem>
 #include <memory>
 #include <string>
 #include <vector>
@@ -13,6 +15,13 @@ struct DataFormat {
     OIIO::TypeDesc type;                    ///< the widest
     std::vector<OIIO::TypeDesc> of_channel; ///< empty where all are the same
     int bits = 0;                           ///< 10 or 12 in a uint16; 0: all of them
+};
+
+/// What tells whether a file is still the one that was opened.
+struct FileState {
+    std::filesystem::file_time_type written{};
+    uintmax_t size = 0;
+    bool operator==(const FileState& o) const { return written == o.written && size == o.size; }
 };
 
 /// One subimage. Its header is there at once, its pixels come with the first use.
@@ -33,6 +42,9 @@ public:
     /// The pixels as float (deep ones as they are). A CommandError where they cannot be read.
     const OIIO::ImageBuf& pixels();
 
+    /// Reads the pixels now if they are still to come from `filename`.
+    void read_before_replacing(const std::string& filename);
+
     /// The pixels with a header that says sRGB where that was only implied by the integer file
     /// they come from. Valid as long as this part is.
     OIIO::ImageBuf color_view();
@@ -43,6 +55,7 @@ private:
     OIIO::ImageSpec m_header;
     DataFormat m_format;
     std::string m_file;
+    FileState m_state; ///< of the file when its header was read
     int m_subimage = 0, m_mip_levels = 1;
     bool m_integer_encoded = false, m_read = false;
     OIIO::ImageBuf m_pixels;
@@ -66,6 +79,9 @@ public:
     static ImagePtr derived(const Image& from, OIIO::ImageBuf pixels);
     /// What a command computed: float, and not display-encoded unless its header says so.
     static ImagePtr computed(std::string name, OIIO::ImageBuf pixels);
+
+    /// Whether some command has taken the image from the stack.
+    bool used = false;
 
     const std::string& name() const { return m_name; } ///< file, or what it was made from
     Part& part(size_t index = 0) const { return *m_parts.at(index); }

@@ -218,6 +218,7 @@ void write_output(Session& session, const std::string& where, const Image& image
                                        " MIP levels of " + image.name() + " is written");
         }
     }
+    session.keep_pixels_of(filename);
     std::string why;
     if (!write_images(ready, filename, why)) {
         throw CommandError(why);

@@ -35,6 +35,20 @@ void Session::print(const std::string& line) {
     out << line << '\n';
 }
 
+void Session::keep_pixels_of(const std::string& filename) {
+    const auto keep = [&](const Image& image) {
+        for (const PartPtr& part : image.parts()) {
+            part->read_before_replacing(filename);
+        }
+    };
+    for (const ImagePtr& image : stack) {
+        keep(*image);
+    }
+    for (const auto& [name, image] : labels) {
+        keep(*image);
+    }
+}
+
 int Session::exit_status() const {
     if (errors > 0) {
         return 1;

@@ -50,6 +50,9 @@ struct Session {
     /// The name of an operator that waits for images; empty if none does.
     std::string waiting;
 
+    /// Reads what the stack and the labels still have to read from a file about to be replaced.
+    void keep_pixels_of(const std::string& filename);
+
     void push(ImagePtr image) { stack.push_back(std::move(image)); }
 
     void error(const std::string& where, const std::string& what);

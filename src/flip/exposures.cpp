@@ -17,7 +17,8 @@ bool in_range(double stops, const char* name, std::string& error) {
     if (std::isfinite(stops) && stops >= kMinStops && stops <= kMaxStops)
         return true;
     error = std::string(name) + text(" exposure is %g stops", stops) +
-            text(": must be finite and between %g and %g", kMinStops, kMaxStops);
+            text(": must be finite and between %g and %g; pass ", kMinStops, kMaxStops) + name +
+            "Exposure";
     return false;
 }
 

@@ -42,6 +42,7 @@ int component(const std::string& name) {
 struct Layer {
     std::string name; // "" for plain R,G,B
     int channel[4] = {-1, -1, -1, -1};
+    bool twice = false; // a colour is there in two spellings, "R" and "red"
     bool has_color() const { return channel[0] >= 0 && channel[1] >= 0 && channel[2] >= 0; }
     std::string shown() const { return name.empty() ? kPlain : name; }
 };
@@ -59,7 +60,8 @@ std::vector<Layer> find_layers(const OIIO::ImageSpec& spec) {
         auto at = std::find_if(layers.begin(), layers.end(),
                                [&](const Layer& l) { return l.name == prefix; });
         if (at == layers.end())
-            at = layers.insert(layers.end(), Layer{prefix, {-1, -1, -1, -1}});
+            at = layers.insert(layers.end(), Layer{prefix, {-1, -1, -1, -1}, false});
+        at->twice = at->twice || (c < 3 && at->channel[c] >= 0);
         if (at->channel[c] < 0)
             at->channel[c] = i;
     }
@@ -117,7 +119,8 @@ std::vector<Layer> named(const std::vector<Layer>& layers, const std::string& na
             exact.push_back(layer);
         if (lower(layer.shown()) == lower(name))
             any_case.push_back(layer);
-        if (pass_name(layer.name) == pass_name(name) && name.find('.') == std::string::npos)
+        if (!layer.name.empty() && pass_name(layer.name) == pass_name(name) &&
+            name.find('.') == std::string::npos)
             last_part.push_back(layer);
     }
     return !exact.empty() ? exact : !any_case.empty() ? any_case : last_part;
@@ -132,8 +135,8 @@ std::vector<Layer> beauty(const std::vector<Layer>& layers) {
         only(layers, [](const Layer& l) { return is_one_of(pass_name(l.name), kBeautyNames); });
     if (!beauties.empty())
         return beauties;
-    auto pictures = only(layers, [](const Layer& l) { return !is_data(l); });
-    return pictures.size() == 1 ? pictures : std::vector<Layer>{};
+    // A file with one layer in all is about that layer, unless its name says data.
+    return layers.size() == 1 && !is_data(layers[0]) ? layers : std::vector<Layer>{};
 }
 
 std::string no_layer_text(const OIIO::ImageSpec& spec, const std::vector<Layer>& layers,
@@ -145,6 +148,26 @@ std::string no_layer_text(const OIIO::ImageSpec& spec, const std::vector<Layer>&
                " channel(s): " + list_channels(spec);
     return "no plain R,G,B and no layer that is obviously the beauty; pass layer= one of: " +
            list(layers);
+}
+
+// Whether the channels are one colour, and a colour at all.
+bool usable(const OIIO::ImageSpec& spec, const Layer& layer, std::string& error) {
+    if (layer.twice) {
+        error = "layer " + layer.shown() +
+                " has a colour twice, in two spellings: " + list_channels(spec);
+        return false;
+    }
+    for (int c = 0; c < 3; ++c) {
+        const OIIO::TypeDesc type = spec.channelformat(layer.channel[c]);
+        if (!type.is_floating_point() && type.size() > 2) {
+            error = "channel " + std::string(spec.channel_name(layer.channel[c])) + " is " +
+                    type.c_str() +
+                    ": numbers of objects, not a colour; valid: half, float, double, "
+                    "8 and 16 bit integers";
+            return false;
+        }
+    }
+    return true;
 }
 
 } // namespace
@@ -165,6 +188,8 @@ bool find_color(const OIIO::ImageSpec& spec, const PixelOptions& options, ColorC
         return false;
     }
     const Layer& layer = found[0];
+    if (!usable(spec, layer, error))
+        return false;
     choice = {};
     choice.r = layer.channel[0];
     choice.g = layer.channel[1];

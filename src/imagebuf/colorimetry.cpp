@@ -141,6 +141,12 @@ Matrix3 adapt_to_d65(const double (&white)[2]) {
     return multiply(*inverse(cone), scaled);
 }
 
+bool finite(const Matrix3& m) {
+    return std::all_of(m.begin(), m.end(), [](const auto& row) {
+        return std::all_of(row.begin(), row.end(), [](double v) { return std::isfinite(v); });
+    });
+}
+
 bool nearly_equal(const Chromaticities& a, const Chromaticities& b) {
     // Two units of the third decimal: files carry rounded figures.
     const auto near = [](const double(&p)[2], const double(&q)[2]) {
@@ -186,10 +192,12 @@ bool says_only_linear(const std::string& tag) {
 bool from_tags(const OIIO::ImageSpec& spec, ColorSpace& space, std::string& error) {
     const std::string tag = spec.get_string_attribute("oiio:ColorSpace");
     const auto chromaticities = read_chromaticities(spec);
-    // OpenImageIO's readers call the Rec.709 camera curve so, not the linear space.
+    // OpenImageIO's readers call the Rec.709 camera curve so, not the linear space; they put it on
+    // files (PPM, DPX) that are made for a screen, like every other integer file.
     const bool camera_curve = lower(tag) == "rec709";
+    const bool integer = !spec.format.is_floating_point();
     const Known* known = tag.empty() || camera_curve ? nullptr : find_known(tag);
-    if (!tag.empty() && !known) {
+    if (!tag.empty() && !known && !(camera_curve && integer)) {
         error = "unknown colour space \"" + tag +
                 "\" in oiio:ColorSpace; pass from= one of: " + known_names();
         return false;
@@ -208,7 +216,7 @@ bool from_tags(const OIIO::ImageSpec& spec, ColorSpace& space, std::string& erro
         return from_chromaticities(*chromaticities, space, error);
     if (known)
         return from_known(*known, space);
-    return from_known(*find_known(spec.format.is_floating_point() ? "rec709" : "srgb"), space);
+    return from_known(*find_known(integer ? "srgb" : "rec709"), space);
 }
 
 } // namespace
@@ -219,7 +227,7 @@ bool matrix_to_rec709(const Chromaticities& primaries, Matrix3& matrix) {
     if (!source || !rec709)
         return false;
     matrix = multiply(*inverse(*rec709), multiply(adapt_to_d65(primaries.white), *source));
-    return true;
+    return finite(matrix);
 }
 
 bool find_space(const OIIO::ImageSpec& spec, const std::string& from, ColorSpace& space,

@@ -83,6 +83,7 @@ FlipSide side_of(const ColorPlanes& planes) {
 }
 
 void collect_warnings(const Compared& c, FlipSummary& s) {
+    s.warnings = c.notes;
     const auto say = [&s](int64_t n, const char* what) {
         if (n > 0)
             s.warnings.push_back(std::to_string(n) + " " + what);
@@ -99,6 +100,25 @@ void collect_warnings(const Compared& c, FlipSummary& s) {
             s.median_luminance));
     if (s.alpha_compared && (c.reference.choice.a < 0 || c.test.choice.a < 0))
         s.warnings.emplace_back("only one image has alpha: the other counts as opaque");
+}
+
+// Images that differ although nothing shows must not look like equal ones.
+void warn_of_unseen(const Compared& c, FlipSummary& s) {
+    constexpr double nothing_shows = 1e-6;
+    if (s.pool.max > nothing_shows)
+        return;
+    int64_t differing = 0;
+    for_each_pixel(c, [&](size_t i, size_t, int, int) {
+        bool differs = false;
+        for (size_t p = 0; p < 3; ++p)
+            differs = differs || c.reference.plane[p][i] != c.test.plane[p][i];
+        differing += differs;
+    });
+    if (differing > 0)
+        s.warnings.push_back(std::to_string(differing) +
+                             " pixel(s) differ, but none shows at the exposures compared");
+    if (c.reference.negative_digest != c.test.negative_digest)
+        s.warnings.emplace_back("the images differ in negative values, which count as 0");
 }
 
 FlipSummary summarize(const Compared& c, FlipMaps& maps) {
@@ -123,6 +143,7 @@ FlipSummary summarize(const Compared& c, FlipMaps& maps) {
     s.pool = metrics::pool(maps.error.data(), c.roi.width(), c.roi.height(), c.roi.width(),
                            c.roi.xbegin, c.roi.ybegin);
     collect_warnings(c, s);
+    warn_of_unseen(c, s);
     return s;
 }
 

@@ -26,6 +26,7 @@ struct Compared {
     OIIO::ROI roi;  ///< pixels of the maps, within the region of the planes
     OIIO::ROI full; ///< display window of the map
     int64_t nonfinite_both = 0;
+    std::vector<std::string> notes; ///< more warnings
 };
 
 /// Lets non-finite pixels and alpha enter the map, pools it, and fills `result` and `map`.

@@ -62,6 +62,7 @@ private:
                        "reference", m_reference, error))
             return false;
         m_tests.resize(count);
+        m_fitted = tests;
         for (size_t t = 0; t < count; ++t)
             if (!tests[t].read(m_plan.alpha(), m_nthreads, m_tests[t], error) ||
                 !comparable(m_tests[t], error))
@@ -75,13 +76,15 @@ private:
             return false;
         }
         const auto all = int64_t(m_region.width()) * m_region.height();
-        for (const ColorPlanes* side : {&m_reference, &test})
-            if (side->nonfinite_count + side->uncovered_count >= all) {
-                error = std::string(side == &test ? "the test" : "the reference") +
-                        " has no finite pixel: there is nothing to compare";
-                return false;
-            }
-        return true;
+        for (const ColorPlanes* side : {&m_reference, &test}) {
+            const std::string who = side == &test ? "the test" : "the reference";
+            if (side->uncovered_count >= all)
+                error = who + "'s data window covers none of the compared pixels: there is nothing "
+                              "to compare";
+            else if (side->nonfinite_count + side->uncovered_count >= all)
+                error = who + " has no finite pixel: there is nothing to compare";
+        }
+        return error.empty();
     }
 
     void evaluate(size_t from, size_t count, std::vector<ImageBuf>& maps,
@@ -106,7 +109,7 @@ private:
             maps.emplace_back();
             results.emplace_back();
             finish({m_plan, m_exposures, m_reference, m_tests[from + t], m_roi, m_image.roi_full(),
-                    both[t]},
+                    both[t], m_fitted[from + t].notes()},
                    planes[t], maps.back(), results.back());
         }
     }
@@ -116,6 +119,7 @@ private:
     int m_nthreads;
     ROI m_region, m_roi;
     ColorPlanes m_reference;
+    const FittedTest* m_fitted = nullptr;
     std::vector<ColorPlanes> m_tests;
     Exposures m_exposures;
 };

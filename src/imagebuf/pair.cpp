@@ -16,6 +16,11 @@ std::string window_text(const ROI& r) {
 // Of a region that is compared at once: 32 times an 8K frame.
 constexpr double kMostPixels = 1 << 30;
 
+std::string side_name(const char* side, const ImageBuf& image) {
+    const std::string name(image.name());
+    return std::string(side) + " image" + (name.empty() ? ": " : " \"" + name + "\": ");
+}
+
 bool same_window(const ROI& a, const ROI& b) {
     return a.xbegin == b.xbegin && a.xend == b.xend && a.ybegin == b.ybegin && a.yend == b.yend;
 }
@@ -26,6 +31,21 @@ ROI plane_of(ROI r) {
     r.chbegin = 0;
     r.chend = 1;
     return r;
+}
+
+// Tags that turn or stretch the picture on a screen, but not its pixels.
+std::vector<std::string> differing_tags(const OIIO::ImageSpec& reference,
+                                        const OIIO::ImageSpec& test) {
+    std::vector<std::string> notes;
+    const auto compare = [&](const char* tag) {
+        const float r = reference.get_float_attribute(tag, 1), t = test.get_float_attribute(tag, 1);
+        if (r != t)
+            notes.push_back(OIIO::Strutil::fmt::format(
+                "{} is {} in the reference and {} in the test: compared as stored", tag, r, t));
+    };
+    compare("Orientation");
+    compare("PixelAspectRatio");
+    return notes;
 }
 
 } // namespace
@@ -65,10 +85,12 @@ bool FittedTest::open(const ImageBuf& reference, const ImageBuf& test, const Fli
         return false;
     m_test = &test;
     m_pixels = options.pixels;
-    if (!ToneAlgo::find_color(deciding_spec(test), options.pixels, m_choice, error)) {
-        error = "test image \"" + std::string(test.name()) + "\": " + error;
-        return false;
-    }
+    for (const ImageBuf* image : {&reference, &test})
+        if (!ToneAlgo::find_color(deciding_spec(*image), options.pixels, m_choice, error)) {
+            error = side_name(image == &test ? "test" : "reference", *image) + error;
+            return false;
+        }
+    m_notes = differing_tags(reference.spec(), test.spec());
     const ROI window = reference.roi_full();
     if (options.size == SizePolicy::Resize && !same_window(window, test.roi_full()) &&
         !resize(window, options.alpha == AlphaPolicy::Error, nthreads, error))
@@ -112,7 +134,7 @@ bool read_side(const ImageBuf& image, const PixelOptions& options, const ROI& re
                int nthreads, const char* what, ColorPlanes& planes, std::string& error) {
     if (read_planes(image, options, region, alpha, nthreads, planes, error))
         return true;
-    error = std::string(what) + " image \"" + std::string(image.name()) + "\": " + error;
+    error = side_name(what, image) + error;
     return false;
 }
 

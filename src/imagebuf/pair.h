@@ -22,6 +22,8 @@ public:
     bool open(const OIIO::ImageBuf& reference, const OIIO::ImageBuf& test,
               const FlipOptions& options, int nthreads, std::string& error);
     const OIIO::ROI& region() const { return m_region; }
+    /// What a user must know of how the two go together.
+    const std::vector<std::string>& notes() const { return m_notes; }
     bool read(bool alpha, int nthreads, ColorPlanes& planes, std::string& error) const;
 
 private:
@@ -32,6 +34,7 @@ private:
     ColorChoice m_choice; // in the image as it came
     OIIO::ImageBuf m_resized;
     OIIO::ROI m_region;
+    std::vector<std::string> m_notes;
 };
 
 /// Reads one side of a comparison; the error says which.

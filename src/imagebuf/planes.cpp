@@ -4,6 +4,7 @@
 #include <atomic>
 #include <cfloat>
 #include <cmath>
+#include <cstring>
 
 #include "imagebuf/colorimetry.h"
 #include "imagebuf/parallel.h"
@@ -24,6 +25,23 @@ bool get_channels(const ImageBuf& image, ROI roi, int first, int count, float* o
     return image.get_pixels(roi, OIIO::TypeFloat, out);
 }
 
+struct Counts {
+    int64_t nonfinite = 0, negative = 0;
+    uint64_t negative_digest = 0;
+};
+
+// A hash of a pixel and its place; sums of these do not depend on the order.
+uint64_t digest(size_t place, const double (&v)[3]) {
+    uint64_t h = place + 0x9e3779b97f4a7c15u;
+    for (double x : v) {
+        uint64_t bits = 0;
+        std::memcpy(&bits, &x, sizeof bits);
+        h = (h ^ bits) * 0xbf58476d1ce4e5b9u;
+        h ^= h >> 31;
+    }
+    return h;
+}
+
 class Reader {
 public:
     Reader(const ImageBuf& image, const ColorSpace& space, ColorPlanes& out)
@@ -36,6 +54,7 @@ public:
         make_parallel(nthreads)(bands, [this](int64_t band) { read_band(int(band) * kBand); });
         m_out.nonfinite_count = m_nonfinite;
         m_out.negative_count = m_negative;
+        m_out.negative_digest = m_negative_digest;
         for (const auto& p : m_out.plane)
             if (!p.empty())
                 m_out.largest = std::max(m_out.largest, *std::max_element(p.begin(), p.end()));
@@ -53,11 +72,12 @@ private:
             m_failed = true;
             return;
         }
-        int64_t nonfinite = 0, negative = 0;
+        Counts counts;
         for (size_t i = at; i < at + n; ++i)
-            clean(i, nonfinite, negative);
-        m_nonfinite += nonfinite;
-        m_negative += negative;
+            clean(i, counts);
+        m_nonfinite += counts.nonfinite;
+        m_negative += counts.negative;
+        m_negative_digest += counts.negative_digest;
     }
 
     bool read_color(const ROI& roi, size_t at, size_t n) {
@@ -92,35 +112,43 @@ private:
     }
 
     // One pixel to finite linear Rec.709 >= 0.
-    void clean(size_t i, int64_t& nonfinite, int64_t& negative) {
+    void clean(size_t i, Counts& counts) {
         double v[3] = {m_out.plane[0][i], m_out.plane[1][i], m_out.plane[2][i]};
         bool finite = std::isfinite(v[0]) && std::isfinite(v[1]) && std::isfinite(v[2]);
         if (!m_out.alpha.empty() && !std::isfinite(m_out.alpha[i])) {
             finite = false;
             m_out.alpha[i] = 0;
         }
+        if (finite)
+            to_rec709(v);
+        const bool below = finite && (v[0] < 0 || v[1] < 0 || v[2] < 0);
+        for (size_t p = 0; p < 3; ++p)
+            m_out.plane[p][i] = finite ? float(std::clamp(v[p], 0.0, double(FLT_MAX))) : 0.0f;
         m_out.nonfinite[i] = !finite;
-        nonfinite += !finite;
+        counts.nonfinite += !finite;
+        counts.negative += below;
+        if (below)
+            counts.negative_digest += digest(i, v);
+    }
+
+    void to_rec709(double (&v)[3]) const {
         if (m_space.srgb_encoded)
             for (double& x : v)
                 x = srgb_to_linear(x);
-        bool below = false;
+        if (m_space.is_rec709)
+            return;
+        const double in[3] = {v[0], v[1], v[2]};
         for (size_t p = 0; p < 3; ++p) {
-            double x = v[p];
-            if (!m_space.is_rec709) {
-                const auto& row = m_space.to_rec709[p];
-                x = row[0] * v[0] + row[1] * v[1] + row[2] * v[2];
-            }
-            below = below || x < 0;
-            m_out.plane[p][i] = finite ? float(std::clamp(x, 0.0, double(FLT_MAX))) : 0.0f;
+            const auto& row = m_space.to_rec709[p];
+            v[p] = row[0] * in[0] + row[1] * in[1] + row[2] * in[2];
         }
-        negative += finite && below;
     }
 
     const ImageBuf& m_image;
     const ColorSpace& m_space;
     ColorPlanes& m_out;
     std::atomic<int64_t> m_nonfinite{0}, m_negative{0};
+    std::atomic<uint64_t> m_negative_digest{0};
     std::atomic<bool> m_failed{false};
 };
 
@@ -153,8 +181,12 @@ bool check_readable(const ImageBuf& image, const char* what, std::string& error)
 
 OIIO::ImageSpec deciding_spec(const ImageBuf& image) {
     OIIO::ImageSpec spec = image.spec();
-    if (!image.nativespec().format.is_floating_point())
-        spec.format = image.nativespec().format;
+    const OIIO::ImageSpec& native = image.nativespec();
+    if (native.nchannels != spec.nchannels)
+        return spec;
+    if (!native.format.is_floating_point())
+        spec.format = native.format;
+    spec.channelformats = native.channelformats;
     return spec;
 }
 

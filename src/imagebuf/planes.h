@@ -20,6 +20,8 @@ struct ColorPlanes {
     std::vector<uint8_t> nonfinite; ///< 1 where R, G, B (or the alpha asked for) is NaN or Inf
     int64_t nonfinite_count = 0, negative_count = 0, uncovered_count = 0;
     float largest = 0; ///< largest component
+    /// Depends on the values of the negative pixels as they were before they became 0.
+    uint64_t negative_digest = 0;
 
     int width() const { return region.width(); }
     int height() const { return region.height(); }
