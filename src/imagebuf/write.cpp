@@ -152,25 +152,25 @@ private:
     int m_fd = -1, m_slot = -1;
 };
 
-// OpenImageIO's writers write through this; the first failure is kept, whatever they make of it.
+// OpenImageIO's writers write through this. The first failure is kept and the writer is told that
+// all is well: the EXR writer (2.4) uses freed memory when it closes after a failed write.
 class CheckedProxy final : public OIIO::Filesystem::IOProxy {
 public:
     explicit CheckedProxy(const Target& target) : IOProxy(target.path(), Write), m_target(target) {}
     const char* proxytype() const override { return "tonetool"; }
     bool seek(int64_t offset) override {
         if (m_target.is_device() && offset != m_pos)
-            return note("cannot seek in a device or pipe");
+            note("cannot seek in a device or pipe");
         m_pos = offset;
         return true;
     }
     size_t write(const void* data, size_t size) override {
-        const size_t done = pwrite(data, size, m_pos);
-        m_pos += int64_t(done);
-        return done;
+        pwrite(data, size, m_pos);
+        m_pos += int64_t(size);
+        return size;
     }
     size_t pwrite(const void* data, size_t size, int64_t offset) override {
-        size_t done = 0;
-        while (done < size && m_failure.empty()) {
+        for (size_t done = 0; done < size && m_failure.empty();) {
             const char* from = static_cast<const char*>(data) + done;
             const ssize_t n = m_target.is_device() ? ::write(m_target.fd(), from, size - done)
                                                    : ::pwrite(m_target.fd(), from, size - done,
@@ -182,17 +182,16 @@ public:
             else
                 done += size_t(n);
         }
-        m_size = std::max(m_size, offset + int64_t(done));
-        return done;
+        m_size = std::max(m_size, offset + int64_t(size));
+        return size;
     }
     size_t size() const override { return size_t(m_size); }
     const std::string& failure() const { return m_failure; }
 
 private:
-    bool note(const std::string& what) {
+    void note(const std::string& what) {
         if (m_failure.empty())
             m_failure = what;
-        return false;
     }
 
     const Target& m_target;
