@@ -44,35 +44,61 @@ void ToOpponent(const float* const in[3], int64_t count, const ToneCurve& curve,
     });
 }
 
-// Taps of an even filter at `at`, elements `step` apart; from the outside in, so that the rounding
-// of the sum is that of its last few terms.
-HWY_INLINE V Even(const float* HWY_RESTRICT at, ptrdiff_t step, const std::vector<float>& taps) {
-    V sum = hn::Zero(d);
-    for (ptrdiff_t i = ptrdiff_t(taps.size()) - 1; i > 0; --i)
-        sum = hn::MulAdd(hn::Set(d, taps[size_t(i)]),
-                         hn::Add(hn::LoadU(d, at + i * step), hn::LoadU(d, at - i * step)), sum);
-    return hn::MulAdd(hn::Set(d, taps[0]), hn::LoadU(d, at), sum);
-}
+// A plane at one vector of pixels: its neighbours `step` elements apart, in pairs, from which even
+// filters take the sum and odd ones the difference.
+struct Neighbours {
+    const float* HWY_RESTRICT at;
+    ptrdiff_t step;
 
-HWY_INLINE V Odd(const float* HWY_RESTRICT at, ptrdiff_t step, const std::vector<float>& taps) {
-    V sum = hn::Zero(d);
-    for (ptrdiff_t i = ptrdiff_t(taps.size()) - 1; i > 0; --i)
-        sum = hn::MulAdd(hn::Set(d, taps[size_t(i)]),
-                         hn::Sub(hn::LoadU(d, at + i * step), hn::LoadU(d, at - i * step)), sum);
-    return sum;
-}
-
-// A filter whose taps sum to 0, as a sum over differences to the centre: a flat area gives exactly
-// 0, which matters since the square root of the result enters the error.
-HWY_INLINE V EvenZeroSum(const float* HWY_RESTRICT at, ptrdiff_t step,
-                         const std::vector<float>& taps) {
-    const V centre = hn::LoadU(d, at), twice = hn::Add(centre, centre);
-    V sum = hn::Zero(d);
-    for (ptrdiff_t i = ptrdiff_t(taps.size()) - 1; i > 0; --i) {
-        const V pair = hn::Add(hn::LoadU(d, at + i * step), hn::LoadU(d, at - i * step));
-        sum = hn::MulAdd(hn::Set(d, taps[size_t(i)]), hn::Sub(pair, twice), sum);
+    HWY_INLINE V Centre() const { return hn::LoadU(d, at); }
+    HWY_INLINE V Sum(ptrdiff_t i) const {
+        return hn::Add(hn::LoadU(d, at + i * step), hn::LoadU(d, at - i * step));
     }
-    return sum;
+    HWY_INLINE V Difference(ptrdiff_t i) const {
+        return hn::Sub(hn::LoadU(d, at + i * step), hn::LoadU(d, at - i * step));
+    }
+};
+
+HWY_INLINE V Add(V sum, float tap, V value) {
+    return hn::MulAdd(hn::Set(d, tap), value, sum);
+}
+
+// Sums run from the outside in, so that the rounding of one is that of its last few terms.
+HWY_INLINE V Even(const Neighbours& n, const std::vector<float>& taps) {
+    V sum = hn::Zero(d);
+    for (ptrdiff_t i = ptrdiff_t(taps.size()) - 1; i > 0; --i)
+        sum = Add(sum, taps[size_t(i)], n.Sum(i));
+    return Add(sum, taps[0], n.Centre());
+}
+
+struct TwoFilters {
+    V first, second;
+};
+
+// Two even filters of one length on one plane.
+HWY_INLINE TwoFilters EvenTwo(const Neighbours& n, const std::vector<float>& first,
+                              const std::vector<float>& second) {
+    V one = hn::Zero(d), two = hn::Zero(d);
+    for (ptrdiff_t i = ptrdiff_t(first.size()) - 1; i > 0; --i) {
+        const V pair = n.Sum(i);
+        one = Add(one, first[size_t(i)], pair);
+        two = Add(two, second[size_t(i)], pair);
+    }
+    const V centre = n.Centre();
+    return {Add(one, first[0], centre), Add(two, second[0], centre)};
+}
+
+// The odd and the zero-sum detector on one plane. A filter whose taps sum to 0 is a sum over
+// differences to the centre: a flat area gives exactly 0, which matters since the square root of
+// the result enters the error.
+HWY_INLINE TwoFilters Detectors(const Neighbours& n, const FlipTaps<float>& taps) {
+    const V centre = n.Centre(), twice = hn::Add(centre, centre);
+    V odd = hn::Zero(d), zero_sum = hn::Zero(d);
+    for (ptrdiff_t i = ptrdiff_t(taps.d1.size()) - 1; i > 0; --i) {
+        odd = Add(odd, taps.d1[size_t(i)], n.Difference(i));
+        zero_sum = Add(zero_sum, taps.d2[size_t(i)], hn::Sub(n.Sum(i), twice));
+    }
+    return {odd, zero_sum};
 }
 
 enum RowPlane { kRowY, kRowCx, kRowCz1, kRowCz2, kRowG, kRowD1, kRowD2, kRowPlanes };
@@ -81,13 +107,16 @@ enum RowPlane { kRowY, kRowCx, kRowCz1, kRowCz2, kRowG, kRowD1, kRowD2, kRowPlan
 void FilterRow(const float* y, const float* xy, const float* yz, int width,
                const FlipTaps<float>& taps, float* const out[kRowPlanes]) {
     for (ptrdiff_t x = 0; x < width; x += ptrdiff_t(hn::Lanes(d))) {
-        hn::StoreU(Even(y + x, 1, taps.y), d, out[kRowY] + x);
-        hn::StoreU(Even(xy + x, 1, taps.cx), d, out[kRowCx] + x);
-        hn::StoreU(Even(yz + x, 1, taps.cz1), d, out[kRowCz1] + x);
-        hn::StoreU(Even(yz + x, 1, taps.cz2), d, out[kRowCz2] + x);
-        hn::StoreU(Even(y + x, 1, taps.g), d, out[kRowG] + x);
-        hn::StoreU(Odd(y + x, 1, taps.d1), d, out[kRowD1] + x);
-        hn::StoreU(EvenZeroSum(y + x, 1, taps.d2), d, out[kRowD2] + x);
+        const Neighbours luminance{y + x, 1};
+        const TwoFilters cz = EvenTwo({yz + x, 1}, taps.cz1, taps.cz2);
+        const TwoFilters detectors = Detectors(luminance, taps);
+        hn::StoreU(Even(luminance, taps.y), d, out[kRowY] + x);
+        hn::StoreU(Even({xy + x, 1}, taps.cx), d, out[kRowCx] + x);
+        hn::StoreU(cz.first, d, out[kRowCz1] + x);
+        hn::StoreU(cz.second, d, out[kRowCz2] + x);
+        hn::StoreU(Even(luminance, taps.g), d, out[kRowG] + x);
+        hn::StoreU(detectors.first, d, out[kRowD1] + x);
+        hn::StoreU(detectors.second, d, out[kRowD2] + x);
     }
 }
 
@@ -100,19 +129,20 @@ void FilterColumns(const float* const rows[kRowPlanes], ptrdiff_t stride, int wi
                    const FlipTaps<float>& taps, float* const out[kFeaturePlanes]) {
     const Matrix to_xyz = ToRelativeXyz(), to_rgb = FromRelativeXyz();
     for (ptrdiff_t x = 0; x < width; x += ptrdiff_t(hn::Lanes(d))) {
-        const V y = Even(rows[kRowY] + x, stride, taps.y);
-        const V cx = Even(rows[kRowCx] + x, stride, taps.cx);
-        const V cz = hn::Add(Even(rows[kRowCz1] + x, stride, taps.cz1),
-                             Even(rows[kRowCz2] + x, stride, taps.cz2));
+        const auto plane = [rows, stride, x](RowPlane p) HWY_ATTR {
+            return Neighbours{rows[p] + x, stride};
+        };
+        const V y = Even(plane(kRowY), taps.y);
+        const V cx = Even(plane(kRowCx), taps.cx);
+        const V cz = hn::Add(Even(plane(kRowCz1), taps.cz1), Even(plane(kRowCz2), taps.cz2));
         const Lab lab = HuntLab(to_xyz, to_rgb, y, cx, cz);
         hn::StoreU(lab.l.high, d, out[kLHigh] + x);
         hn::StoreU(lab.l.low, d, out[kLLow] + x);
         hn::StoreU(lab.a, d, out[kA] + x);
         hn::StoreU(lab.b, d, out[kB] + x);
-        const V edge = Magnitude(Even(rows[kRowD1] + x, stride, taps.g),
-                                 Odd(rows[kRowG] + x, stride, taps.d1));
-        const V point = Magnitude(Even(rows[kRowD2] + x, stride, taps.g),
-                                  EvenZeroSum(rows[kRowG] + x, stride, taps.d2));
+        const TwoFilters down = Detectors(plane(kRowG), taps);
+        const V edge = Magnitude(Even(plane(kRowD1), taps.g), down.first);
+        const V point = Magnitude(Even(plane(kRowD2), taps.g), down.second);
         hn::StoreU(edge, d, out[kEdge] + x);
         hn::StoreU(point, d, out[kPoint] + x);
     }
