@@ -38,6 +38,7 @@ private:
     bool enough_images(const Call& call) const {
         return static_cast<size_t>(call.pops()) <= m_session.stack.size();
     }
+    void refuse_to_overtake(const Call& call) const;
     void run_or_postpone(Call call);
     void run_call(Call& call);
     void run_postponed();
@@ -99,8 +100,18 @@ Call Runner::make_call(const Command& row, Token token) {
     return Call(row, std::move(token), std::move(arguments));
 }
 
+// A waiting operator's image must not be changed under it.
+void Runner::refuse_to_overtake(const Call& call) const {
+    if (call.pops() > 0 && !m_postponed.empty()) {
+        throw CommandError("--" + m_session.waiting +
+                           " still waits for an image, so this would "
+                           "not work on its result");
+    }
+}
+
 void Runner::run_or_postpone(Call call) {
     if (enough_images(call)) {
+        refuse_to_overtake(call);
         run_call(call);
         return;
     }

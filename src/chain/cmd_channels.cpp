@@ -4,6 +4,7 @@
 #include "chain/call.h"
 #include "chain/channels.h"
 #include "chain/error.h"
+#include "chain/first_part.h"
 #include "chain/session.h"
 
 namespace tonetool::chain {
@@ -12,11 +13,13 @@ namespace {
 
 void run_ch(Session& session, const Call& call) {
     const Image& image = *call.images[0];
+    warn_of_other_parts(session, call, image);
     session.push(Image::derived(image, select_channels(image.part().pixels(), call.argument(0))));
 }
 
 void run_chnames(Session& session, const Call& call) {
     const Image& image = *call.images[0];
+    warn_of_other_parts(session, call, image);
     OIIO::ImageBuf renamed = image.part().pixels();
     Strings& names = renamed.specmod().channelnames;
     Strings wanted = split(call.argument(0), ',');

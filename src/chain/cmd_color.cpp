@@ -49,8 +49,9 @@ void run_luminance(Session& session, const Call& call) {
     const std::string label = call.row().label();
     OIIO::ImageBuf view = color_input(session, call, image, pixel_options(call));
     LuminanceStats stats;
-    if (!ToneAlgo::luminance_stats(stats, view, pixel_options(call))) {
-        throw CommandError(view.geterror());
+    std::string why;
+    if (!ToneAlgo::luminance_stats(stats, view, why, pixel_options(call))) {
+        throw CommandError(why);
     }
     if (stats.nonfinite > 0) {
         session.warning(label, std::to_string(stats.nonfinite) + " non-finite pixels in " +

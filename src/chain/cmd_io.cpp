@@ -5,6 +5,7 @@
 
 #include "chain/channels.h"
 #include "chain/error.h"
+#include "chain/first_part.h"
 #include "chain/inspect.h"
 #include "chain/io.h"
 #include "chain/output.h"
@@ -62,6 +63,7 @@ void run_input(Session& session, const Call& call) {
     }
     if (auto list = call.text("ch")) {
         ImagePtr whole = session.stack.back();
+        warn_of_other_parts(session, call, *whole);
         session.stack.back() =
             Image::derived(*whole, select_channels(whole->part().pixels(), *list));
     }
@@ -109,10 +111,6 @@ void write_one(Session& session, const Call& call, const Image& image,
 }
 
 void run_output(Session& session, const Call& call) {
-    if (!session.waiting.empty()) {
-        throw CommandError("--" + session.waiting + " still waits for an image, so \"" +
-                           call.argument(0) + "\" would not be its result");
-    }
     session.push(call.images.front());
     if (auto first = call.integer("all", {0, 1e9})) {
         std::vector<ImagePtr> all = session.stack;

@@ -5,10 +5,11 @@
 #include <OpenImageIO/strutil.h>
 #include <algorithm>
 #include <cmath>
-#include <exception>
 
 #include "imagebuf/colorimetry.h"
+#include "imagebuf/guard.h"
 #include "imagebuf/parallel.h"
+#include "imagebuf/planes.h"
 
 namespace tonetool {
 namespace {
@@ -17,43 +18,58 @@ using OIIO::ImageBuf;
 using OIIO::ROI;
 namespace IBA = OIIO::ImageBufAlgo;
 
-bool fail(ImageBuf& dst, const char* function, const std::string& why) {
-    dst.clear();
-    dst.errorfmt("{}: {}", function, why);
-    return false;
-}
-
 // Values within [0,1], NaN as 0.
 ImageBuf unit_values(const ImageBuf& src, ROI roi, int nthreads) {
     const ImageBuf part = IBA::crop(src, roi, nthreads);
     ImageBuf fixed;
-    IBA::fixNonFinite(fixed, part, IBA::NONFINITE_BLACK, nullptr, {}, nthreads);
-    return IBA::clamp(fixed, 0.0f, 1.0f, false, {}, nthreads);
+    const ImageBuf clamped = IBA::clamp(part, 0.0f, 1.0f, false, {}, nthreads);
+    IBA::fixNonFinite(fixed, clamped, IBA::NONFINITE_BLACK, nullptr, {}, nthreads);
+    return fixed;
 }
 
-template <class Map>
-bool mapped(ImageBuf& dst, const ImageBuf& src, int channel, ROI roi, int nthreads,
-            const Map& map) {
-    if (!src.initialized() || src.deep() || channel < -1 || channel >= src.nchannels() ||
-        (channel == -1 && src.nchannels() < 3))
-        return fail(dst, "color_map",
-                    OIIO::Strutil::fmt::format("needs channel {} of a flat image; there are {}",
-                                               channel, src.nchannels()));
-    try {
-        if (!roi.defined())
-            roi = src.roi();
-        ImageBuf linear;
-        if (!map(linear, unit_values(src, roi, nthreads)))
-            return fail(dst, "color_map", linear.geterror());
-        linear.set_roi_full(src.roi_full());
-        OIIO::ImageSpec& spec = linear.specmod();
-        spec.channelnames = {"R", "G", "B"};
-        spec.alpha_channel = spec.z_channel = -1;
-        spec.erase_attribute("chromaticities");
-        return ToneAlgo::encode_srgb(dst, linear, {}, nthreads);
-    } catch (const std::exception& e) {
-        return fail(dst, "color_map", e.what());
+bool encode(ImageBuf& dst, const ImageBuf& src, ROI roi, int nthreads, std::string& error) {
+    ImageBuf out;
+    if (!check_readable(src, "source", error))
+        return false;
+    if (!IBA::copy(out, src, OIIO::TypeFloat, roi, nthreads)) {
+        error = out.geterror();
+        return false;
     }
+    const int alpha = out.spec().alpha_channel, channels = out.nchannels();
+    const int64_t row = int64_t(out.spec().width) * channels;
+    auto* pixels = static_cast<float*>(out.localpixels());
+    make_parallel(nthreads)(out.spec().height, [=](int64_t y) {
+        for (int64_t i = 0; i < row; ++i)
+            if (float& v = pixels[y * row + i]; i % channels != alpha)
+                v = std::isnan(v) ? 0.0f : float(linear_to_srgb(std::clamp(double(v), 0.0, 1.0)));
+    });
+    out.specmod().attribute("oiio:ColorSpace", "sRGB");
+    dst = std::move(out);
+    return true;
+}
+
+// `map(out, values)` colours values within [0,1] in linear light.
+template <class Map>
+bool colored(ImageBuf& dst, const ImageBuf& src, int channel, ROI roi, int nthreads,
+             std::string& error, const Map& map) {
+    if (!check_readable(src, "source", error))
+        return false;
+    if (channel < -1 || channel >= src.nchannels() || (channel == -1 && src.nchannels() < 3)) {
+        error = OIIO::Strutil::fmt::format("needs channel {}; the image has {}", channel,
+                                           src.nchannels());
+        return false;
+    }
+    ImageBuf linear;
+    if (!map(linear, unit_values(src, roi.defined() ? roi : src.roi(), nthreads))) {
+        error = linear.geterror();
+        return false;
+    }
+    linear.set_roi_full(src.roi_full());
+    OIIO::ImageSpec& spec = linear.specmod();
+    spec.channelnames = {"R", "G", "B"};
+    spec.alpha_channel = spec.z_channel = -1;
+    spec.erase_attribute("chromaticities");
+    return encode(dst, linear, {}, nthreads, error);
 }
 
 } // namespace
@@ -62,24 +78,32 @@ namespace ToneAlgo {
 
 bool color_map(ImageBuf& dst, const ImageBuf& src, const std::string& map, int channel, ROI roi,
                int nthreads) {
-    const auto names = color_maps();
-    if (std::find(names.begin(), names.end(), map) == names.end())
-        return fail(dst, "color_map",
-                    "unknown colour map \"" + map +
-                        "\"; valid: " + OIIO::Strutil::join(names, ", "));
-    return mapped(dst, src, channel, roi, nthreads, [&](ImageBuf& out, const ImageBuf& values) {
-        return IBA::color_map(out, values, channel, map, {}, nthreads);
+    return guarded(dst, "color_map", [&](std::string& error) {
+        const auto names = color_maps();
+        if (std::find(names.begin(), names.end(), map) == names.end()) {
+            error =
+                "unknown colour map \"" + map + "\"; valid: " + OIIO::Strutil::join(names, ", ");
+            return false;
+        }
+        return colored(dst, src, channel, roi, nthreads, error,
+                       [&](ImageBuf& out, const ImageBuf& values) {
+                           return IBA::color_map(out, values, channel, map, {}, nthreads);
+                       });
     });
 }
 
 bool color_map(ImageBuf& dst, const ImageBuf& src, const std::vector<float>& triples, int channel,
                ROI roi, int nthreads) {
-    if (triples.size() < 6 || triples.size() % 3 != 0)
-        return fail(dst, "color_map",
-                    std::to_string(triples.size()) + " numbers: must be two or more RGB triples");
-    return mapped(dst, src, channel, roi, nthreads, [&](ImageBuf& out, const ImageBuf& values) {
-        return IBA::color_map(out, values, channel, int(triples.size() / 3), 3, triples, {},
-                              nthreads);
+    return guarded(dst, "color_map", [&](std::string& error) {
+        if (triples.size() < 6 || triples.size() % 3 != 0) {
+            error = std::to_string(triples.size()) + " numbers: must be two or more RGB triples";
+            return false;
+        }
+        return colored(dst, src, channel, roi, nthreads, error,
+                       [&](ImageBuf& out, const ImageBuf& values) {
+                           return IBA::color_map(out, values, channel, int(triples.size() / 3), 3,
+                                                 triples, {}, nthreads);
+                       });
     });
 }
 
@@ -88,20 +112,8 @@ std::vector<std::string> color_maps() {
 }
 
 bool encode_srgb(ImageBuf& dst, const ImageBuf& src, ROI roi, int nthreads) {
-    ImageBuf out;
-    if (!IBA::copy(out, src, OIIO::TypeFloat, roi, nthreads))
-        return fail(dst, "encode_srgb", out.geterror());
-    const int alpha = out.spec().alpha_channel, channels = out.nchannels();
-    const int64_t row = int64_t(out.spec().width) * channels;
-    auto* pixels = static_cast<float*>(out.localpixels());
-    make_parallel(nthreads)(out.spec().height, [=](int64_t y) {
-        for (int64_t i = 0; i < row; ++i)
-            if (float& v = pixels[y * row + i]; i % channels != alpha)
-                v = float(linear_to_srgb(std::clamp(double(v), 0.0, 1.0)));
-    });
-    out.specmod().attribute("oiio:ColorSpace", "sRGB");
-    dst = std::move(out);
-    return true;
+    return guarded(dst, "encode_srgb",
+                   [&](std::string& error) { return encode(dst, src, roi, nthreads, error); });
 }
 
 } // namespace ToneAlgo

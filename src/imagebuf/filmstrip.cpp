@@ -4,8 +4,9 @@
 #include <OpenImageIO/strutil.h>
 #include <algorithm>
 #include <cmath>
-#include <exception>
+#include <stdexcept>
 
+#include "imagebuf/guard.h"
 #include "include/tonetool/display.h"
 #include "include/tonetool/flip.h"
 
@@ -21,6 +22,7 @@ namespace IBA = OIIO::ImageBufAlgo;
 constexpr const char* kFonts[] = {"/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf",
                                   "/usr/share/fonts/dejavu/DejaVuSans.ttf",
                                   "/usr/share/fonts/TTF/DejaVuSans.ttf"};
+constexpr double kMostPixels = 1 << 28;
 constexpr float kBackground[3] = {0.13f, 0.13f, 0.13f};
 constexpr float kInk[3] = {0.9f, 0.9f, 0.9f};
 
@@ -159,6 +161,10 @@ public:
         const ROI full = m_reference.roi_full();
         const Layout layout(int(shown.size()), m_look.thumb_width,
                             double(full.width()) / full.height());
+        if (double(layout.width()) * layout.height() > kMostPixels)
+            throw std::runtime_error(format("the picture would have {}x{} pixels; pass a smaller "
+                                            "width",
+                                            layout.width(), layout.height()));
         Canvas canvas(layout.width(), layout.height(), font);
         row_labels(canvas, layout);
         for (size_t i = 0; i < shown.size(); ++i)
@@ -255,19 +261,14 @@ namespace ToneAlgo {
 bool flip_filmstrip(ImageBuf& dst, const ImageBuf& reference, const ImageBuf& test,
                     const HdrFlipOptions& options, const FilmstripOptions& look, FlipResult* result,
                     int nthreads) {
-    std::string error = look_fault(look);
-    try {
-        if (error.empty()) {
-            FlipResult own;
-            dst = Filmstrip(reference, test, options, look, nthreads).draw(result ? *result : own);
-            return true;
-        }
-    } catch (const std::exception& e) {
-        error = e.what();
-    }
-    dst.clear();
-    dst.errorfmt("flip_filmstrip: {}", error);
-    return false;
+    return guarded(dst, "flip_filmstrip", [&](std::string& error) {
+        error = look_fault(look);
+        if (!error.empty())
+            return false;
+        FlipResult own;
+        dst = Filmstrip(reference, test, options, look, nthreads).draw(result ? *result : own);
+        return true;
+    });
 }
 
 } // namespace ToneAlgo

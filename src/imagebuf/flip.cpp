@@ -1,10 +1,11 @@
 // The public functions of include/tonetool/flip.h.
 #include "include/tonetool/flip.h"
 
-#include <exception>
+#include <algorithm>
 #include <utility>
 
 #include "imagebuf/flip_run.h"
+#include "imagebuf/guard.h"
 #include "tonemap/rational.h"
 
 namespace tonetool {
@@ -23,42 +24,49 @@ void deliver(ImageBuf& dst, ImageBuf&& map) {
         return;
     }
     dst.set_pixels(map.roi(), OIIO::TypeFloat, map.localpixels());
+    OIIO::ImageSpec& spec = dst.specmod();
+    spec.erase_attribute("FLIP:.*");
     for (const auto& attribute : map.spec().extra_attribs)
         if (attribute.name().find("FLIP:") == 0)
-            dst.specmod().attribute(attribute.name(), attribute.type(), attribute.data());
+            spec.attribute(attribute.name(), attribute.type(), attribute.data());
 }
 
-bool fail(ImageBuf& dst, const char* function, const std::string& why) {
-    dst.clear();
-    dst.errorfmt("{}: {}", function, why);
-    return false;
+// One test: `make_plan(plan, error)` turns the options into numbers.
+template <class MakePlan>
+bool compare(const char* function, ImageBuf& dst, const ImageBuf& reference, const ImageBuf& test,
+             FlipResult* result, ROI roi, int nthreads, const MakePlan& make_plan) {
+    return guarded(dst, function, [&](std::string& error) {
+        FlipPlan plan;
+        std::vector<ImageBuf> maps;
+        std::vector<FlipResult> results;
+        if (!make_plan(plan, error) ||
+            !run_flip(plan, reference, {&test}, roi, nthreads, maps, results, error))
+            return false;
+        deliver(dst, std::move(maps[0]));
+        if (result)
+            *result = std::move(results[0]);
+        return true;
+    });
 }
 
-// Runs, keeping every exception inside.
-bool guarded_run(const FlipPlan& plan, const ImageBuf& reference,
-                 const std::vector<const ImageBuf*>& tests, ROI roi, int nthreads,
-                 std::vector<ImageBuf>& maps, std::vector<FlipResult>& results,
-                 std::string& error) {
-    try {
-        return run_flip(plan, reference, tests, roi, nthreads, maps, results, error);
-    } catch (const std::bad_alloc&) {
-        error = "not enough memory";
-    } catch (const std::exception& e) {
-        error = e.what();
-    }
-    return false;
-}
-
-bool run_one(const char* function, bool planned, const FlipPlan& plan, std::string& error,
-             ImageBuf& dst, const ImageBuf& reference, const ImageBuf& test, FlipResult* result,
-             ROI roi, int nthreads) {
+bool compare_all(std::vector<ImageBuf>& dst, const ImageBuf& reference,
+                 const std::vector<const ImageBuf*>& tests, const HdrFlipOptions& options,
+                 std::vector<FlipResult>* results, ROI roi, int nthreads, std::string& error) {
+    FlipPlan plan;
     std::vector<ImageBuf> maps;
-    std::vector<FlipResult> results;
-    if (!planned || !guarded_run(plan, reference, {&test}, roi, nthreads, maps, results, error))
-        return fail(dst, function, error);
-    deliver(dst, std::move(maps[0]));
-    if (result)
-        *result = std::move(results[0]);
+    std::vector<FlipResult> found;
+    if (tests.empty() || std::count(tests.begin(), tests.end(), nullptr) > 0) {
+        error = tests.empty() ? "there is no test image" : "a test image is a null pointer";
+        return false;
+    }
+    if (!plan_hdr(options, plan, error) ||
+        !run_flip(plan, reference, tests, roi, nthreads, maps, found, error))
+        return false;
+    dst.resize(tests.size());
+    for (size_t t = 0; t < tests.size(); ++t)
+        deliver(dst[t], std::move(maps[t]));
+    if (results)
+        *results = std::move(found);
     return true;
 }
 
@@ -68,10 +76,9 @@ namespace ToneAlgo {
 
 bool ldr_flip(ImageBuf& dst, const ImageBuf& reference, const ImageBuf& test,
               const FlipOptions& options, FlipResult* result, ROI roi, int nthreads) {
-    FlipPlan plan;
-    std::string error;
-    const bool planned = plan_ldr(options, plan, error);
-    return run_one("ldr_flip", planned, plan, error, dst, reference, test, result, roi, nthreads);
+    return compare(
+        "ldr_flip", dst, reference, test, result, roi, nthreads,
+        [&](FlipPlan& plan, std::string& error) { return plan_ldr(options, plan, error); });
 }
 
 ImageBuf ldr_flip(const ImageBuf& reference, const ImageBuf& test, const FlipOptions& options,
@@ -83,10 +90,9 @@ ImageBuf ldr_flip(const ImageBuf& reference, const ImageBuf& test, const FlipOpt
 
 bool hdr_flip(ImageBuf& dst, const ImageBuf& reference, const ImageBuf& test,
               const HdrFlipOptions& options, FlipResult* result, ROI roi, int nthreads) {
-    FlipPlan plan;
-    std::string error;
-    const bool planned = plan_hdr(options, plan, error);
-    return run_one("hdr_flip", planned, plan, error, dst, reference, test, result, roi, nthreads);
+    return compare(
+        "hdr_flip", dst, reference, test, result, roi, nthreads,
+        [&](FlipPlan& plan, std::string& error) { return plan_hdr(options, plan, error); });
 }
 
 ImageBuf hdr_flip(const ImageBuf& reference, const ImageBuf& test, const HdrFlipOptions& options,
@@ -99,22 +105,15 @@ ImageBuf hdr_flip(const ImageBuf& reference, const ImageBuf& test, const HdrFlip
 bool hdr_flip(std::vector<ImageBuf>& dst, const ImageBuf& reference,
               const std::vector<const ImageBuf*>& tests, const HdrFlipOptions& options,
               std::vector<FlipResult>* results, ROI roi, int nthreads) {
-    FlipPlan plan;
     std::string error;
-    std::vector<ImageBuf> maps;
-    std::vector<FlipResult> found;
-    dst.resize(tests.size());
-    if (tests.empty() || !plan_hdr(options, plan, error) ||
-        !guarded_run(plan, reference, tests, roi, nthreads, maps, found, error)) {
-        for (ImageBuf& map : dst)
-            fail(map, "hdr_flip", error);
-        return false;
-    }
-    for (size_t t = 0; t < tests.size(); ++t)
-        deliver(dst[t], std::move(maps[t]));
-    if (results)
-        *results = std::move(found);
-    return true;
+    if (contained(error, [&](std::string& why) {
+            return compare_all(dst, reference, tests, options, results, roi, nthreads, why);
+        }))
+        return true;
+    dst.assign(std::max<size_t>(tests.size(), 1), ImageBuf());
+    for (ImageBuf& map : dst)
+        map.errorfmt("hdr_flip: {}", error);
+    return false;
 }
 
 std::vector<std::string> flip_tonemappers() {

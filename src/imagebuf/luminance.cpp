@@ -3,8 +3,8 @@
 
 #include <OpenImageIO/imagebufalgo.h>
 #include <cmath>
-#include <exception>
 
+#include "imagebuf/guard.h"
 #include "imagebuf/planes.h"
 #include "metrics/luminance.h"
 
@@ -58,40 +58,32 @@ bool scale_color(ImageBuf& dst, const ImageBuf& src, double stops, const PixelOp
     std::vector<float> factor(size_t(src.nchannels()), 1.0f);
     for (int channel : {choice.r, choice.g, choice.b})
         factor[size_t(channel)] = float(std::exp2(stops));
-    if (OIIO::ImageBufAlgo::mul(dst, src, factor, roi, nthreads))
-        return true;
-    error = dst.geterror();
-    return false;
+    // In float, lest a half overflows or an integer is cut off.
+    ImageBuf out;
+    if (!OIIO::ImageBufAlgo::copy(out, src, OIIO::TypeFloat, roi, nthreads) ||
+        !OIIO::ImageBufAlgo::mul(out, out, factor, roi, nthreads)) {
+        error = out.geterror();
+        return false;
+    }
+    dst = std::move(out);
+    return true;
 }
 
 } // namespace
 
 namespace ToneAlgo {
 
-bool luminance_stats(LuminanceStats& stats, const ImageBuf& src, const PixelOptions& options,
-                     ROI roi, int nthreads) {
-    std::string error;
-    try {
-        if (measure(stats, src, options, roi, nthreads, error))
-            return true;
-    } catch (const std::exception& e) {
-        error = e.what();
-    }
-    src.errorfmt("luminance_stats: {}", error);
-    return false;
+bool luminance_stats(LuminanceStats& stats, const ImageBuf& src, std::string& error,
+                     const PixelOptions& options, ROI roi, int nthreads) {
+    return contained(
+        error, [&](std::string& why) { return measure(stats, src, options, roi, nthreads, why); });
 }
 
 bool exposure(ImageBuf& dst, const ImageBuf& src, double stops, const PixelOptions& options,
               ROI roi, int nthreads) {
-    std::string error;
-    try {
-        if (scale_color(dst, src, stops, options, roi, nthreads, error))
-            return true;
-    } catch (const std::exception& e) {
-        error = e.what();
-    }
-    dst.errorfmt("exposure: {}", error);
-    return false;
+    return guarded(dst, "exposure", [&](std::string& error) {
+        return scale_color(dst, src, stops, options, roi, nthreads, error);
+    });
 }
 
 ImageBuf exposure(const ImageBuf& src, double stops, const PixelOptions& options, ROI roi,

@@ -7,11 +7,13 @@
 #include <OpenImageIO/imagebuf.h>
 #include <OpenImageIO/oiioversion.h>
 #include <OpenImageIO/parallel.h>
+#include <OpenImageIO/thread.h>
+#include <algorithm>
+#include <atomic>
 #include <exception>
 #include <functional>
 #include <mutex>
 #if defined(__SANITIZE_THREAD__)
-#include <atomic>
 #include <thread>
 #include <vector>
 #endif
@@ -22,38 +24,36 @@
 
 namespace tonetool::oiio {
 
-/// Runs task(i) for every i below count, one at a time per thread: tasks are coarse. An exception
-/// of a task is thrown here, once all have ended.
+/// Runs task(i) for every i below count, each on whichever of `nthreads` threads (0: those of the
+/// pool) is free: tasks are coarse. An exception of a task is thrown here, once all have ended.
 inline void parallel_tasks(int64_t count, int nthreads, const std::function<void(int64_t)>& task) {
+    std::atomic<int64_t> next{0};
     std::exception_ptr failure;
     std::mutex lock;
-    const auto guarded = [&](int64_t i) {
-        try {
-            task(i);
-        } catch (...) {
-            const std::lock_guard<std::mutex> hold(lock);
-            failure = std::current_exception();
+    const auto work = [&] {
+        for (int64_t i = next++; i < count; i = next++) {
+            try {
+                task(i);
+            } catch (...) {
+                const std::lock_guard<std::mutex> hold(lock);
+                failure = std::current_exception();
+            }
         }
     };
+    const int wanted = nthreads > 0 ? nthreads : OIIO::default_thread_pool()->size() + 1;
+    const int64_t workers = std::min<int64_t>(wanted, count);
 #if defined(__SANITIZE_THREAD__)
     // The sanitizer cannot see into the library's pool and takes its hand-over of work for races.
-    std::atomic<int64_t> next{0};
     std::vector<std::thread> threads;
-    for (int t = 0; t < (nthreads > 0 ? nthreads : 4); ++t)
-        threads.emplace_back([&] {
-            for (int64_t i = next++; i < count; i = next++)
-                guarded(i);
-        });
+    for (int64_t t = 0; t < workers; ++t)
+        threads.emplace_back(work);
     for (std::thread& thread : threads)
         thread.join();
 #else
+    // As many tasks as threads: 2.4 does not look at the number of threads for chunks of one.
     OIIO::parallel_for_chunked(
-        0, count, 1,
-        [&guarded](int64_t begin, int64_t end) {
-            for (int64_t i = begin; i < end; ++i)
-                guarded(i);
-        },
-        OIIO::paropt(nthreads));
+        0, workers, 1, [&work](int64_t, int64_t) { work(); },
+        OIIO::paropt(int(std::max<int64_t>(workers, 1))));
 #endif
     if (failure)
         std::rethrow_exception(failure);

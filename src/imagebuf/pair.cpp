@@ -2,12 +2,15 @@
 
 #include <OpenImageIO/imagebufalgo.h>
 #include <OpenImageIO/strutil.h>
+#include <cmath>
+#include <limits>
 
 namespace tonetool {
 namespace {
 
 using OIIO::ImageBuf;
 using OIIO::ROI;
+namespace IBA = OIIO::ImageBufAlgo;
 
 std::string window_text(const ROI& r) {
     return OIIO::Strutil::fmt::format("{}x{}{:+}{:+}", r.width(), r.height(), r.xbegin, r.ybegin);
@@ -46,6 +49,28 @@ std::vector<std::string> differing_tags(const OIIO::ImageSpec& reference,
     compare("Orientation");
     compare("PixelAspectRatio");
     return notes;
+}
+
+// The planes as an image of R, G, B (and A): linear Rec.709, NaN where they are not finite.
+ImageBuf interleaved(const ColorPlanes& planes, const ROI& full) {
+    const bool alpha = !planes.alpha.empty();
+    const size_t channels = alpha ? 4 : 3;
+    OIIO::ImageSpec spec(planes.width(), planes.height(), int(channels), OIIO::TypeFloat);
+    spec.x = planes.region.xbegin;
+    spec.y = planes.region.ybegin;
+    ImageBuf image(spec);
+    image.set_roi_full(full);
+    std::vector<float> pixels(planes.nonfinite.size() * channels);
+    for (size_t i = 0; i < planes.nonfinite.size(); ++i) {
+        for (size_t p = 0; p < 3; ++p)
+            pixels[i * channels + p] = planes.plane[p][i];
+        if (alpha)
+            pixels[i * channels + 3] = planes.alpha[i];
+        if (planes.nonfinite[i])
+            pixels[i * channels] = std::numeric_limits<float>::quiet_NaN();
+    }
+    image.set_pixels(image.roi(), OIIO::TypeFloat, pixels.data());
+    return image;
 }
 
 } // namespace
@@ -98,28 +123,31 @@ bool FittedTest::open(const ImageBuf& reference, const ImageBuf& test, const Fli
     return compared_region(reference, *m_test, options.size, m_region, error);
 }
 
-// Only the channels that are compared, so that 40 AOVs are not resized with them.
+// Only what is compared, in linear light and without its non-finite pixels, which stay what they
+// are where they were instead of spreading through the filter.
 bool FittedTest::resize(const ROI& window, bool alpha, int nthreads, std::string& error) {
-    std::vector<int> order = {m_choice.r, m_choice.g, m_choice.b};
-    std::vector<std::string> names = {"R", "G", "B"};
-    if (alpha && m_choice.a >= 0) {
-        order.push_back(m_choice.a);
-        names.emplace_back("A");
-    }
-    const ImageBuf color =
-        OIIO::ImageBufAlgo::channels(*m_test, int(order.size()), order, {}, names, false, nthreads);
+    ColorPlanes planes;
+    if (!read_side(*m_test, m_pixels, m_test->roi(), alpha, nthreads, "test", planes, error))
+        return false;
+    ImageBuf color = interleaved(planes, m_test->roi_full());
+    const ImageBuf with_holes = color;
     ROI target = window;
     target.chbegin = 0;
     target.chend = color.nchannels();
-    if (!OIIO::ImageBufAlgo::resize(m_resized, color, "", 0.0f, target, nthreads)) {
-        error = "resizing the test image: " + m_resized.geterror();
+    ImageBuf holes;
+    if (!IBA::fixNonFinite(color, with_holes, IBA::NONFINITE_BOX3, nullptr, {}, nthreads) ||
+        !IBA::resize(m_resized, color, "", 0.0f, target, nthreads) ||
+        !IBA::resample(holes, with_holes, false, target, nthreads)) {
+        error = "resizing the test image: " + color.geterror() + m_resized.geterror() +
+                holes.geterror();
         return false;
     }
+    if (planes.nonfinite_count > 0)
+        for (ImageBuf::Iterator<float> p(m_resized); !p.done(); ++p)
+            if (std::isnan(holes.getchannel(p.x(), p.y(), 0, 0)))
+                p[0] = std::numeric_limits<float>::quiet_NaN();
     m_test = &m_resized;
-    // The resized copy is plain R,G,B; chromaticities travel with its metadata.
-    m_pixels.layer.clear();
-    if (m_choice.space != "chromaticities")
-        m_pixels.from = m_choice.space;
+    m_pixels = {"", "rec709"};
     return true;
 }
 
@@ -127,6 +155,7 @@ bool FittedTest::read(bool alpha, int nthreads, ColorPlanes& planes, std::string
     if (!read_side(*m_test, m_pixels, m_region, alpha, nthreads, "test", planes, error))
         return false;
     planes.choice.layer = m_choice.layer;
+    planes.choice.space = m_choice.space;
     return true;
 }
 

@@ -9,11 +9,12 @@
 #include <climits>
 #include <cstdlib>
 #include <cstring>
-#include <exception>
 #include <fcntl.h>
 #include <memory>
 #include <sys/stat.h>
 #include <unistd.h>
+
+#include "imagebuf/guard.h"
 
 namespace tonetool {
 namespace {
@@ -127,21 +128,22 @@ private:
         const std::string folder = slash == std::string::npos ? "" : m_final.substr(0, slash + 1);
         const std::string base = m_final.substr(slash == std::string::npos ? 0 : slash + 1);
         const std::string extension = OIIO::Filesystem::extension(base);
-        std::string path = folder + "." + base + ".XXXXXX" + extension;
-        m_fd = ::mkostemps(path.data(), int(extension.size()), O_CLOEXEC);
+        // 0666 less the umask for a new file, the old file's rights for a replaced one.
+        static std::atomic<unsigned> counter{0};
+        for (int attempt = 0; attempt < 100 && m_fd < 0; ++attempt) {
+            m_temporary = folder + "." + base + format(".{}-{}", ::getpid(), counter++) + extension;
+            m_fd = ::open(m_temporary.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+            if (m_fd < 0 && errno != EEXIST)
+                break;
+        }
         if (m_fd < 0) {
+            m_temporary.clear();
             error =
                 "cannot create a file in \"" + (folder.empty() ? "." : folder) + "\": " + reason();
             return false;
         }
-        m_temporary = path;
-        m_slot = remember(path);
-        if (mode == 0) {
-            const mode_t mask = ::umask(0);
-            ::umask(mask);
-            mode = 0666 & ~mask;
-        }
-        if (::fchmod(m_fd, mode) != 0) {
+        m_slot = remember(m_temporary);
+        if (mode != 0 && ::fchmod(m_fd, mode) != 0) {
             error = reason();
             return false;
         }
@@ -238,6 +240,12 @@ bool check_images(const std::vector<OutputImage>& images, const OIIO::ImageOutpu
             error = why.empty() ? "the image holds no pixels" : why;
             return false;
         }
+    for (const OutputImage& image : images)
+        if (image.spec.roi() != image.pixels->roi() ||
+            image.spec.deep != image.pixels->spec().deep) {
+            error = "the spec to write does not have the image's size and channels";
+            return false;
+        }
     if (images.size() > 1 && !out.supports("multiimage")) {
         error = format("{} files hold one image, there are {}", out.format_name(), images.size());
         return false;
@@ -303,17 +311,11 @@ bool write_checked(const std::vector<OutputImage>& images, const std::string& fi
     return target.commit(error);
 }
 
-template <class F>
-bool guarded(const std::string& filename, std::string& error, const F& run) {
-    error.clear();
-    try {
-        if (run())
-            return true;
-    } catch (const std::exception& e) {
-        error = e.what();
-    }
-    if (error.empty())
-        error = "unknown reason";
+// Runs a write; an error names the file.
+template <class Run>
+bool named(const std::string& filename, std::string& error, const Run& run) {
+    if (contained(error, run))
+        return true;
     if (error.find(filename) == std::string::npos)
         error = format("could not write \"{}\": {}", filename, error);
     return false;
@@ -323,7 +325,8 @@ bool guarded(const std::string& filename, std::string& error, const F& run) {
 
 bool write_images(const std::vector<OutputImage>& images, const std::string& filename,
                   std::string& error) {
-    return guarded(filename, error, [&] { return write_checked(images, filename, error); });
+    return named(filename, error,
+                 [&](std::string& why) { return write_checked(images, filename, why); });
 }
 
 bool write_image(const OIIO::ImageBuf& image, const std::string& filename, std::string& error) {
@@ -331,14 +334,14 @@ bool write_image(const OIIO::ImageBuf& image, const std::string& filename, std::
 }
 
 bool write_bytes(const std::string& bytes, const std::string& filename, std::string& error) {
-    return guarded(filename, error, [&] {
+    return named(filename, error, [&](std::string& why) {
         Target target(filename);
-        if (!target.open(error))
+        if (!target.open(why))
             return false;
         CheckedProxy proxy(target);
         proxy.write(bytes.data(), bytes.size());
-        error = proxy.failure();
-        return error.empty() && target.commit(error);
+        why = proxy.failure();
+        return why.empty() && target.commit(why);
     });
 }
 

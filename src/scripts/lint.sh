@@ -19,9 +19,9 @@ status=0
 clang-format --dry-run -Werror "${all[@]}" || status=1
 
 printf '%s\0' "${sources[@]}" |
-    xargs -0 -r -n 1 -P "$(nproc)" clang-tidy --quiet -p build/release || status=1
+    xargs -0 -r -n 1 -P "$(nproc)" clang-tidy --quiet -p build/release --extra-arg=-Wno-unknown-warning-option || status=1
 
-cppcheck --quiet --std=c++17 --language=c++ --inline-suppr --error-exitcode=1 \
+cppcheck --quiet --library=googletest --std=c++17 --language=c++ --inline-suppr --error-exitcode=1 \
     --enable=warning,performance,portability --suppressions-list=src/scripts/cppcheck.supp \
     -I src -I src/include "${sources[@]}" || status=1
 

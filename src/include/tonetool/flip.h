@@ -117,8 +117,8 @@ TONETOOL_API OIIO::ImageBuf ldr_flip(const OIIO::ImageBuf& reference, const OIIO
 /// HDR-FLIP: the maximum of LDR-FLIP over N exposures of both images, each tone mapped.
 ///
 /// As ldr_flip in all that is said there, but nothing is clamped before the tone map except
-/// negative values, which become 0 and are counted. Exposures come from the whole reference
-/// (not from the ROI), from its finite pixels: start so that its maximum luminance, stop so that
+/// negative values, which become 0 and are counted. Exposures come from the compared region of the
+/// reference (whatever the ROI), its finite pixels: start so that its maximum luminance, stop so that
 /// its median luminance is tone mapped to 0.85 (Eqs. 2, 3); luminance is 0.2126 R + 0.7152 G +
 /// 0.0722 B. When more than half of the reference is black the median of the lit pixels is taken
 /// and the summary says so; an all-black reference needs explicit exposures.
@@ -133,7 +133,7 @@ TONETOOL_API OIIO::ImageBuf hdr_flip(const OIIO::ImageBuf& reference, const OIIO
 
 /// HDR-FLIP of several tests against one reference, whose side is prepared once: one map (and
 /// one result, if asked for) per test, the same bits as one call each. All or nothing: on failure
-/// every map carries the error.
+/// every map (there is at least one) carries the error. A null pointer or no test is an error.
 TONETOOL_API bool hdr_flip(std::vector<OIIO::ImageBuf>& dst, const OIIO::ImageBuf& reference,
                            const std::vector<const OIIO::ImageBuf*>& tests,
                            const HdrFlipOptions& options = {},

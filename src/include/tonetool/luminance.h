@@ -2,6 +2,7 @@
 #pragma once
 
 #include <OpenImageIO/imagebuf.h>
+#include <string>
 
 #include "tonetool/export.h"
 #include "tonetool/numbers.h"
@@ -11,15 +12,16 @@ namespace tonetool {
 
 namespace ToneAlgo {
 
-/// Measure an image. Returns false with the reason in src.geterror(); deep images, images
-/// without colour and images without a finite pixel are errors.
+/// Measure an image. Returns false with the reason in `error`; deep images, images without colour
+/// and images without a finite pixel are errors.
 TONETOOL_API bool luminance_stats(LuminanceStats& stats, const OIIO::ImageBuf& src,
-                                  const PixelOptions& options = {}, OIIO::ROI roi = {},
-                                  int nthreads = 0);
+                                  std::string& error, const PixelOptions& options = {},
+                                  OIIO::ROI roi = {}, int nthreads = 0);
 
 /// Multiply the colour of an image by 2^stops. Only R, G, B of the layer that options choose are
-/// scaled; alpha and every other channel are carried unchanged. Non-finite pixels stay as they
-/// are. The image must be linear: a display-encoded one is an error, as are stops outside
+/// scaled, in float, so that nothing overflows; alpha and every other channel are carried
+/// unchanged. Non-finite pixels stay as they are. The image must be linear: a display-encoded one
+/// is an error, as are stops outside
 /// [-126, 126].
 TONETOOL_API bool exposure(OIIO::ImageBuf& dst, const OIIO::ImageBuf& src, double stops,
                            const PixelOptions& options = {}, OIIO::ROI roi = {}, int nthreads = 0);

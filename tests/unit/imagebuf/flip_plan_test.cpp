@@ -98,7 +98,8 @@ TEST(FlipOptions, PpdFollowsTheScreen) {
 TEST(Exposures, FollowTheReferencesLuminance) {
     const auto reference = noise(21, 13, 2);
     LuminanceStats stats;
-    ASSERT_TRUE(ToneAlgo::luminance_stats(stats, reference));
+    std::string error;
+    ASSERT_TRUE(ToneAlgo::luminance_stats(stats, reference, error)) << error;
     const FlipSummary s = run(reference, disturbed(reference, 0.1, 1)).result.summary;
     EXPECT_EQ(s.max_luminance, stats.max);
     EXPECT_EQ(s.median_luminance, stats.median);

@@ -47,7 +47,7 @@ TEST(FlipRun, TilesIntoAnInitializedMapGiveTheSameBits) {
     const auto whole = hdr_flip(reference, test);
     const std::pair<int, int> sizes[] = {{41, 37}, {130, 9}, {1, 100}, {129, 99}};
     for (const auto& [w, h] : sizes) {
-        ImageSpec map_spec = whole.spec();
+        const ImageSpec& map_spec = whole.spec();
         ImageBuf tiled(map_spec);
         const float stale = -1;
         for (ImageBuf::Iterator<float> p(tiled); !p.done(); ++p)
@@ -162,7 +162,11 @@ TEST(SeveralTests, AreAllOrNothing) {
     }
     EXPECT_EQ(results.size(), 7u);
     EXPECT_FALSE(hdr_flip(maps, reference, {}));
-    EXPECT_TRUE(maps.empty());
+    ASSERT_EQ(maps.size(), 1u);
+    EXPECT_THAT(maps[0].geterror(), HasSubstr("there is no test image"));
+    EXPECT_FALSE(hdr_flip(maps, reference, {&reference, nullptr}));
+    ASSERT_EQ(maps.size(), 2u);
+    EXPECT_THAT(maps[1].geterror(), HasSubstr("null pointer"));
 }
 
 // Windows and sizes.
