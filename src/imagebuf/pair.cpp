@@ -63,11 +63,10 @@ ImageBuf interleaved(const ColorPlanes& planes, const ROI& full) {
     std::vector<float> pixels(planes.nonfinite.size() * channels);
     for (size_t i = 0; i < planes.nonfinite.size(); ++i) {
         for (size_t p = 0; p < 3; ++p)
-            pixels[i * channels + p] = planes.plane[p][i];
+            pixels[i * channels + p] =
+                planes.nonfinite[i] ? std::numeric_limits<float>::quiet_NaN() : planes.plane[p][i];
         if (alpha)
             pixels[i * channels + 3] = planes.alpha[i];
-        if (planes.nonfinite[i])
-            pixels[i * channels] = std::numeric_limits<float>::quiet_NaN();
     }
     image.set_pixels(image.roi(), OIIO::TypeFloat, pixels.data());
     return image;

@@ -26,6 +26,13 @@ def test_pending_operator_at_the_end_is_an_error(tonetool, make_image):
     assert "hdrflip : never executed" in ran.err
 
 
+@pytest.mark.parametrize("command", [["--exposure", "1"], ["--pop"], ["--dup"]])
+def test_a_waiting_operator_is_not_overtaken(tonetool, make_image, command):
+    a, b = make_image("a.exr"), make_image("b.exr", seed=2)
+    ran = tonetool(a, "--hdrflip:fail=1", *command, b, "-o", "x.exr", status=1)
+    assert "--hdrflip still waits" in ran.err and "PASS" not in ran.out
+
+
 def test_no_output_while_an_operator_waits(tonetool, make_image, tmp_path):
     a, b = make_image("a.exr", seed=1), make_image("b.exr", seed=2)
     ran = tonetool(a, "--hdrflip", "-o", "x.exr", b, status=1)

@@ -110,5 +110,22 @@ TEST(EncodeSrgb, EncodesAndClampsAllButAlpha) {
     EXPECT_THAT(out.geterror(), HasSubstr("encode_srgb: "));
 }
 
+TEST(ColorMap, InfinityIsTheBrightest) {
+    ImageBuf out;
+    ASSERT_TRUE(color_map(out, row({1, std::numeric_limits<float>::infinity()}), "magma"));
+    EXPECT_EQ(pixel_of(out, 0, 0), pixel_of(out, 1, 0));
+}
+
+TEST(EncodeSrgb, RefusesDeepImages) {
+    auto spec = make_spec(2, 2, {"R", "G", "B"});
+    spec.deep = true;
+    const ImageBuf deep(spec);
+    ImageBuf out;
+    EXPECT_FALSE(encode_srgb(out, deep));
+    EXPECT_THAT(out.geterror(), HasSubstr("deep"));
+    EXPECT_FALSE(color_map(out, deep, "magma"));
+    EXPECT_THAT(out.geterror(), HasSubstr("deep"));
+}
+
 } // namespace
 } // namespace tonetool

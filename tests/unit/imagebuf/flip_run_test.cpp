@@ -248,5 +248,14 @@ TEST(MapInPlace, OnlyAFloatChannelThatCoversTheRegionIsKept) {
     EXPECT_GT(larger.spec().get_float_attribute("FLIP:meanerror"), 0.0f);
 }
 
+TEST(FlipRun, AReusedMapKeepsNoOldAttributes) {
+    const auto reference = noise(12, 10, 30), test = disturbed(reference, 0.3, 31);
+    auto map = hdr_flip(reference, test);
+    ASSERT_TRUE(map.spec().find_attribute("FLIP:startExposure"));
+    ASSERT_TRUE(ToneAlgo::ldr_flip(map, reference, test));
+    EXPECT_FALSE(map.spec().find_attribute("FLIP:startExposure"));
+    EXPECT_TRUE(map.spec().find_attribute("FLIP:meanerror"));
+}
+
 } // namespace
 } // namespace tonetool

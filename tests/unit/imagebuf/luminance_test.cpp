@@ -160,5 +160,12 @@ TEST(Exposure, SaysWhatIsWrong) {
     EXPECT_FALSE(exposure(bytes, 1, linear).has_error());
 }
 
+TEST(Exposure, OfAHalfDoesNotOverflow) {
+    const auto half = constant(1, 1, {1000, 1, 1}).copy(OIIO::TypeHalf);
+    ImageBuf out;
+    ASSERT_TRUE(exposure(out, half, 10.0)) << out.geterror();
+    EXPECT_EQ(pixel_of(out, 0, 0)[0], 1000.0f * 1024.0f);
+}
+
 } // namespace
 } // namespace tonetool

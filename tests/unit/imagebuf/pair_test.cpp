@@ -122,5 +122,25 @@ TEST(FittedTest, ResizeKeepsTheColorSpace) {
     EXPECT_EQ(resized.choice.space, "acescg");
 }
 
+TEST(FittedTest, ResizeKeepsAHoleWhereItIs) {
+    auto test = constant(8, 8, {0.2f, 0.5f, 0.1f});
+    const float nan = std::numeric_limits<float>::quiet_NaN();
+    const float hole[3] = {0.2f, nan, 0.1f};
+    test.setpixel(3, 4, hole);
+    FittedTest fitted;
+    ColorPlanes planes;
+    std::string error;
+    ASSERT_TRUE(fitted.open(noise(16, 16, 1), test, with_size(SizePolicy::Resize), 1, error));
+    ASSERT_TRUE(fitted.read(false, 1, planes, error)) << error;
+    EXPECT_EQ(planes.nonfinite_count, 4);
+    for (size_t i = 0; i < planes.nonfinite.size(); ++i) {
+        const size_t x = i % 16, y = i / 16;
+        EXPECT_EQ(planes.nonfinite[i] != 0, x / 2 == 3 && y / 2 == 4) << x << "," << y;
+        if (!planes.nonfinite[i]) {
+            EXPECT_NEAR(planes.plane[1][i], 0.5, 1e-6); // filter weights sum to 1 within rounding
+        }
+    }
+}
+
 } // namespace
 } // namespace tonetool

@@ -275,5 +275,15 @@ TEST_F(Write, NothingUnfinishedIsLeftToRemove) {
     EXPECT_EQ(contents(in("a.txt")), "x");
 }
 
+TEST_F(Write, ASpecOfAnotherSizeIsRefused) {
+    const auto image = noise(4, 4, 1);
+    std::string error;
+    auto spec = image.spec();
+    spec.width = spec.full_width = 4000;
+    EXPECT_FALSE(write_images({{&image, spec}}, in("x.exr"), error));
+    EXPECT_THAT(error, HasSubstr("size and channels"));
+    EXPECT_TRUE(files().empty());
+}
+
 } // namespace
 } // namespace tonetool
