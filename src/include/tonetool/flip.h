@@ -118,8 +118,8 @@ TONETOOL_API OIIO::ImageBuf ldr_flip(const OIIO::ImageBuf& reference, const OIIO
 ///
 /// As ldr_flip in all that is said there, but nothing is clamped before the tone map except
 /// negative values, which become 0 and are counted. Exposures come from the compared region of the
-/// reference (whatever the ROI), its finite pixels: start so that its maximum luminance, stop so that
-/// its median luminance is tone mapped to 0.85 (Eqs. 2, 3); luminance is 0.2126 R + 0.7152 G +
+/// reference (whatever the ROI), its finite pixels: start so that its maximum luminance, stop so
+/// that its median luminance is tone mapped to 0.85 (Eqs. 2, 3); luminance is 0.2126 R + 0.7152 G +
 /// 0.0722 B. When more than half of the reference is black the median of the lit pixels is taken
 /// and the summary says so; an all-black reference needs explicit exposures.
 /// Where the error is 0 the exposure map holds the start exposure (index 0).
