@@ -12,10 +12,6 @@ namespace {
 using OIIO::ImageBuf;
 using OIIO::ROI;
 
-bool same_pixels(const ROI& a, const ROI& b) {
-    return a.xbegin == b.xbegin && a.xend == b.xend && a.ybegin == b.ybegin && a.yend == b.yend;
-}
-
 // The tests that share one region with the reference, compared together.
 class Group {
 public:
@@ -134,7 +130,7 @@ bool run_flip(const FlipPlan& plan, const ImageBuf& reference,
     for (size_t t = 0; t < tests.size(); ++t) {
         if (!fitted[t].open(reference, *tests[t], plan.common, nthreads, error))
             return false;
-        one_region = one_region && same_pixels(fitted[t].region(), fitted[0].region());
+        one_region = one_region && same_window(fitted[t].region(), fitted[0].region());
     }
     if (one_region)
         return Group(plan, reference, nthreads)

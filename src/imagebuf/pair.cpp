@@ -19,15 +19,6 @@ std::string window_text(const ROI& r) {
 // Of a region that is compared at once: 32 times an 8K frame.
 constexpr double kMostPixels = 1 << 30;
 
-std::string side_name(const char* side, const ImageBuf& image) {
-    const std::string name(image.name());
-    return std::string(side) + " image" + (name.empty() ? ": " : " \"" + name + "\": ");
-}
-
-bool same_window(const ROI& a, const ROI& b) {
-    return a.xbegin == b.xbegin && a.xend == b.xend && a.ybegin == b.ybegin && a.yend == b.yend;
-}
-
 ROI plane_of(ROI r) {
     r.zbegin = 0;
     r.zend = 1;
@@ -73,6 +64,10 @@ ImageBuf interleaved(const ColorPlanes& planes, const ROI& full) {
 }
 
 } // namespace
+
+bool same_window(const ROI& a, const ROI& b) {
+    return a.xbegin == b.xbegin && a.xend == b.xend && a.ybegin == b.ybegin && a.yend == b.yend;
+}
 
 bool compared_region(const ImageBuf& reference, const ImageBuf& test, SizePolicy size, ROI& region,
                      std::string& error) {

@@ -10,6 +10,9 @@
 
 namespace tonetool {
 
+/// The same pixels in x and y.
+bool same_window(const OIIO::ROI& a, const OIIO::ROI& b);
+
 /// The region of a comparison: the union of the data windows, cropped where asked. False (with the
 /// reason) where the display windows differ and nothing was asked, or where nothing is left.
 bool compared_region(const OIIO::ImageBuf& reference, const OIIO::ImageBuf& test, SizePolicy size,

@@ -158,10 +158,14 @@ kernels::ConstRgb ColorPlanes::view() const {
     return {{plane[0].data(), plane[1].data(), plane[2].data()}, width(), width(), height()};
 }
 
+std::string side_name(const char* side, const ImageBuf& image) {
+    const std::string name(image.name());
+    return std::string(side) + " image" + (name.empty() ? ": " : " \"" + name + "\": ");
+}
+
 bool check_readable(const ImageBuf& image, const char* what, std::string& error) {
     const auto fail = [&](const std::string& why) {
-        error = std::string(what) + " image" +
-                (image.name().empty() ? "" : " \"" + std::string(image.name()) + "\"") + ": " + why;
+        error = side_name(what, image) + why;
         return false;
     };
     if (!image.initialized() && !image.has_error() && image.name().empty())

@@ -28,6 +28,9 @@ struct ColorPlanes {
     kernels::ConstRgb view() const;
 };
 
+/// How errors begin: `side image "name": `, or without the name where there is none.
+std::string side_name(const char* side, const OIIO::ImageBuf& image);
+
 /// Whether an image can be looked at at all: read without error, not deep, not a volume.
 bool check_readable(const OIIO::ImageBuf& image, const char* what, std::string& error);
 

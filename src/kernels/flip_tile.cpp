@@ -101,8 +101,6 @@ HWY_INLINE TwoFilters Detectors(const Neighbours& n, const FlipTaps<float>& taps
     return {odd, zero_sum};
 }
 
-enum RowPlane { kRowY, kRowCx, kRowCz1, kRowCz2, kRowG, kRowD1, kRowD2, kRowPlanes };
-
 // The x pass of one row: seven filters of three planes.
 void FilterRow(const float* y, const float* xy, const float* yz, int width,
                const FlipTaps<float>& taps, float* const out[kRowPlanes]) {
@@ -213,7 +211,6 @@ namespace {
 
 // Loops run over whole vectors: every row has this many floats to spare.
 constexpr ptrdiff_t kSpare = 16;
-constexpr int kRowPlaneCount = 7;
 
 ptrdiff_t round_up(ptrdiff_t n) {
     return (n + kSpare - 1) / kSpare * kSpare;
@@ -258,7 +255,7 @@ FlipTile::FlipTile(const TileShape& shape, const FlipTaps<float>& taps)
     : m_shape(shape),
       m_taps(taps),
       m_opponent(3, shape.padded_stride, shape.padded_height()),
-      m_rows(kRowPlaneCount, shape.stride, shape.padded_height()) {}
+      m_rows(kRowPlanes, shape.stride, shape.padded_height()) {}
 
 void FlipTile::prepare(const TilePixels& pixels, const ToneCurve& curve, float scale,
                        Planes& features) {
@@ -270,16 +267,16 @@ void FlipTile::prepare(const TilePixels& pixels, const ToneCurve& curve, float s
      m_opponent[1], m_opponent[2]);
     for (int y = 0; y < m_shape.padded_height(); ++y) {
         const ptrdiff_t at = y * m_shape.padded_stride + m_shape.halo;
-        float* out[kRowPlaneCount];
-        for (int p = 0; p < kRowPlaneCount; ++p)
+        float* out[kRowPlanes];
+        for (int p = 0; p < kRowPlanes; ++p)
             out[p] = m_rows[p] + y * m_shape.stride;
         filter_row(m_opponent[0] + at, m_opponent[1] + at, m_opponent[2] + at, m_shape.width,
                    m_taps, out);
     }
     for (int y = 0; y < m_shape.height; ++y) {
-        const float* rows[kRowPlaneCount];
+        const float* rows[kRowPlanes];
         float* out[kFeaturePlanes];
-        for (int p = 0; p < kRowPlaneCount; ++p)
+        for (int p = 0; p < kRowPlanes; ++p)
             rows[p] = m_rows[p] + (y + m_shape.halo) * m_shape.stride;
         for (int p = 0; p < kFeaturePlanes; ++p)
             out[p] = features[p] + y * m_shape.stride;

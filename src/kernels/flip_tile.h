@@ -51,6 +51,10 @@ struct TilePixels {
 /// point strength.
 enum FeaturePlane { kLHigh, kLLow, kA, kB, kEdge, kPoint, kFeaturePlanes };
 
+/// What the x pass leaves for the y pass: three filtered colours, the last of them twice, and the
+/// luminance under the three filters of the features.
+enum RowPlane { kRowY, kRowCx, kRowCz1, kRowCz2, kRowG, kRowD1, kRowD2, kRowPlanes };
+
 /// Work space for one tile; made once per tile, reused for every exposure and image.
 class FlipTile {
 public:
@@ -69,7 +73,7 @@ private:
     TileShape m_shape;
     const FlipTaps<float>& m_taps;
     Planes m_opponent; // y, x - y, y - z of the padded tile
-    Planes m_rows;     // the seven row-filtered planes
+    Planes m_rows;     // kRowPlanes of them
 };
 
 /// `count` pixels exposed, tone mapped and clamped; in and out may be the same.
