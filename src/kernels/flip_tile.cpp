@@ -239,7 +239,7 @@ TilePixels::TilePixels(const TileShape& shape, const ConstRgb& image, int x0, in
     for (int c = 0; c < 3; ++c)
         for (int y = 0; y < shape.padded_height(); ++y) {
             const int source_y = std::clamp(y0 - shape.halo + y, 0, image.height - 1);
-            const float* in = image.plane[c] + source_y * image.stride;
+            const float* in = image.plane[c] + (source_y - image.first_row) * image.stride;
             float* out = rgb[c] + y * shape.padded_stride;
             std::fill(out, out + inside_from, in[0]);
             std::copy(in + left + inside_from, in + left + inside_to, out + inside_from);

@@ -7,11 +7,13 @@
 
 namespace tonetool::kernels {
 
-/// Three planes of one image, row stride in floats.
+/// Three planes of one image, row stride in floats; or of a band of its rows, as much as what is
+/// computed from it needs.
 struct ConstRgb {
     const float* plane[3] = {nullptr, nullptr, nullptr};
     ptrdiff_t stride = 0;
-    int width = 0, height = 0;
+    int width = 0, height = 0; ///< of the whole image
+    int first_row = 0;         ///< row of the image that the planes begin with
 };
 
 /// A rectangle of an image.

@@ -126,6 +126,39 @@ TEST_F(Evaluate, WindowsDoNotChangeABit) {
     }
 }
 
+// Rows from `first` to `end`, as a reader of bands would hold them.
+HdrImage rows_of(const HdrImage& image, int first, int end) {
+    HdrImage band(image.width, end - first);
+    for (int c = 0; c < 3; ++c)
+        std::copy_n(image.plane[c].begin() + first * image.width, band.size(),
+                    band.plane[c].begin());
+    return band;
+}
+
+kernels::ConstRgb view_of_rows(const HdrImage& band, const HdrImage& whole_image, int first) {
+    kernels::ConstRgb view = band.view();
+    view.height = whole_image.height;
+    view.first_row = first;
+    return view;
+}
+
+TEST_F(Evaluate, BandsOfRowsDoNotChangeABit) {
+    const int far = reach(evaluation().taps);
+    for (int rows : {1, 30, 64}) {
+        SCOPED_TRACE(rows);
+        Planes banded(m_reference, kStops.size());
+        for (int y = 0; y < kHeight; y += rows) {
+            const int count = std::min(rows, kHeight - y);
+            const int first = std::max(0, y - far), end = std::min(kHeight, y + count + far);
+            const HdrImage r = rows_of(m_reference, first, end), t = rows_of(m_test, first, end);
+            evaluate(evaluation(), view_of_rows(r, m_reference, first),
+                     {view_of_rows(t, m_test, first)}, {0, y, kWidth, count},
+                     {banded.at(0, y, kWidth)}, in_order());
+        }
+        expect_same(m_whole, banded);
+    }
+}
+
 TEST_F(Evaluate, AWindowLeavesTheRestAlone) {
     Planes planes(m_reference, kStops.size());
     evaluate(evaluation(), m_reference.view(), {m_test.view()}, {20, 30, 11, 7},
