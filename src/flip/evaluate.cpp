@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <mutex>
 
 #include "flip/filters.h"
 #include "kernels/flip_tile.h"
@@ -11,98 +12,139 @@ namespace tonetool::flip {
 namespace {
 
 using kernels::FlipTile;
-using kernels::Planes;
-using kernels::TilePixels;
-using kernels::TileShape;
 using kernels::Window;
 
-// Work space of a tile stays within a core's L2 cache at common viewing conditions; wide halos get
-// larger tiles so that the halo does not become most of the work.
-int tile_size(int halo) {
-    return std::clamp((4 * halo + 15) / 16 * 16, 96, 384);
+// A few rows of a tile must stay in a core's L2 cache; narrow or low tiles spend their time on
+// halos. Enough tiles remain for all threads to end at the same time.
+constexpr int kTileWidth = 640, kTileHeight = 128;
+
+// `length` in equal parts of about `wanted`.
+int part_size(int length, int wanted) {
+    const int parts = (length + wanted - 1) / wanted;
+    return (length + parts - 1) / parts;
 }
 
-// One test against the reference within a tile.
-struct TestTile {
-    TilePixels pixels;
-    Planes best; // error and index
-    bool identical;
-};
+Window tile_size(const Window& window, int halo) {
+    return {0, 0, part_size(window.width, std::max(kTileWidth, 16 * halo)),
+            part_size(window.height, std::max(kTileHeight, 8 * halo))};
+}
 
-class TileRun {
+// Evaluates tiles, several at a time: each takes a work space that is free, or makes one.
+class Tiles {
 public:
-    TileRun(const Evaluation& what, const kernels::ConstRgb& reference,
-            const std::vector<kernels::ConstRgb>& tests, const std::vector<Output>& outputs,
-            const Window& window, const Window& tile)
+    Tiles(const Evaluation& what, const kernels::ConstRgb& reference,
+          const std::vector<kernels::ConstRgb>& tests, const Window& window,
+          const std::vector<Output>& outputs)
         : m_what(what),
+          m_reference(reference),
+          m_tests(tests),
+          m_window(window),
           m_outputs(outputs),
-          m_shape(tile.width, tile.height, reach(what.taps)),
-          m_reference(m_shape, reference, tile.x0, tile.y0),
-          m_column(tile.x0 - window.x0),
-          m_row(tile.y0 - window.y0) {
-        for (const auto& test : tests) {
-            TilePixels pixels(m_shape, test, tile.x0, tile.y0);
-            const bool identical = pixels.same_as(m_reference);
-            m_tests.push_back(
-                {std::move(pixels), Planes(2, m_shape.stride, m_shape.height), identical});
-        }
+          m_functions(what.functions ? *what.functions : kernels::flip_rows()),
+          m_size(tile_size(window, reach(what.taps))),
+          m_across((window.width + m_size.width - 1) / m_size.width),
+          m_down((window.height + m_size.height - 1) / m_size.height) {
+        for (const Output& output : outputs)
+            m_keep_each = m_keep_each || !output.per_exposure.empty();
     }
 
-    void run() {
-        const bool all_identical = std::all_of(m_tests.begin(), m_tests.end(),
-                                               [](const TestTile& t) { return t.identical; });
-        if (!all_identical)
-            evaluate_exposures();
-        else
-            clear_per_exposure();
-        for (size_t t = 0; t < m_tests.size(); ++t) {
-            store(m_tests[t].best[0], m_outputs[t].error, m_outputs[t]);
-            if (m_outputs[t].index)
-                store(m_tests[t].best[1], m_outputs[t].index, m_outputs[t]);
-        }
+    int64_t count() const { return int64_t(m_across) * m_down; }
+
+    void run(int64_t i) {
+        Window tile{int(i % m_across) * m_size.width, int(i / m_across) * m_size.height, 0, 0};
+        tile.width = std::min(m_size.width, m_window.width - tile.x0);
+        tile.height = std::min(m_size.height, m_window.height - tile.y0);
+        tile.x0 += m_window.x0;
+        tile.y0 += m_window.y0;
+        const std::vector<size_t> differing = split_off_same(tile);
+        if (differing.empty())
+            return;
+        std::unique_ptr<FlipTile> space = take();
+        evaluate(*space, tile, differing);
+        give_back(std::move(space));
     }
 
 private:
-    void evaluate_exposures() {
-        FlipTile tile(m_shape, m_what.taps);
-        Planes reference(kernels::kFeaturePlanes, m_shape.stride, m_shape.height);
-        Planes features(kernels::kFeaturePlanes, m_shape.stride, m_shape.height);
-        Planes error(1, m_shape.stride, m_shape.height);
+    // The tests that differ from the reference; the others' error is 0.
+    std::vector<size_t> split_off_same(const Window& tile) const {
+        std::vector<size_t> differing;
+        for (size_t t = 0; t < m_tests.size(); ++t)
+            if (same_pixels(m_reference, m_tests[t], tile, reach(m_what.taps)))
+                clear(m_outputs[t], tile);
+            else
+                differing.push_back(t);
+        return differing;
+    }
+
+    void evaluate(FlipTile& space, const Window& tile, const std::vector<size_t>& differing) const {
+        std::vector<const kernels::ConstRgb*> tests;
+        for (size_t t : differing)
+            tests.push_back(&m_tests[t]);
+        space.load(tile, m_reference, tests);
         for (size_t n = 0; n < m_what.stops.size(); ++n) {
-            const auto scale = float(std::exp2(m_what.stops[n]));
-            tile.prepare(m_reference, m_what.curve, scale, reference);
-            for (size_t t = 0; t < m_tests.size(); ++t) {
-                const bool keep = !m_outputs[t].per_exposure.empty();
-                if (m_tests[t].identical && !keep)
-                    continue;
-                tile.prepare(m_tests[t].pixels, m_what.curve, scale, features);
-                tile.compare(reference, features, float(n), m_tests[t].best[0], m_tests[t].best[1],
-                             keep ? error[0] : nullptr);
-                if (keep)
-                    store(error[0], m_outputs[t].per_exposure[n], m_outputs[t]);
-            }
+            space.expose(m_what.curve, float(std::exp2(m_what.stops[n])), float(n));
+            for (size_t i = 0; i < differing.size(); ++i)
+                if (const Output& output = m_outputs[differing[i]]; !output.per_exposure.empty())
+                    store(space, i, FlipTile::kLastError, tile, output.per_exposure[n], output);
+        }
+        for (size_t i = 0; i < differing.size(); ++i) {
+            const Output& output = m_outputs[differing[i]];
+            store(space, i, FlipTile::kError, tile, output.error, output);
+            if (output.index)
+                store(space, i, FlipTile::kIndex, tile, output.index, output);
         }
     }
 
-    void clear_per_exposure() {
-        const Planes zero(1, m_shape.stride, m_shape.height);
-        for (const Output& output : m_outputs)
-            for (float* plane : output.per_exposure)
-                store(zero[0], plane, output);
+    float* place(float* plane, const Window& tile, const Output& output) const {
+        return plane + (tile.y0 - m_window.y0) * output.stride + (tile.x0 - m_window.x0);
     }
 
-    void store(const float* from, float* plane, const Output& output) const {
-        for (int y = 0; y < m_shape.height; ++y)
-            std::copy_n(from + y * m_shape.stride, m_shape.width,
-                        plane + (m_row + y) * output.stride + m_column);
+    void store(FlipTile& space, size_t i, FlipTile::ResultPlane from, const Window& tile, float* to,
+               const Output& output) const {
+        space.store(i, from, place(to, tile, output), output.stride);
+    }
+
+    void clear(const Output& output, const Window& tile) const {
+        std::vector<float*> planes = output.per_exposure;
+        planes.push_back(output.error);
+        if (output.index)
+            planes.push_back(output.index);
+        for (float* plane : planes)
+            for (int y = 0; y < tile.height; ++y)
+                std::fill_n(place(plane, tile, output) + y * output.stride, tile.width, 0.0f);
+    }
+
+    std::unique_ptr<FlipTile> take() {
+        {
+            const std::lock_guard<std::mutex> hold(m_lock);
+            if (!m_free.empty()) {
+                auto space = std::move(m_free.back());
+                m_free.pop_back();
+                return space;
+            }
+        }
+        const kernels::TileShape shape(m_functions.lanes, m_size.width, m_size.height,
+                                       reach(m_what.taps));
+        return std::make_unique<FlipTile>(m_functions, shape, m_what.taps, m_tests.size(),
+                                          m_keep_each);
+    }
+
+    void give_back(std::unique_ptr<FlipTile> space) {
+        const std::lock_guard<std::mutex> hold(m_lock);
+        m_free.push_back(std::move(space));
     }
 
     const Evaluation& m_what;
+    const kernels::ConstRgb& m_reference;
+    const std::vector<kernels::ConstRgb>& m_tests;
+    Window m_window;
     const std::vector<Output>& m_outputs;
-    TileShape m_shape;
-    TilePixels m_reference;
-    std::vector<TestTile> m_tests;
-    int m_column, m_row;
+    const kernels::FlipRows& m_functions;
+    Window m_size; // of a tile
+    int m_across, m_down;
+    bool m_keep_each = false;
+    std::mutex m_lock;
+    std::vector<std::unique_ptr<FlipTile>> m_free;
 };
 
 } // namespace
@@ -110,17 +152,8 @@ private:
 void evaluate(const Evaluation& what, const kernels::ConstRgb& reference,
               const std::vector<kernels::ConstRgb>& tests, const kernels::Window& window,
               const std::vector<Output>& outputs, const kernels::ParallelFor& parallel) {
-    const int size = tile_size(reach(what.taps));
-    const int64_t across = (window.width + size - 1) / size;
-    const int64_t down = (window.height + size - 1) / size;
-    parallel(across * down, [&](int64_t i) {
-        Window tile{int(i % across) * size, int(i / across) * size, 0, 0};
-        tile.width = std::min(size, window.width - tile.x0);
-        tile.height = std::min(size, window.height - tile.y0);
-        tile.x0 += window.x0;
-        tile.y0 += window.y0;
-        TileRun(what, reference, tests, outputs, window, tile).run();
-    });
+    Tiles tiles(what, reference, tests, window, outputs);
+    parallel(tiles.count(), [&tiles](int64_t i) { tiles.run(i); });
 }
 
 } // namespace tonetool::flip

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "kernels/flip_rows.h"
 #include "kernels/flip_taps.h"
 #include "kernels/tone_curve.h"
 #include "kernels/views.h"
@@ -10,9 +11,11 @@
 namespace tonetool::flip {
 
 struct Evaluation {
-    kernels::FlipTaps<float> taps;
+    kernels::LaneTaps taps;
     kernels::ToneCurve curve;
     std::vector<double> stops; ///< {0} with ToneKind::None is LDR-FLIP
+    /// Instruction set to run on; null: the best of this machine.
+    const kernels::FlipRows* functions = nullptr;
 };
 
 /// Where the results of one test go: planes of the window's size, row stride `stride` floats.

@@ -18,6 +18,8 @@ constexpr double kCzA1 = 34.1, kCzB1 = 0.04, kCzA2 = 13.5, kCzB2 = 0.025;
 // Width of the detectors: 0.082 degrees, two standard deviations (HPG 2020, section 4.2).
 constexpr double kFeatureWidth = 0.082;
 
+constexpr double kTail = 2e-9;
+
 using Taps = std::vector<double>;
 
 Taps gaussian(double amplitude, double b, double ppd, int radius) {
@@ -62,13 +64,25 @@ void make_detectors(kernels::FlipTaps<double>& taps, double ppd) {
     normalize_signs(taps.d2, false);
 }
 
-// Shortest list whose dropped tail is below 1e-9 of the sum; the sums stay those of the full one.
+// Shortest list whose dropped tail is below 2e-9 of the sum, a thirtieth of what float resolves;
+// the sums stay those of the full one.
 std::vector<float> to_float(const Taps& taps, bool trim) {
     size_t n = taps.size();
     double tail = 0;
-    while (trim && n > 1 && tail + 2.0 * taps[n - 1] < 1e-9)
+    while (trim && n > 1 && tail + 2.0 * taps[n - 1] < kTail)
         tail += 2.0 * taps[--n];
     return {taps.begin(), taps.begin() + std::ptrdiff_t(n)};
+}
+
+// Summation by parts: a step counts in every tap beyond it.
+std::vector<float> on_steps(const Taps& taps) {
+    std::vector<float> out(taps.size() - 1);
+    double beyond = 0;
+    for (size_t i = taps.size() - 1; i > 0; --i) {
+        beyond += taps[i];
+        out[i - 1] = float(beyond);
+    }
+    return out;
 }
 
 } // namespace
@@ -95,19 +109,24 @@ kernels::FlipTaps<double> make_taps(double ppd) {
     return taps;
 }
 
-kernels::FlipTaps<float> float_taps(const kernels::FlipTaps<double>& taps) {
-    kernels::FlipTaps<float> out;
+kernels::LaneTaps lane_taps(const kernels::FlipTaps<double>& taps) {
+    kernels::LaneTaps out;
     out.y = to_float(taps.y, true);
     out.cx = to_float(taps.cx, true);
     out.cz1 = to_float(taps.cz1, false);
     out.cz2 = to_float(taps.cz2, false);
     out.g = to_float(taps.g, false);
-    out.d1 = to_float(taps.d1, false);
-    out.d2 = to_float(taps.d2, false);
+    out.d1 = on_steps(taps.d1);
+    out.d2 = on_steps(taps.d2);
+    const size_t length = std::max(out.y.size(), out.cx.size());
+    out.y.resize(length, 0.0f);
+    out.cx.resize(length, 0.0f);
+    // With few pixels per degree the detectors are shorter than the contrast sensitivity.
+    out.g.resize(std::max(out.g.size(), length), 0.0f);
     return out;
 }
 
-int reach(const kernels::FlipTaps<float>& taps) {
+int reach(const kernels::LaneTaps& taps) {
     return int(std::max(
                {taps.y.size(), taps.cx.size(), taps.cz1.size(), taps.cz2.size(), taps.g.size()})) -
            1;

@@ -17,10 +17,10 @@ double pixels_per_degree(double distance, double width, double pixels);
 kernels::FlipTaps<double> make_taps(double pixels_per_degree);
 
 /// The same in float, without the taps of the achromatic and red-green filters that lie below the
-/// precision of float (two-sided tail < 1e-9 of the sum).
-kernels::FlipTaps<float> float_taps(const kernels::FlipTaps<double>& taps);
+/// precision of float (two-sided tail < 2e-9 of the sum), and with the detectors on steps.
+kernels::LaneTaps lane_taps(const kernels::FlipTaps<double>& taps);
 
 /// Pixels around a pixel that its error depends on.
-int reach(const kernels::FlipTaps<float>& taps);
+int reach(const kernels::LaneTaps& taps);
 
 } // namespace tonetool::flip

@@ -157,7 +157,7 @@ ImageBuf tone_mapped(const Compared& c, const ColorPlanes& planes, double stops)
         in[p] = planes.plane[p].data();
         out[p] = mapped[p].data();
     }
-    kernels::tone_map_pixels(in, out, int64_t(mapped[0].size()), c.plan.evaluation.curve,
+    kernels::tone_map_pixels(in, out, ptrdiff_t(mapped[0].size()), c.plan.evaluation.curve,
                              float(std::exp2(stops)));
     std::vector<float> pixels(pixels_of(c.roi) * 3);
     for_each_pixel(c, [&](size_t i, size_t at, int, int) {

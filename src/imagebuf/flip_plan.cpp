@@ -35,7 +35,7 @@ bool plan_common(const FlipOptions& options, FlipPlan& plan, std::string& error)
                        flip::kMinPixelsPerDegree, flip::kMaxPixelsPerDegree);
         return false;
     }
-    plan.evaluation.taps = flip::float_taps(flip::make_taps(plan.ppd));
+    plan.evaluation.taps = flip::lane_taps(flip::make_taps(plan.ppd));
     return true;
 }
 

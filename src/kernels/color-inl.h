@@ -20,19 +20,6 @@ struct Color {
     V c0, c1, c2;
 };
 
-// A 3x3 matrix times diagonal scalings, in float.
-struct Matrix {
-    float m[3][3];
-    HWY_INLINE Color operator()(const Color& v) const {
-        return {Row(m[0], v), Row(m[1], v), Row(m[2], v)};
-    }
-    static HWY_INLINE V Row(const float (&r)[3], const Color& v) {
-        V sum = hn::Mul(hn::Set(d, r[0]), v.c0);
-        sum = hn::MulAdd(hn::Set(d, r[1]), v.c1, sum);
-        return hn::MulAdd(hn::Set(d, r[2]), v.c2, sum);
-    }
-};
-
 HWY_INLINE V Clamp01(V v) {
     return hn::Min(hn::Max(v, hn::Zero(d)), hn::Set(d, 1.0f));
 }

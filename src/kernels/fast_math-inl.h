@@ -12,16 +12,22 @@ HWY_BEFORE_NAMESPACE();
 namespace tonetool::kernels::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// A number as an unevaluated sum: `high` has 8 significant bits, `low` is below 0.5 % of it.
+/// A number as an unevaluated sum: `high` has at most 8 significant bits.
 template <class V>
 struct Split {
     V high, low;
 };
 
-/// Cube root of x in [1e-30, 1e30]; the sum is exact to 1e-9 relative. `high` is so short that its
-/// cube is exact in float, hence also what is missing, x - high^3; the rest is a series in it.
+/// A root high (1 + rest), |rest| < 0.07; `high` has at most 8 significant bits.
+template <class V>
+struct Root {
+    V high, rest;
+};
+
+/// Cube root of x in [1e-30, 1e30], exact to 1e-9 relative. `high` is so short that its cube is
+/// exact in float, hence also what is missing, x - high^3; the rest is a series in it.
 template <class D, class V = hn::Vec<D>>
-HWY_INLINE Split<V> CubeRoot(D tag, V x) {
+HWY_INLINE Root<V> CubeRoot(D tag, V x) {
     const hn::RebindToSigned<D> di;
     // A third of the exponent as the first guess (3 % off), a Halley step cubes the error.
     const V third = hn::Mul(hn::ConvertTo(tag, hn::BitCast(di, x)), hn::Set(tag, 1.0f / 3.0f));
@@ -38,7 +44,73 @@ HWY_INLINE Split<V> CubeRoot(D tag, V x) {
     p = hn::MulAdd(p, u, hn::Set(tag, 5.0f / 81.0f));
     p = hn::MulAdd(p, u, hn::Set(tag, -1.0f / 9.0f));
     p = hn::MulAdd(p, u, hn::Set(tag, 1.0f / 3.0f));
-    return {high, hn::Mul(high, hn::Mul(p, u))};
+    return {high, hn::Mul(p, u)};
+}
+
+/// Cube roots of the middles of the half binades from 2^-7 to 2, rounded to 8 bits so that their
+/// cubes are exact in float; the cubes, and one over them.
+struct CubeRootTable {
+    alignas(64) float root[16];
+    alignas(64) float cube[16];
+    alignas(64) float inverse[16];
+};
+
+constexpr CubeRootTable MakeCubeRootTable() {
+    CubeRootTable out{};
+    for (int i = 0; i < 16; ++i) {
+        const double binade = double(1 << (i / 2)) / 128;
+        const double middle = binade * (1.25 + 0.5 * (i % 2));
+        double root = 1;
+        for (int step = 0; step < 20; ++step)
+            root -= (root - middle / (root * root)) / 3;
+        const double spacing = (root < 0.25 ? 0.125 : root < 0.5 ? 0.25 : root < 1 ? 0.5 : 1) / 128;
+        root = double(int(root / spacing + 0.5)) * spacing;
+        out.root[i] = float(root);
+        out.cube[i] = float(root * root * root);
+        out.inverse[i] = float(1 / (root * root * root));
+    }
+    return out;
+}
+
+inline constexpr CubeRootTable kCubeRootTable = MakeCubeRootTable();
+
+/// Entry (bits >> 22) & 15 of a table of 16, in registers of 16 or of 8 lanes.
+template <class D, class VI, class V = hn::Vec<D>>
+HWY_INLINE V LookUpHalfBinade(D tag, const float* table, VI bits) {
+    const hn::RebindToSigned<D> di;
+    const auto index = hn::ShiftRight<22>(bits);
+    if constexpr (HWY_MAX_BYTES == 64) {
+        const auto lanes = hn::IndicesFromVec(tag, hn::And(index, hn::Set(di, 15)));
+        return hn::TableLookupLanes(hn::Load(tag, table), lanes);
+    } else {
+        const auto lanes = hn::IndicesFromVec(tag, hn::And(index, hn::Set(di, 7)));
+        const auto upper = hn::MaskFromVec(hn::BitCast(tag, hn::ShiftLeft<6>(bits)));
+        return hn::IfThenElse(upper, hn::TableLookupLanes(hn::Load(tag, table + 8), lanes),
+                              hn::TableLookupLanes(hn::Load(tag, table), lanes));
+    }
+}
+
+/// Cube root of x in [2^-7, 2), exact to 1.5e-8 relative: without a division where a table of 16
+/// fits into registers.
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE Root<V> CubeRootOfShare(D tag, V x) {
+#if HWY_MAX_BYTES == 64 || HWY_MAX_BYTES == 32
+    const hn::RebindToSigned<D> di;
+    const auto bits = hn::BitCast(di, x);
+    const V high = LookUpHalfBinade(tag, kCubeRootTable.root, bits);
+    const V u = hn::Mul(hn::Sub(x, LookUpHalfBinade(tag, kCubeRootTable.cube, bits)),
+                        LookUpHalfBinade(tag, kCubeRootTable.inverse, bits));
+    // ((1 + u)^(1/3) - 1) / u, |u| < 0.204
+    V p = hn::Set(tag, -0.025342489778950903f);
+    p = hn::MulAdd(p, u, hn::Set(tag, 0.0315501658028984f));
+    p = hn::MulAdd(p, u, hn::Set(tag, -0.04109181212208456f));
+    p = hn::MulAdd(p, u, hn::Set(tag, 0.06170107902763325f));
+    p = hn::MulAdd(p, u, hn::Set(tag, -0.11111165557487199f));
+    p = hn::MulAdd(p, u, hn::Set(tag, 0.33333346374610767f));
+    return {high, hn::Mul(p, u)};
+#else
+    return CubeRoot(tag, x);
+#endif
 }
 
 /// log2 of a normal x > 0; absolute error below 3e-7 (1 + |log2 x|).

@@ -1,324 +1,299 @@
 #include "kernels/flip_tile.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstring>
 
-#include "kernels/flip_constants.h"
-
-#undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "kernels/flip_tile.cpp"
-#include <hwy/foreach_target.h>
-// After foreach_target.h, which includes this file once per instruction set.
-#include <hwy/highway.h>
-
-#include "kernels/hunt_lab-inl.h"
-#include "kernels/tone_curve-inl.h"
-
-HWY_BEFORE_NAMESPACE();
-namespace tonetool::kernels::HWY_NAMESPACE {
-namespace hn = hwy::HWY_NAMESPACE;
-
-void ToneMapVectors(const float* const in[3], float* const out[3], int64_t count,
-                    const ToneCurve& curve, float scale) {
-    WithCurve(in, count, curve, scale, [out](int64_t i, const Color& c) HWY_ATTR {
-        hn::StoreU(c.c0, d, out[0] + i);
-        hn::StoreU(c.c1, d, out[1] + i);
-        hn::StoreU(c.c2, d, out[2] + i);
-    });
-}
-
-int64_t VectorLanes() {
-    return int64_t(hn::Lanes(d));
-}
-
-// The opponent planes without the scale and offset of YCxCz: filters are linear and sum to 1.
-void ToOpponent(const float* const in[3], int64_t count, const ToneCurve& curve, float scale,
-                float* y, float* xy, float* yz) {
-    const Matrix to_xyz = ToRelativeXyz();
-    WithCurve(in, count, curve, scale, [&to_xyz, y, xy, yz](int64_t i, const Color& rgb) HWY_ATTR {
-        const Color xyz = to_xyz(rgb);
-        hn::StoreU(xyz.c1, d, y + i);
-        hn::StoreU(hn::Sub(xyz.c0, xyz.c1), d, xy + i);
-        hn::StoreU(hn::Sub(xyz.c1, xyz.c2), d, yz + i);
-    });
-}
-
-// A plane at one vector of pixels: its neighbours `step` elements apart, in pairs, from which even
-// filters take the sum and odd ones the difference.
-struct Neighbours {
-    const float* HWY_RESTRICT at;
-    ptrdiff_t step;
-
-    HWY_INLINE V Centre() const { return hn::LoadU(d, at); }
-    HWY_INLINE V Sum(ptrdiff_t i) const {
-        return hn::Add(hn::LoadU(d, at + i * step), hn::LoadU(d, at - i * step));
-    }
-    HWY_INLINE V Difference(ptrdiff_t i) const {
-        return hn::Sub(hn::LoadU(d, at + i * step), hn::LoadU(d, at - i * step));
-    }
-};
-
-HWY_INLINE V Add(V sum, float tap, V value) {
-    return hn::MulAdd(hn::Set(d, tap), value, sum);
-}
-
-// Sums run from the outside in, so that the rounding of one is that of its last few terms.
-HWY_INLINE V Even(const Neighbours& n, const std::vector<float>& taps) {
-    V sum = hn::Zero(d);
-    for (ptrdiff_t i = ptrdiff_t(taps.size()) - 1; i > 0; --i)
-        sum = Add(sum, taps[size_t(i)], n.Sum(i));
-    return Add(sum, taps[0], n.Centre());
-}
-
-struct TwoFilters {
-    V first, second;
-};
-
-// Two even filters of one length on one plane.
-HWY_INLINE TwoFilters EvenTwo(const Neighbours& n, const std::vector<float>& first,
-                              const std::vector<float>& second) {
-    V one = hn::Zero(d), two = hn::Zero(d);
-    for (ptrdiff_t i = ptrdiff_t(first.size()) - 1; i > 0; --i) {
-        const V pair = n.Sum(i);
-        one = Add(one, first[size_t(i)], pair);
-        two = Add(two, second[size_t(i)], pair);
-    }
-    const V centre = n.Centre();
-    return {Add(one, first[0], centre), Add(two, second[0], centre)};
-}
-
-// The odd and the zero-sum detector on one plane. A filter whose taps sum to 0 is a sum over
-// differences to the centre: a flat area gives exactly 0, which matters since the square root of
-// the result enters the error.
-HWY_INLINE TwoFilters Detectors(const Neighbours& n, const FlipTaps<float>& taps) {
-    const V centre = n.Centre(), twice = hn::Add(centre, centre);
-    V odd = hn::Zero(d), zero_sum = hn::Zero(d);
-    for (ptrdiff_t i = ptrdiff_t(taps.d1.size()) - 1; i > 0; --i) {
-        odd = Add(odd, taps.d1[size_t(i)], n.Difference(i));
-        zero_sum = Add(zero_sum, taps.d2[size_t(i)], hn::Sub(n.Sum(i), twice));
-    }
-    return {odd, zero_sum};
-}
-
-// The x pass of one row: seven filters of three planes.
-void FilterRow(const float* y, const float* xy, const float* yz, int width,
-               const FlipTaps<float>& taps, float* const out[kRowPlanes]) {
-    for (ptrdiff_t x = 0; x < width; x += ptrdiff_t(hn::Lanes(d))) {
-        const Neighbours luminance{y + x, 1};
-        const TwoFilters cz = EvenTwo({yz + x, 1}, taps.cz1, taps.cz2);
-        const TwoFilters detectors = Detectors(luminance, taps);
-        hn::StoreU(Even(luminance, taps.y), d, out[kRowY] + x);
-        hn::StoreU(Even({xy + x, 1}, taps.cx), d, out[kRowCx] + x);
-        hn::StoreU(cz.first, d, out[kRowCz1] + x);
-        hn::StoreU(cz.second, d, out[kRowCz2] + x);
-        hn::StoreU(Even(luminance, taps.g), d, out[kRowG] + x);
-        hn::StoreU(detectors.first, d, out[kRowD1] + x);
-        hn::StoreU(detectors.second, d, out[kRowD2] + x);
-    }
-}
-
-HWY_INLINE V Magnitude(V a, V b) {
-    return hn::Sqrt(hn::MulAdd(a, a, hn::Mul(b, b)));
-}
-
-// The y pass of one row of the tile, and everything per pixel up to the comparison.
-void FilterColumns(const float* const rows[kRowPlanes], ptrdiff_t stride, int width,
-                   const FlipTaps<float>& taps, float* const out[kFeaturePlanes]) {
-    const Matrix to_xyz = ToRelativeXyz(), to_rgb = FromRelativeXyz();
-    for (ptrdiff_t x = 0; x < width; x += ptrdiff_t(hn::Lanes(d))) {
-        const auto plane = [rows, stride, x](RowPlane p) HWY_ATTR {
-            return Neighbours{rows[p] + x, stride};
-        };
-        const V y = Even(plane(kRowY), taps.y);
-        const V cx = Even(plane(kRowCx), taps.cx);
-        const V cz = hn::Add(Even(plane(kRowCz1), taps.cz1), Even(plane(kRowCz2), taps.cz2));
-        const Lab lab = HuntLab(to_xyz, to_rgb, y, cx, cz);
-        hn::StoreU(lab.l.high, d, out[kLHigh] + x);
-        hn::StoreU(lab.l.low, d, out[kLLow] + x);
-        hn::StoreU(lab.a, d, out[kA] + x);
-        hn::StoreU(lab.b, d, out[kB] + x);
-        const TwoFilters down = Detectors(plane(kRowG), taps);
-        const V edge = Magnitude(Even(plane(kRowD1), taps.g), down.first);
-        const V point = Magnitude(Even(plane(kRowD2), taps.g), down.second);
-        hn::StoreU(edge, d, out[kEdge] + x);
-        hn::StoreU(point, d, out[kPoint] + x);
-    }
-}
-
-// log2 of the colour difference of h > 0 after the remap of q = h^0.7.
-HWY_INLINE V Log2ColorError(V h) {
-    constexpr double knee = kKneeShare * kLargestQ;
-    const V log2_q = hn::Mul(hn::Set(d, float(kColorExponent)), Log2(d, h));
-    const V low = hn::Add(log2_q, hn::Set(d, float(std::log2(kKneeError / knee))));
-    const auto above = hn::Ge(log2_q, hn::Set(d, float(std::log2(knee))));
-    if (hn::AllFalse(d, above))
-        return low;
-    constexpr double slope = (1.0 - kKneeError) / (kLargestQ - knee);
-    const V high = hn::MulAdd(Exp2(d, log2_q), hn::Set(d, float(slope)),
-                              hn::Set(d, float(kKneeError - slope * knee)));
-    return hn::IfThenElse(above, Log2(d, high), low);
-}
-
-HWY_INLINE V FlipError(const float* const r[kFeaturePlanes], const float* const t[kFeaturePlanes],
-                       ptrdiff_t x) {
-    const auto difference = [r, t, x](int plane) HWY_ATTR {
-        return hn::Sub(hn::LoadU(d, r[plane] + x), hn::LoadU(d, t[plane] + x));
-    };
-    const V h = hn::Add(hn::Abs(hn::Add(difference(kLHigh), difference(kLLow))),
-                        Magnitude(difference(kA), difference(kB)));
-    const V feature =
-        hn::Min(hn::Sqrt(hn::Mul(hn::Max(hn::Abs(difference(kEdge)), hn::Abs(difference(kPoint))),
-                                 hn::Set(d, 0.70710678118654752f))),
-                hn::Set(d, 1.0f));
-    // E = color^(1 - feature), with the power as a product of logarithms.
-    const V log2_color = Log2ColorError(hn::Max(h, hn::Set(d, 1e-30f)));
-    const V error = Exp2(d, hn::Mul(hn::Sub(hn::Set(d, 1.0f), feature), log2_color));
-    return hn::IfThenZeroElse(hn::Eq(h, hn::Zero(d)), error);
-}
-
-void CompareRow(const float* const r[kFeaturePlanes], const float* const t[kFeaturePlanes],
-                int width, float n, float* best, float* index, float* error) {
-    for (ptrdiff_t x = 0; x < width; x += ptrdiff_t(hn::Lanes(d))) {
-        const V e = FlipError(r, t, x), old = hn::LoadU(d, best + x);
-        const auto larger = hn::Gt(e, old);
-        hn::StoreU(hn::IfThenElse(larger, e, old), d, best + x);
-        hn::StoreU(hn::IfThenElse(larger, hn::Set(d, n), hn::LoadU(d, index + x)), d, index + x);
-        if (error)
-            hn::StoreU(e, d, error + x);
-    }
-}
-
-const char* TargetName() {
-    return hwy::TargetName(HWY_TARGET);
-}
-
-} // namespace tonetool::kernels::HWY_NAMESPACE
-HWY_AFTER_NAMESPACE();
-
-#if HWY_ONCE
 namespace tonetool::kernels {
-
-HWY_EXPORT(ToneMapVectors);
-HWY_EXPORT(VectorLanes);
-HWY_EXPORT(ToOpponent);
-HWY_EXPORT(FilterRow);
-HWY_EXPORT(FilterColumns);
-HWY_EXPORT(CompareRow);
-HWY_EXPORT(TargetName);
-
 namespace {
 
-// Loops run over whole vectors: every row has this many floats to spare.
-constexpr ptrdiff_t kSpare = 16;
+constexpr int kColors = 3;
 
-ptrdiff_t round_up(ptrdiff_t n) {
-    return (n + kSpare - 1) / kSpare * kSpare;
+int round_up(int n, int step) {
+    return (n + step - 1) / step * step;
+}
+
+StripShape make_strips(int lanes, int columns, int halo) {
+    StripShape strips;
+    strips.lanes = lanes;
+    strips.halo = halo;
+    const int needed = (columns + strips.lanes - 1) / strips.lanes;
+    strips.strip = round_up(std::max(needed, halo), kRowBlock);
+    return strips;
+}
+
+bool same_floats(const float* a, const float* b, ptrdiff_t count) {
+    return std::memcmp(a, b, size_t(count) * sizeof(float)) == 0;
+}
+
+// `count` pixels of a row from column x0 on, the border replicated.
+void copy_columns(const float* in, int width, int x0, int count, float* out) {
+    const int before = std::clamp(-x0, 0, count);
+    const int inside = std::clamp(width - x0, before, count);
+    std::fill(out, out + before, in[0]);
+    std::copy(in + x0 + before, in + x0 + inside, out + before);
+    std::fill(out + inside, out + count, in[width - 1]);
 }
 
 } // namespace
 
-TileShape::TileShape(int tile_width, int tile_height, int tile_halo)
-    : width(tile_width),
-      height(tile_height),
-      halo(tile_halo),
-      stride(round_up(tile_width)),
-      padded_stride(round_up(tile_width) + 2 * tile_halo + kSpare) {}
-
-Planes::Planes(int count, ptrdiff_t stride, int rows)
-    : m_data(hwy::AllocateAligned<float>(size_t(count * (stride * rows + kSpare)))),
-      m_size(stride * rows + kSpare) {
+Planes::Planes(int count, ptrdiff_t pitch, int rows)
+    : m_data(hwy::AllocateAligned<float>(size_t(count * pitch * rows))),
+      m_pitch(pitch),
+      m_size(pitch * rows) {
     std::fill_n(m_data.get(), count * m_size, 0.0f);
 }
 
-TilePixels::TilePixels(const TileShape& shape, const ConstRgb& image, int x0, int y0)
-    : rgb(3, shape.padded_stride, shape.padded_height()) {
-    const int left = x0 - shape.halo, width = shape.padded_width();
-    const int inside_from = std::clamp(-left, 0, width);
-    const int inside_to = std::clamp(image.width - left, inside_from, width);
-    for (int c = 0; c < 3; ++c)
-        for (int y = 0; y < shape.padded_height(); ++y) {
-            const int source_y = std::clamp(y0 - shape.halo + y, 0, image.height - 1);
-            const float* in = image.plane[c] + (source_y - image.first_row) * image.stride;
-            float* out = rgb[c] + y * shape.padded_stride;
-            std::fill(out, out + inside_from, in[0]);
-            std::copy(in + left + inside_from, in + left + inside_to, out + inside_from);
-            std::fill(out + inside_to, out + width, in[image.width - 1]);
-        }
+TileShape::TileShape(int lanes, int most_columns, int most_rows, int halo)
+    : strips(make_strips(lanes, most_columns, halo)),
+      width(most_columns),
+      height(most_rows) {}
+
+bool same_pixels(const ConstRgb& a, const ConstRgb& b, const Window& window, int halo) {
+    const int x0 = std::max(window.x0 - halo, 0), y0 = std::max(window.y0 - halo, 0);
+    const int x1 = std::min(window.x0 + window.width + halo, a.width);
+    const int y1 = std::min(window.y0 + window.height + halo, a.height);
+    for (int y = y0; y < y1; ++y)
+        for (int c = 0; c < kColors; ++c)
+            if (!same_floats(a.plane[c] + (y - a.first_row) * a.stride + x0,
+                             b.plane[c] + (y - b.first_row) * b.stride + x0, x1 - x0))
+                return false;
+    return true;
 }
 
-bool TilePixels::same_as(const TilePixels& other) const {
-    return std::memcmp(rgb[0], other.rgb[0], size_t(3 * rgb.size()) * sizeof(float)) == 0;
-}
-
-FlipTile::FlipTile(const TileShape& shape, const FlipTaps<float>& taps)
-    : m_shape(shape),
-      m_taps(taps),
-      m_opponent(3, shape.padded_stride, shape.padded_height()),
-      m_rows(kRowPlanes, shape.stride, shape.padded_height()) {}
-
-void FlipTile::prepare(const TilePixels& pixels, const ToneCurve& curve, float scale,
-                       Planes& features) {
-    const auto filter_row = HWY_DYNAMIC_DISPATCH(FilterRow);
-    const auto filter_columns = HWY_DYNAMIC_DISPATCH(FilterColumns);
-    const float* in[3] = {pixels.rgb[0], pixels.rgb[1], pixels.rgb[2]};
-    HWY_DYNAMIC_DISPATCH(ToOpponent)
-    (in, m_shape.padded_stride * m_shape.padded_height(), curve, scale, m_opponent[0],
-     m_opponent[1], m_opponent[2]);
-    for (int y = 0; y < m_shape.padded_height(); ++y) {
-        const ptrdiff_t at = y * m_shape.padded_stride + m_shape.halo;
-        float* out[kRowPlanes];
-        for (int p = 0; p < kRowPlanes; ++p)
-            out[p] = m_rows[p] + y * m_shape.stride;
-        filter_row(m_opponent[0] + at, m_opponent[1] + at, m_opponent[2] + at, m_shape.width,
-                   m_taps, out);
-    }
-    for (int y = 0; y < m_shape.height; ++y) {
-        const float* rows[kRowPlanes];
-        float* out[kFeaturePlanes];
-        for (int p = 0; p < kRowPlanes; ++p)
-            rows[p] = m_rows[p] + (y + m_shape.halo) * m_shape.stride;
-        for (int p = 0; p < kFeaturePlanes; ++p)
-            out[p] = features[p] + y * m_shape.stride;
-        filter_columns(rows, m_shape.stride, m_shape.width, m_taps, out);
+FlipTile::FlipTile(const FlipRows& functions, const TileShape& shape, const LaneTaps& taps,
+                   size_t tests, bool keep_each)
+    : m_functions(functions),
+      m_shape(shape),
+      m_taps(taps, functions.lanes),
+      m_keep_each(keep_each),
+      m_slots(2 * shape.strips.halo + kRowBlock),
+      m_tests(tests),
+      m_row(1, shape.strips.columns(), 1),
+      m_columns(kColumnPlanes, shape.strips.wide_pitch(), kRowBlock),
+      m_steps(1, shape.strips.wide_pitch(), 1),
+      m_work(kWorkPlanes, shape.strips.columns(), 1),
+      m_reference_features(kFeaturePlanes, shape.strips.columns(), kRowBlock),
+      m_test_features(kFeaturePlanes, shape.strips.columns(), 1) {
+    make(m_reference);
+    for (Test& test : m_tests) {
+        make(test);
+        test.differing.resize(size_t(shape.padded_rows() + 1));
+        test.shows.resize(size_t(m_slots));
+        test.result =
+            Planes(keep_each ? kResultPlanes : kLastError, shape.strips.columns(), shape.rows());
     }
 }
 
-void FlipTile::compare(const Planes& reference, const Planes& test, float n, float* best,
-                       float* index, float* error) const {
-    const auto compare_row = HWY_DYNAMIC_DISPATCH(CompareRow);
-    for (int y = 0; y < m_shape.height; ++y) {
-        const ptrdiff_t at = y * m_shape.stride;
-        const float* r[kFeaturePlanes];
-        const float* t[kFeaturePlanes];
+void FlipTile::make(Side& side) const {
+    side.rgb = Planes(kColors, m_shape.strips.pitch(), m_shape.padded_rows());
+    side.ring = Planes(kOpponentPlanes, m_shape.strips.pitch(), m_slots);
+    side.rows.resize(size_t(kOpponentPlanes * m_slots));
+}
+
+void FlipTile::load(const Window& tile, const ConstRgb& reference,
+                    const std::vector<const ConstRgb*>& tests) {
+    m_tile = tile;
+    m_shape.width = tile.width;
+    m_shape.height = tile.height;
+    m_active = tests.size();
+    load(m_reference, reference);
+    for (size_t t = 0; t < m_active; ++t) {
+        Test& test = m_tests[t];
+        load(test, *tests[t]);
+        find_differing_rows(test);
+        for (ResultPlane p : {kError, kIndex})
+            std::fill_n(test.result[p], m_shape.rows() * m_shape.strips.columns(), 0.0f);
+    }
+}
+
+void FlipTile::load(Side& side, const ConstRgb& image) {
+    const StripShape& strips = m_shape.strips;
+    // No further than the halo of the last row: a band need not hold more.
+    const int last = std::min(m_tile.y0 + m_tile.height - 1 + strips.halo, image.height - 1);
+    const auto source = [&](int c, int y) {
+        const int row = std::clamp(m_tile.y0 - strips.halo + y, 0, last) - image.first_row;
+        return image.plane[c] + row * image.stride;
+    };
+    for (int y = 0; y < m_shape.padded_rows(); ++y)
+        for (int c = 0; c < kColors; ++c)
+            pack_row(source(c, y), image.width, side.rgb.row(c, y));
+}
+
+// A row of the image into strips; then the outer columns, those on the left from the tile outwards.
+void FlipTile::pack_row(const float* in, int width, float* out) {
+    const StripShape& strips = m_shape.strips;
+    const float* columns = in + m_tile.x0;
+    if (m_tile.x0 + strips.columns() > width) {
+        copy_columns(in, width, m_tile.x0, strips.columns(), m_row[0]);
+        columns = m_row[0];
+    }
+    m_functions.transpose(columns, strips.lanes, strips.strip, out);
+    float* outer = out + strips.columns();
+    copy_columns(in, width, m_tile.x0 - strips.halo, strips.halo, outer);
+    std::reverse(outer, outer + strips.halo);
+    copy_columns(in, width, m_tile.x0 + strips.columns(), strips.halo, outer + strips.halo);
+}
+
+void FlipTile::find_differing_rows(Test& test) const {
+    test.differing[0] = 0;
+    for (int y = 0; y < m_shape.padded_rows(); ++y) {
+        bool same = true;
+        for (int c = 0; c < kColors; ++c)
+            same = same && same_floats(test.rgb.row(c, y), m_reference.rgb.row(c, y),
+                                       m_shape.strips.pitch());
+        test.differing[size_t(y + 1)] = test.differing[size_t(y)] + !same;
+    }
+}
+
+// Whether none of the rows that the block at `y` depends on differs.
+bool FlipTile::same_window(const Test& test, int y) const {
+    return test.differing[size_t(y + m_slots)] == test.differing[size_t(y)];
+}
+
+bool FlipTile::same_behind_curve(const Test& test) const {
+    return std::count(test.shows.begin(), test.shows.end(), 0) == m_slots;
+}
+
+void FlipTile::show_row(Side& side, int y, const ToneCurve& curve, float scale) const {
+    // The first row has no row above, and its steps are not looked at.
+    const int slot = y % m_slots, above = (y + m_slots - 1) % m_slots;
+    const float* rgb[kColors];
+    float* out[kColors];
+    for (int c = 0; c < kColors; ++c) {
+        rgb[c] = side.rgb.row(c, y);
+        out[c] = side.ring.row(kY + c, slot);
+    }
+    m_functions.to_opponent(rgb, m_shape.strips.pitch(), curve, scale, out,
+                            side.ring.row(kY, above), side.ring.row(kStepY, above));
+    side.next_row = y + 1;
+}
+
+// All rows that the block at `y` depends on; most are there from the block before.
+void FlipTile::show_rows(int y, const ToneCurve& curve, float scale) {
+    for (int row = first_missing(m_reference, y); row < y + m_slots; ++row)
+        show_row(m_reference, row, curve, scale);
+}
+
+// Rows are shown from top to bottom: the first one that the block at `y` lacks.
+int FlipTile::first_missing(const Side& side, int y) {
+    return std::max(y, side.next_row);
+}
+
+void FlipTile::show_rows(Test& test, int y, const ToneCurve& curve, float scale) const {
+    for (int row = first_missing(test, y); row < y + m_slots; ++row) {
+        const int slot = row % m_slots;
+        show_row(test, row, curve, scale);
+        bool same = true;
+        for (int p = kY; p <= kYz; ++p)
+            same = same && same_floats(test.ring.row(p, slot), m_reference.ring.row(p, slot),
+                                       m_shape.strips.pitch());
+        test.shows[size_t(slot)] = !same;
+    }
+}
+
+// Whether anything that the block at `y` depends on differs at this exposure. Where nothing does
+// (the pixels are the same, or all that differ are clamped) the error is exactly 0.
+bool FlipTile::differs(Test& test, int y, const ToneCurve& curve, float scale) {
+    if (same_window(test, y))
+        return false;
+    show_rows(y, curve, scale);
+    show_rows(test, y, curve, scale);
+    return !same_behind_curve(test);
+}
+
+void FlipTile::filter_columns(Side& side, int y) {
+    const StripShape& strips = m_shape.strips;
+    RowTable in[kOpponentPlanes];
+    const int first = y % m_slots;
+    for (int p = 0; p < kOpponentPlanes; ++p) {
+        const float** rows = side.rows.data() + p * m_slots;
+        for (int slot = 0; slot < m_slots; ++slot)
+            rows[slot >= first ? slot - first : slot - first + m_slots] = side.ring.row(p, slot);
+        in[p] = rows + strips.halo;
+    }
+    float* out[kColumnPlanes][kRowBlock];
+    for (int p = 0; p < kColumnPlanes; ++p)
+        for (int row = 0; row < kRowBlock; ++row)
+            out[p][row] = m_columns.row(p, row);
+    m_functions.filter_columns(in, m_taps, 0, strips.columns(), strips.wide_start(), out);
+    m_functions.filter_columns(in, m_taps, strips.columns(), strips.outer(),
+                               2 * strips.wide_start() + strips.columns(), out);
+}
+
+// A row of the columns, into a row of features.
+void FlipTile::filter_row(int row, Planes& features, int to_row) {
+    const StripShape& strips = m_shape.strips;
+    float* columns[kColumnPlanes];
+    const float* const_columns[kColumnPlanes];
+    for (int p = 0; p < kColumnPlanes; ++p)
+        const_columns[p] = columns[p] = m_columns.row(p, row);
+    float* work[kWorkPlanes];
+    for (int p = 0; p < kWorkPlanes; ++p)
+        work[p] = m_work[p];
+    float* to[kFeaturePlanes];
+    for (int p = 0; p < kFeaturePlanes; ++p)
+        to[p] = features.row(p, to_row);
+    m_functions.fill_halo(strips, m_taps, columns, m_steps[0]);
+    m_functions.filter_colors(strips, m_taps, const_columns, work);
+    m_functions.filter_features(strips, m_taps, const_columns, m_steps[0], to[kEdge], to[kPoint]);
+    m_functions.to_features(strips.columns(), work, to);
+}
+
+void FlipTile::filter_reference(int y) {
+    filter_columns(m_reference, y);
+    for (int row = 0; row < kRowBlock; ++row)
+        filter_row(row, m_reference_features, row);
+}
+
+// Row by row, each compared while it is in the cache.
+void FlipTile::compare_block(Test& test, int y, float n) {
+    filter_columns(test, y);
+    float* work[kWorkPlanes];
+    for (int p = 0; p < kWorkPlanes; ++p)
+        work[p] = m_work[p];
+    for (int row = 0; row < kRowBlock; ++row) {
+        filter_row(row, m_test_features, 0);
+        const float* reference_row[kFeaturePlanes];
+        const float* test_row[kFeaturePlanes];
         for (int p = 0; p < kFeaturePlanes; ++p) {
-            r[p] = reference[p] + at;
-            t[p] = test[p] + at;
+            reference_row[p] = m_reference_features.row(p, row);
+            test_row[p] = m_test_features.row(p, 0);
         }
-        compare_row(r, t, m_shape.width, n, best + at, index + at, error ? error + at : nullptr);
+        m_functions.compare_row(reference_row, test_row, m_shape.strips.columns(), n, work,
+                                test.result.row(kError, y + row), test.result.row(kIndex, y + row),
+                                m_keep_each ? test.result.row(kLastError, y + row) : nullptr);
     }
 }
 
-void tone_map_pixels(const float* const in[3], float* const out[3], int64_t count,
-                     const ToneCurve& curve, float scale) {
-    const auto run = HWY_DYNAMIC_DISPATCH(ToneMapVectors);
-    const int64_t whole = count - count % HWY_DYNAMIC_DISPATCH(VectorLanes)();
-    run(in, out, whole, curve, scale);
-    if (whole == count)
-        return;
-    // The rest goes through the same instructions in a buffer of whole vectors.
-    float rest[3][kSpare] = {};
-    for (int c = 0; c < 3; ++c)
-        std::copy(in[c] + whole, in[c] + count, rest[c]);
-    float* at[3] = {rest[0], rest[1], rest[2]};
-    run(at, at, count - whole, curve, scale);
-    for (int c = 0; c < 3; ++c)
-        std::copy(rest[c], rest[c] + (count - whole), out[c] + whole);
+void FlipTile::expose(const ToneCurve& curve, float scale, float n) {
+    m_reference.next_row = 0;
+    for (Test& test : m_tests)
+        test.next_row = 0;
+    for (int y = 0; y < m_shape.rows(); y += kRowBlock) {
+        bool reference_filtered = false;
+        for (size_t t = 0; t < m_active; ++t) {
+            Test& test = m_tests[t];
+            if (!differs(test, y, curve, scale)) {
+                if (m_keep_each)
+                    std::fill_n(test.result.row(kLastError, y),
+                                kRowBlock * m_shape.strips.columns(), 0.0f);
+                continue;
+            }
+            if (!reference_filtered)
+                filter_reference(y);
+            reference_filtered = true;
+            compare_block(test, y, n);
+        }
+    }
 }
 
-const char* flip_tile_target() {
-    return HWY_DYNAMIC_DISPATCH(TargetName)();
+void FlipTile::store(size_t test, ResultPlane plane, float* to, ptrdiff_t stride) {
+    const StripShape& strips = m_shape.strips;
+    for (int y = 0; y < m_shape.height; ++y) {
+        m_functions.transpose(m_tests[test].result.row(plane, y), strips.strip, strips.lanes,
+                              m_row[0]);
+        std::copy_n(m_row[0], m_shape.width, to + y * stride);
+    }
 }
 
 } // namespace tonetool::kernels
-#endif

@@ -1,86 +1,107 @@
-// LDR-FLIP and HDR-FLIP of one tile, all exposures in cache, in float lanes (Google Highway).
+// HDR-FLIP of one tile, all exposures in cache: the rows of flip_rows.h run over it from top to
+// bottom, nothing that is larger than a few rows is kept between them.
 #pragma once
 
 #include <hwy/aligned_allocator.h>
 #include <vector>
 
-#include "kernels/flip_taps.h"
-#include "kernels/tone_curve.h"
+#include "kernels/flip_rows.h"
 #include "kernels/views.h"
 
 namespace tonetool::kernels {
 
-/// Geometry of a tile in memory: `width` x `height` pixels inside a halo of `halo` pixels.
-/// Every row has room for whole vectors beyond its end.
-struct TileShape {
-    int width = 0, height = 0, halo = 0;
-    ptrdiff_t stride = 0;        ///< of planes of the tile, in floats
-    ptrdiff_t padded_stride = 0; ///< of planes with the halo
-
-    TileShape() = default;
-    TileShape(int tile_width, int tile_height, int tile_halo);
-    int padded_height() const { return height + 2 * halo; }
-    int padded_width() const { return width + 2 * halo; }
-};
-
-using Floats = hwy::AlignedFreeUniquePtr<float[]>;
-
-/// `count` planes of one size in one allocation.
+/// `count` planes of one size in one aligned allocation, zero at first.
 class Planes {
 public:
     Planes() = default;
-    Planes(int count, ptrdiff_t stride, int rows);
+    Planes(int count, ptrdiff_t pitch, int rows);
     float* operator[](int i) { return m_data.get() + i * m_size; }
     const float* operator[](int i) const { return m_data.get() + i * m_size; }
-    ptrdiff_t size() const { return m_size; }
+    float* row(int plane, int y) { return m_data.get() + plane * m_size + y * m_pitch; }
+    const float* row(int plane, int y) const { return m_data.get() + plane * m_size + y * m_pitch; }
 
 private:
-    Floats m_data;
-    ptrdiff_t m_size = 0;
+    hwy::AlignedFreeUniquePtr<float[]> m_data;
+    ptrdiff_t m_pitch = 0, m_size = 0;
 };
 
-/// A tile of one image with its halo: linear R, G, B.
-struct TilePixels {
-    TilePixels(const TileShape& shape, const ConstRgb& image, int x0, int y0);
-    /// Bit for bit, halo included.
-    bool same_as(const TilePixels& other) const;
-    Planes rgb;
+/// A tile of at most `width` x `height` pixels inside a halo; in memory more columns and rows, to
+/// whole strips and blocks.
+struct TileShape {
+    StripShape strips;
+    int width = 0, height = 0;
+
+    /// `lanes` of the functions that work on it.
+    TileShape(int lanes, int most_columns, int most_rows, int halo);
+    int rows() const { return (height + kRowBlock - 1) / kRowBlock * kRowBlock; }
+    int padded_rows() const { return rows() + 2 * strips.halo; }
 };
 
-/// What LDR-FLIP compares: Hunt-adjusted L (in two parts), a, b of the filtered image, edge and
-/// point strength.
-enum FeaturePlane { kLHigh, kLLow, kA, kB, kEdge, kPoint, kFeaturePlanes };
+/// Whether two images are bit for bit the same in the `width` x `height` pixels at (x0, y0) and in
+/// the halo around them.
+bool same_pixels(const ConstRgb& a, const ConstRgb& b, const Window& window, int halo);
 
-/// What the x pass leaves for the y pass: three filtered colours, the last of them twice, and the
-/// luminance under the three filters of the features.
-enum RowPlane { kRowY, kRowCx, kRowCz1, kRowCz2, kRowG, kRowD1, kRowD2, kRowPlanes };
-
-/// Work space for one tile; made once per tile, reused for every exposure and image.
+/// Compares the pixels of a tile of some tests with those of the reference. Made once and used for
+/// one tile after the other: its memory is as large as many tiles' work is long.
 class FlipTile {
 public:
-    FlipTile(const TileShape& shape, const FlipTaps<float>& taps);
+    /// The functions must outlive the object. With `keep_each` the error of the last exposure
+    /// is there, too.
+    FlipTile(const FlipRows& functions, const TileShape& shape, const LaneTaps& taps, size_t tests,
+             bool keep_each);
 
-    /// Exposes, tone maps, clamps, filters one image: `features` gets kFeaturePlanes planes.
-    void prepare(const TilePixels& pixels, const ToneCurve& curve, float scale, Planes& features);
+    /// Begins with the tile: as many tests as the object is for, or fewer.
+    void load(const Window& tile, const ConstRgb& reference,
+              const std::vector<const ConstRgb*>& tests);
 
-    /// LDR-FLIP of two prepared images; raises `best` and writes `n` into `index` where the error
-    /// is larger (strictly: the first exposure wins ties). `error`, if given, receives the error
-    /// itself. All planes have the shape's stride.
-    void compare(const Planes& reference, const Planes& test, float n, float* best, float* index,
-                 float* error) const;
+    /// One exposure of the reference and of all tests: raises the error of each where this one is
+    /// larger, and writes the number `n` of the exposure there.
+    void expose(const ToneCurve& curve, float scale, float n);
+
+    enum ResultPlane { kError, kIndex, kLastError, kResultPlanes };
+    /// One plane of the result of a test, `stride` floats between rows.
+    void store(size_t test, ResultPlane plane, float* to, ptrdiff_t stride);
 
 private:
+    // One image: its pixels in strips; and behind the curve, in a ring, as many rows as a block
+    // needs.
+    struct Side {
+        Planes rgb, ring;
+        int next_row = 0;               // the rows before it that a block needs are in the ring
+        std::vector<const float*> rows; // of the block, plane after plane
+    };
+    struct Test : Side {
+        std::vector<int> differing; // rows before this one that differ from the reference's
+        std::vector<char> shows;    // whether the row in a slot does, behind the curve
+        Planes result;
+    };
+
+    void make(Side& side) const;
+    void load(Side& side, const ConstRgb& image);
+    void pack_row(const float* in, int width, float* out);
+    void find_differing_rows(Test& test) const;
+    bool same_window(const Test& test, int y) const;
+    bool same_behind_curve(const Test& test) const;
+    static int first_missing(const Side& side, int y);
+    void show_row(Side& side, int y, const ToneCurve& curve, float scale) const;
+    void show_rows(int y, const ToneCurve& curve, float scale);
+    void show_rows(Test& test, int y, const ToneCurve& curve, float scale) const;
+    bool differs(Test& test, int y, const ToneCurve& curve, float scale);
+    void filter_columns(Side& side, int y);
+    void filter_row(int row, Planes& features, int to_row);
+    void filter_reference(int y);
+    void compare_block(Test& test, int y, float n);
+
+    const FlipRows& m_functions;
     TileShape m_shape;
-    const FlipTaps<float>& m_taps;
-    Planes m_opponent; // y, x - y, y - z of the padded tile
-    Planes m_rows;     // kRowPlanes of them
+    TapVectors m_taps;
+    bool m_keep_each;
+    int m_slots; // rows of the rings
+    Window m_tile;
+    size_t m_active = 0; // tests of this tile
+    Side m_reference;
+    std::vector<Test> m_tests;
+    Planes m_row, m_columns, m_steps, m_work, m_reference_features, m_test_features;
 };
-
-/// `count` pixels exposed, tone mapped and clamped; in and out may be the same.
-void tone_map_pixels(const float* const in[3], float* const out[3], int64_t count,
-                     const ToneCurve& curve, float scale);
-
-/// Name of the instruction set the lanes run on.
-const char* flip_tile_target();
 
 } // namespace tonetool::kernels

@@ -16,72 +16,92 @@ HWY_BEFORE_NAMESPACE();
 namespace tonetool::kernels::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-// Linear RGB to XYZ relative to white, and back.
-Matrix ToRelativeXyz() {
-    Matrix out;
-    for (int i = 0; i < 3; ++i)
-        for (int j = 0; j < 3; ++j)
-            out.m[i][j] = float(kRgbToXyz[i][j] / kWhite[i]);
-    return out;
-}
+// RGB to the opponent planes of XYZ relative to white: y, x - y, y - z. White is (1, 0, 0), so that
+// the weights of a row sum to 1 or to 0: two products with differences to green are enough, and a
+// grey has x - y and y - z of exactly 0.
+struct ToOpponentPlanes {
+    float r[3], b[3];
 
-Matrix FromRelativeXyz() {
-    Matrix out;
-    for (int i = 0; i < 3; ++i)
-        for (int j = 0; j < 3; ++j)
-            out.m[i][j] = float(kXyzToRgb[i][j] * kWhite[j]);
-    return out;
-}
+    ToOpponentPlanes() {
+        const auto relative = [](int row, int column) {
+            return kRgbToXyz[row][column] / kWhite[row];
+        };
+        const auto weights = [&relative](int column, float(&out)[3]) {
+            out[0] = float(relative(1, column));
+            out[1] = float(relative(0, column) - relative(1, column));
+            out[2] = float(relative(1, column) - relative(2, column));
+        };
+        weights(0, r);
+        weights(2, b);
+    }
 
-// CIELAB f(t). E is as steep as h^0.7 at h = 0: f is kept to more than float precision, so that
-// its differences are limited by t alone.
-HWY_INLINE Split<V> LabF(V t) {
+    HWY_INLINE Color operator()(const Color& rgb) const {
+        const V red = hn::Sub(rgb.c0, rgb.c1), blue = hn::Sub(rgb.c2, rgb.c1);
+        return {hn::MulAdd(hn::Set(d, b[0]), blue, hn::MulAdd(hn::Set(d, r[0]), red, rgb.c1)),
+                hn::MulAdd(hn::Set(d, b[1]), blue, hn::Mul(hn::Set(d, r[1]), red)),
+                hn::MulAdd(hn::Set(d, b[2]), blue, hn::Mul(hn::Set(d, r[2]), red))};
+    }
+};
+
+// And back: each of R, G, B is y plus products with the other two.
+struct FromOpponentPlanes {
+    float xy[3], yz[3];
+
+    FromOpponentPlanes() {
+        for (int i = 0; i < 3; ++i) {
+            xy[i] = float(kXyzToRgb[i][0] * kWhite[0]);
+            yz[i] = float(-kXyzToRgb[i][2] * kWhite[2]);
+        }
+    }
+
+    HWY_INLINE Color operator()(V y, V x_y, V y_z) const {
+        return {Row(0, y, x_y, y_z), Row(1, y, x_y, y_z), Row(2, y, x_y, y_z)};
+    }
+    HWY_INLINE V Row(int i, V y, V x_y, V y_z) const {
+        return hn::MulAdd(hn::Set(d, yz[i]), y_z, hn::MulAdd(hn::Set(d, xy[i]), x_y, y));
+    }
+};
+
+// CIELAB f(t).
+HWY_INLINE V LabF(V t) {
     const V knee = hn::Set(d, float(kLabKnee));
-    const Split<V> root = CubeRoot(d, hn::Max(t, knee));
+    const V line = hn::MulAdd(t, hn::Set(d, float(kLabSlope)), hn::Set(d, float(kLabOffset)));
+    const Root<V> root = CubeRootOfShare(d, hn::Max(t, knee));
+    return hn::IfThenElse(hn::Gt(t, knee), hn::MulAdd(root.high, root.rest, root.high), line);
+}
+
+// The same as an unevaluated sum. E is as steep as h^0.7 at h = 0: f is kept to more than float
+// precision, so that differences of L are limited by t alone.
+HWY_INLINE Split<V> SplitLabF(V t) {
+    const V knee = hn::Set(d, float(kLabKnee));
+    const Root<V> root = CubeRootOfShare(d, hn::Max(t, knee));
     const auto above = hn::Gt(t, knee);
     const V line = hn::MulAdd(t, hn::Set(d, float(kLabSlope)),
                               hn::Set(d, float(kLabOffset - double(float(kLabOffset)))));
     return {hn::IfThenElse(above, root.high, hn::Set(d, float(kLabOffset))),
-            hn::IfThenElse(above, root.low, line)};
-}
-
-struct Lab {
-    Split<V> l;
-    V a, b;
-};
-
-HWY_INLINE V Difference(const Split<V>& p, const Split<V>& q) {
-    return hn::Add(hn::Sub(p.high, q.high), hn::Sub(p.low, q.low));
+            hn::IfThenElse(above, hn::Mul(root.high, root.rest), line)};
 }
 
 // f(p) - f(q), given p - q to its own precision: by (p - q) / (f(p)^2 + f(p) f(q) + f(q)^2) where
-// both are cube roots.
-HWY_INLINE V LabStep(V p, V q, V p_minus_q, const Split<V>& fp, const Split<V>& fq) {
-    const V a = hn::Add(fp.high, fp.low), b = hn::Add(fq.high, fq.low);
-    const V sum = hn::MulAdd(a, hn::Add(a, b), hn::Mul(b, b));
-    return hn::IfThenElse(hn::Gt(hn::Min(p, q), hn::Set(d, float(kLabKnee))),
-                          hn::Div(p_minus_q, sum), Difference(fp, fq));
+// both are cube roots, by the slope where both lie on the line.
+HWY_INLINE V LabStep(V p, V q, V p_minus_q, V fp, V fq) {
+    const V knee = hn::Set(d, float(kLabKnee));
+    const auto roots = hn::Gt(hn::Min(p, q), knee), line = hn::Le(hn::Max(p, q), knee);
+    const V sum = hn::MulAdd(fp, hn::Add(fp, fq), hn::Mul(fq, fq));
+    const V step =
+        hn::Div(p_minus_q, hn::IfThenElse(line, hn::Set(d, float(1.0 / kLabSlope)), sum));
+    return hn::IfThenElse(hn::Or(roots, line), step, hn::Sub(fp, fq));
 }
 
-// Filtered opponent colour to Hunt-adjusted Lab. The clamp of RGB is applied as a correction of
-// XYZ, which is exactly nothing for colours inside the gamut.
-HWY_INLINE Lab HuntLab(const Matrix& to_xyz, const Matrix& to_rgb, V y, V xy, V yz) {
-    const Color rgb = to_rgb(Color{hn::Add(y, xy), y, hn::Sub(y, yz)});
+// Brings a filtered opponent colour into the gamut. The clamp of RGB is applied as a correction,
+// which is exactly nothing for colours inside.
+HWY_INLINE Color IntoGamut(const ToOpponentPlanes& to_opponent, const FromOpponentPlanes& to_rgb,
+                           const Color& c) {
+    const Color rgb = to_rgb(c.c0, c.c1, c.c2);
     const Color moved =
-        to_xyz(Color{hn::Sub(Clamp01(rgb.c0), rgb.c0), hn::Sub(Clamp01(rgb.c1), rgb.c1),
-                     hn::Sub(Clamp01(rgb.c2), rgb.c2)});
-    y = hn::Add(y, moved.c1);
-    xy = hn::Add(xy, hn::Sub(moved.c0, moved.c1));
-    yz = hn::Add(yz, hn::Sub(moved.c1, moved.c2));
-    const V x = hn::Add(y, xy), z = hn::Sub(y, yz);
-    const Split<V> fx = LabF(x), fy = LabF(y), fz = LabF(z);
-    const V scale = hn::Set(d, 116.0f);
-    // Exact: `high` has 8 bits, 116 has 5.
-    const Split<V> l = {hn::Sub(hn::Mul(scale, fy.high), hn::Set(d, 16.0f)),
-                        hn::Mul(scale, fy.low)};
-    const V light = hn::Add(l.high, l.low);
-    return {l, hn::Mul(hn::Mul(light, hn::Set(d, 5.0f)), LabStep(x, y, xy, fx, fy)),
-            hn::Mul(hn::Mul(light, hn::Set(d, 2.0f)), LabStep(y, z, yz, fy, fz))};
+        to_opponent(Color{hn::Sub(Clamp01(rgb.c0), rgb.c0), hn::Sub(Clamp01(rgb.c1), rgb.c1),
+                          hn::Sub(Clamp01(rgb.c2), rgb.c2)});
+    return {hn::Add(c.c0, moved.c0), hn::Add(c.c1, moved.c1), hn::Add(c.c2, moved.c2)};
 }
 
 } // namespace tonetool::kernels::HWY_NAMESPACE

@@ -61,10 +61,10 @@ HWY_INLINE Color Display(const Curve& curve, const Color& linear, V scale) {
 
 // Tone map `count` pixels, rounded up to whole vectors; `store(i, color)` takes them.
 template <class Curve, class Store>
-HWY_INLINE void ForDisplay(const float* const in[3], int64_t count, const Curve& curve, float scale,
-                           const Store& store) {
+HWY_INLINE void ForDisplay(const float* const in[3], ptrdiff_t count, const Curve& curve,
+                           float scale, const Store& store) {
     const V s = hn::Set(d, scale);
-    for (int64_t i = 0; i < count; i += int64_t(hn::Lanes(d)))
+    for (ptrdiff_t i = 0; i < count; i += ptrdiff_t(hn::Lanes(d)))
         store(i, Display(curve,
                          Color{hn::LoadU(d, in[0] + i), hn::LoadU(d, in[1] + i),
                                hn::LoadU(d, in[2] + i)},
@@ -72,7 +72,7 @@ HWY_INLINE void ForDisplay(const float* const in[3], int64_t count, const Curve&
 }
 
 template <class Store>
-void WithCurve(const float* const in[3], int64_t count, const ToneCurve& curve, float scale,
+void WithCurve(const float* const in[3], ptrdiff_t count, const ToneCurve& curve, float scale,
                const Store& store) {
     if (curve.kind == ToneKind::Rational)
         ForDisplay(in, count, RationalCurve(curve), scale, store);

@@ -1,24 +1,32 @@
 // tonetool_bench: the evaluation of HDR-FLIP alone, without files or conversions, on a synthetic
-// pair (a smooth HDR picture, 25 % noise on it): 9 exposures, one and all threads.
+// pair (a smooth HDR picture, 25 % noise on it).
 #include <benchmark/benchmark.h>
+#include <hwy/targets.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <cstdint>
+#include <cstdio>
+#include <cstring>
+#include <ctime>
 #include <limits>
 #include <random>
+#include <string>
+#include <vector>
 
 #include "flip/evaluate.h"
 #include "flip/filters.h"
 #include "imagebuf/parallel.h"
-#include "kernels/flip_tile.h"
+#include "kernels/flip_rows.h"
 #include "kernels/flip_twin.h"
+#include "stages.h"
 #include "tonemap/rational.h"
 
 namespace {
 
 using namespace tonetool;
 
-constexpr int kExposures = 9;
 constexpr double kPixelsPerDegree = 67.0206451;
 
 struct Picture {
@@ -49,70 +57,207 @@ PicturePair make_pair(int width, int height) {
     return out;
 }
 
-std::vector<double> exposures() {
-    std::vector<double> out;
-    for (int i = 0; i < kExposures; ++i)
-        out.push_back(-4.0 + i);
+// The test equals the reference but for a corner of 64 x 64 pixels.
+PicturePair make_corner_pair(int width, int height) {
+    PicturePair out = make_pair(width, height);
+    for (int c = 0; c < 3; ++c)
+        for (int y = 0; y < height; ++y)
+            for (int x = 0; x < width; ++x)
+                if (x >= 64 || y >= 64) {
+                    const size_t i = size_t(y) * size_t(width) + size_t(x);
+                    out.test.plane[c][i] = out.reference.plane[c][i];
+                }
     return out;
 }
 
-// Runs `task` and reports wall time per pixel and exposure, the fastest repeat.
-template <class Task>
-void measure(benchmark::State& state, double pixels, const Task& task) {
+std::vector<double> exposures(int count) {
+    std::vector<double> out;
+    for (int i = 0; i < count; ++i)
+        out.push_back(-4.0 + 8.0 * i / (count - 1));
+    return out;
+}
+
+// Nanoseconds of one core cycle: each step of the loop is an exclusive or and an addition that wait
+// for one another, one cycle each. Clock speed drops out of what is divided by it.
+double cycle_ns() {
     using Clock = std::chrono::steady_clock;
+    constexpr int steps = 200000;
     double fastest = std::numeric_limits<double>::infinity();
-    for (auto _ : state) {
+    for (int repeat = 0; repeat < 20; ++repeat) {
+        uint64_t x = uint64_t(repeat) + 1;
         const auto start = Clock::now();
-        task();
+        for (int i = 0; i < steps; i += 8)
+            for (int j = 0; j < 8; ++j)
+                x = (x ^ 0x9e3779b97f4a7c15u) + 0x632be59bd9b4e019u;
+        benchmark::DoNotOptimize(x);
         const std::chrono::duration<double, std::nano> spent = Clock::now() - start;
-        fastest = std::min(fastest, spent.count());
+        fastest = std::min(fastest, spent.count() / (2.0 * steps));
     }
-    state.counters["ns_per_px_exposure"] = fastest / (pixels * kExposures);
+    return fastest;
+}
+
+// CPU time of all threads of the program.
+double cpu_ns() {
+    timespec now{};
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+    return double(now.tv_sec) * 1e9 + double(now.tv_nsec);
+}
+
+// The fastest repeat of a task, and the cycle of the core at that time.
+struct Fastest {
+    double wall = std::numeric_limits<double>::infinity(), cpu = wall, cycle = wall;
+    double all_wall = 0; ///< of all repeats
+
+    template <class Task>
+    void run(benchmark::State& state, const Task& task) {
+        using Clock = std::chrono::steady_clock;
+        for (auto _ : state) {
+            const double cpu_start = cpu_ns();
+            const auto start = Clock::now();
+            task();
+            const std::chrono::duration<double, std::nano> spent = Clock::now() - start;
+            cpu = std::min(cpu, cpu_ns() - cpu_start);
+            wall = std::min(wall, spent.count());
+            all_wall += spent.count();
+            state.PauseTiming();
+            cycle = std::min(cycle, cycle_ns());
+            state.ResumeTiming();
+        }
+    }
+
+    void report(benchmark::State& state, double work) const {
+        state.counters["wall_ms"] = wall * 1e-6;
+        state.counters["cpu_ns/px/exp"] = cpu / work;
+        state.counters["cycles/px/exp"] = cpu / work / cycle;
+    }
+};
+
+// Arguments: width, height, exposures, threads (0: all), tests. Returns the seconds of all repeats.
+double evaluate_pair(benchmark::State& state, const PicturePair& pair,
+                     const kernels::FlipRows* functions) {
+    const int width = pair.reference.width, height = pair.reference.height;
+    const auto count = int(state.range(2)), threads = int(state.range(3));
+    const auto tests = size_t(state.range(4));
+    const flip::Evaluation what{flip::lane_taps(flip::make_taps(kPixelsPerDegree)),
+                                *tonemap::rational_curve("aces"), exposures(count), functions};
+    const size_t pixels = pair.reference.plane[0].size();
+    std::vector<std::vector<float>> maps(2 * tests, std::vector<float>(pixels));
+    std::vector<flip::Output> outputs;
+    for (size_t t = 0; t < tests; ++t)
+        outputs.push_back({maps[2 * t].data(), maps[2 * t + 1].data(), {}, width});
+    Fastest fastest;
+    fastest.run(state, [&] {
+        flip::evaluate(what, pair.reference.view(), std::vector(tests, pair.test.view()),
+                       {0, 0, width, height}, outputs, make_parallel(threads));
+        benchmark::DoNotOptimize(maps[0].data());
+    });
+    fastest.report(state, double(pixels) * count);
+    state.SetLabel(kernels::flip_rows().name);
+    return fastest.all_wall * 1e-9;
 }
 
 void evaluate(benchmark::State& state) {
-    const int width = int(state.range(0)), height = int(state.range(1));
-    const int threads = int(state.range(2));
-    const PicturePair pair = make_pair(width, height);
-    const flip::Evaluation what{flip::float_taps(flip::make_taps(kPixelsPerDegree)),
-                                *tonemap::rational_curve("aces"), exposures()};
-    std::vector<float> error(pair.reference.plane[0].size()), index(error.size());
-    const flip::Output output{error.data(), index.data(), {}, width};
-    measure(state, double(error.size()), [&] {
-        flip::evaluate(what, pair.reference.view(), {pair.test.view()}, {0, 0, width, height},
-                       {output}, make_parallel(threads));
-        benchmark::DoNotOptimize(error.data());
-    });
-    state.SetLabel(kernels::flip_tile_target());
+    evaluate_pair(state, make_pair(int(state.range(0)), int(state.range(1))), nullptr);
+}
+
+void evaluate_corner(benchmark::State& state) {
+    evaluate_pair(state, make_corner_pair(int(state.range(0)), int(state.range(1))), nullptr);
+}
+
+void evaluate_stages(benchmark::State& state) {
+    bench::StageClock clock(kernels::flip_rows());
+    const double total = evaluate_pair(state, make_pair(int(state.range(0)), int(state.range(1))),
+                                       &clock.functions());
+    for (const auto& [name, share] : clock.shares(total))
+        state.counters[name] = benchmark::Counter(share);
 }
 
 void evaluate_twin(benchmark::State& state) {
     const int width = int(state.range(0)), height = int(state.range(1));
+    const auto count = int(state.range(2));
     const PicturePair pair = make_pair(width, height);
     const auto taps = flip::make_taps(kPixelsPerDegree);
-    measure(state, double(width) * height, [&] {
+    Fastest fastest;
+    fastest.run(state, [&] {
         benchmark::DoNotOptimize(kernels::hdr_flip_twin(pair.reference.view(), pair.test.view(),
                                                         taps, *tonemap::rational_curve("aces"),
-                                                        exposures(), nullptr));
+                                                        exposures(count), nullptr));
     });
+    fastest.report(state, double(width) * height * count);
 }
 
 constexpr int kAll = 0;
 
 BENCHMARK(evaluate)
-    ->ArgNames({"width", "height", "threads"})
-    ->Args({512, 512, 1})
-    ->Args({512, 512, kAll})
-    ->Args({1920, 1080, 1})
-    ->Args({1920, 1080, kAll})
-    ->Args({3840, 2160, 1})
-    ->Args({3840, 2160, kAll})
+    ->ArgNames({"width", "height", "exposures", "threads", "tests"})
+    ->Args({512, 512, 9, 1, 1})
+    ->Args({1920, 1080, 9, 1, 1})
+    ->Args({1920, 1080, 9, kAll, 1})
+    ->Args({1920, 1080, 2, 1, 1})
+    ->Args({1920, 1080, 18, 1, 1})
+    ->Args({1920, 1080, 9, 1, 2})
+    ->Args({1920, 1080, 9, 1, 4})
+    ->Args({3840, 2160, 9, 1, 1})
+    ->Args({3840, 2160, 9, kAll, 1})
+    ->Unit(benchmark::kMillisecond)
+    ->UseRealTime();
+BENCHMARK(evaluate_corner)
+    ->ArgNames({"width", "height", "exposures", "threads", "tests"})
+    ->Args({3840, 2160, 9, 1, 1})
+    ->Unit(benchmark::kMillisecond)
+    ->UseRealTime();
+BENCHMARK(evaluate_stages)
+    ->ArgNames({"width", "height", "exposures", "threads", "tests"})
+    ->Args({1920, 1080, 9, 1, 1})
     ->Unit(benchmark::kMillisecond)
     ->UseRealTime();
 BENCHMARK(evaluate_twin)
-    ->ArgNames({"width", "height"})
-    ->Args({512, 512})
+    ->ArgNames({"width", "height", "exposures"})
+    ->Args({512, 512, 2})
     ->Unit(benchmark::kMillisecond)
     ->UseRealTime();
 
+// The instruction sets of this machine by the names of Highway, in lower case, and by those the
+// field knows.
+int64_t find_target(const std::string& name) {
+    for (int64_t id : hwy::SupportedAndGeneratedTargets()) {
+        std::string known = hwy::TargetName(id);
+        std::transform(known.begin(), known.end(), known.begin(),
+                       [](unsigned char c) { return char(std::tolower(c)); });
+        if (name == known || (name == "avx512" && known == "avx3"))
+            return id;
+    }
+    return 0;
+}
+
+bool choose_target(const std::string& name) {
+    const int64_t id = find_target(name);
+    if (id != 0) {
+        hwy::SetSupportedTargetsForTest(id);
+        hwy::GetChosenTarget().Update(id);
+        return true;
+    }
+    std::fprintf(stderr, "tonetool_bench: --target=%s: not on this machine; valid:", name.c_str());
+    for (int64_t known : hwy::SupportedAndGeneratedTargets())
+        std::fprintf(stderr, " %s", hwy::TargetName(known));
+    std::fprintf(stderr, " (in lower case; avx512 is avx3)\n");
+    return false;
+}
+
 } // namespace
+
+int main(int argc, char** argv) {
+    benchmark::Initialize(&argc, argv);
+    constexpr const char* option = "--target=";
+    int rest = 1;
+    for (int i = 1; i < argc; ++i) {
+        if (std::strncmp(argv[i], option, std::strlen(option)) != 0)
+            argv[rest++] = argv[i];
+        else if (!choose_target(argv[i] + std::strlen(option)))
+            return 1;
+    }
+    if (benchmark::ReportUnrecognizedArguments(rest, argv))
+        return 1;
+    benchmark::RunSpecifiedBenchmarks();
+    return 0;
+}

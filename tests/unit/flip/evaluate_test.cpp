@@ -26,7 +26,7 @@ constexpr int kWidth = 143, kHeight = 109;
 const std::vector<double> kStops = {-3.5, -1.0, 0.5, 2.0};
 
 Evaluation evaluation(double ppd = 67.02, std::vector<double> stops = kStops) {
-    return {float_taps(make_taps(ppd)), *tonemap::rational_curve("aces"), std::move(stops)};
+    return {lane_taps(make_taps(ppd)), *tonemap::rational_curve("aces"), std::move(stops)};
 }
 
 ParallelFor in_order() {

@@ -83,7 +83,7 @@ TEST(MakeTaps, HaveThePublishedRadii) {
             EXPECT_EQ(t->size(), c.contrast + 1) << c.ppd;
         for (const Taps* t : {&taps.g, &taps.d1, &taps.d2})
             EXPECT_EQ(t->size(), c.feature + 1) << c.ppd;
-        EXPECT_EQ(reach(float_taps(taps)), int(std::max(c.contrast, c.feature)));
+        EXPECT_EQ(reach(lane_taps(taps)), int(std::max(c.contrast, c.feature)));
     }
 }
 
@@ -119,13 +119,13 @@ TEST(MakeTaps, AreFiniteWithinTheBounds) {
 
 TEST(FloatTaps, TrimWhatFloatCannotSee) {
     const auto exact = make_taps(67);
-    const auto taps = float_taps(exact);
+    const auto taps = lane_taps(exact);
     // The tails dropped at 67 pixels per degree: 8.7e-11 and 1.1e-9 from 7 on; 1.1e-9 is too much.
     EXPECT_EQ(taps.y.size(), 7u);
     EXPECT_GE(taps.cx.size(), 7u);
     for (double ppd : kPpds) {
         const auto full = make_taps(ppd);
-        const auto trimmed = float_taps(full);
+        const auto trimmed = lane_taps(full);
         const std::pair<const std::vector<float>*, const Taps*> pairs[] = {{&trimmed.y, &full.y},
                                                                            {&trimmed.cx, &full.cx}};
         for (const auto& [ours, all] : pairs) {
@@ -141,7 +141,7 @@ TEST(FloatTaps, TrimWhatFloatCannotSee) {
 TEST(FloatTaps, KeepTheRest) {
     for (double ppd : kPpds) {
         const auto exact = make_taps(ppd);
-        const auto taps = float_taps(exact);
+        const auto taps = lane_taps(exact);
         const std::pair<const std::vector<float>*, const Taps*> pairs[] = {
             {&taps.cz1, &exact.cz1}, {&taps.cz2, &exact.cz2}, {&taps.g, &exact.g},
             {&taps.d1, &exact.d1},   {&taps.d2, &exact.d2},   {&taps.y, &exact.y}};
