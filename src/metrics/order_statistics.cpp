@@ -126,6 +126,8 @@ OrderStatistics::Place OrderStatistics::place_of_rank(int64_t rank) const {
 }
 
 double OrderStatistics::mass(size_t bucket) const {
+    if (m_counts[bucket] == 0)
+        return 0;
     const Scale scale = scale_of(bucket);
     return double(m_counts[bucket] * scale.base + m_lows[bucket]) * scale.unit;
 }
@@ -211,19 +213,27 @@ float OrderStatistics::value_at_mass(const Place& place, const uint64_t* counts)
 
 std::vector<float> OrderStatistics::find(const std::vector<Wanted>& wanted) const {
     std::vector<float> out(wanted.size(), 0.0f);
-    if (m_count == 0 || wanted.empty())
+    if (m_count == 0)
         return out;
+    // Black images and maps of equal ones need no second look.
+    const bool only_zeros_below = m_counts[0] == uint64_t(m_zeros);
+    const auto is_zero = [&](const Place& at) { return at.bucket == 0 && only_zeros_below; };
     std::vector<Place> places;
     std::vector<size_t> buckets;
     for (const Wanted& w : wanted) {
         places.push_back(place(w));
-        buckets.push_back(places.back().bucket);
+        if (!is_zero(places.back()))
+            buckets.push_back(places.back().bucket);
     }
+    if (buckets.empty())
+        return out;
     std::sort(buckets.begin(), buckets.end());
     buckets.erase(std::unique(buckets.begin(), buckets.end()), buckets.end());
     assert(buckets.size() < 256);
     const auto values = values_of(buckets);
     for (size_t i = 0; i < places.size(); ++i) {
+        if (is_zero(places[i]))
+            continue;
         const auto at = std::lower_bound(buckets.begin(), buckets.end(), places[i].bucket);
         const uint64_t* counts = values.data() + size_t(at - buckets.begin()) * kLow;
         out[i] =
