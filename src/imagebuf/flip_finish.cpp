@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "imagebuf/annotate.h"
+#include "imagebuf/parallel.h"
 #include "kernels/flip_tile.h"
 #include "metrics/pooling.h"
 
@@ -141,7 +142,7 @@ FlipSummary summarize(const Compared& c, FlipMaps& maps) {
         compare_alpha(c, maps, s);
     override_nonfinite(c, maps);
     s.pool = metrics::pool(maps.error.data(), c.roi.width(), c.roi.height(), c.roi.width(),
-                           c.roi.xbegin, c.roi.ybegin);
+                           c.roi.xbegin, c.roi.ybegin, make_parallel(c.nthreads));
     collect_warnings(c, s);
     warn_of_unseen(c, s);
     return s;

@@ -27,6 +27,7 @@ struct Compared {
     OIIO::ROI full; ///< display window of the map
     int64_t nonfinite_both = 0;
     std::vector<std::string> notes; ///< more warnings
+    int nthreads = 0;
 };
 
 /// Lets non-finite pixels and alpha enter the map, pools it, and fills `result` and `map`.

@@ -6,6 +6,7 @@
 #include "flip/exposures.h"
 #include "flip/filters.h"
 #include "imagebuf/flip_plan.h"
+#include "imagebuf/parallel.h"
 #include "metrics/luminance.h"
 #include "tonemap/rational.h"
 
@@ -106,7 +107,8 @@ bool check_exposures(const HdrFlipOptions& options, std::string& error) {
 }
 
 // The reference's own finite pixels.
-LuminanceStats measure(const ColorPlanes& reference, const OIIO::ROI& covered) {
+metrics::ExposureStats measure(const ColorPlanes& reference, const OIIO::ROI& covered,
+                               int nthreads) {
     std::vector<uint8_t> skip = reference.nonfinite;
     const OIIO::ROI& all = reference.region;
     size_t at = 0;
@@ -114,7 +116,7 @@ LuminanceStats measure(const ColorPlanes& reference, const OIIO::ROI& covered) {
         for (int x = all.xbegin; x < all.xend; ++x, ++at)
             if (!covered.contains(x, y))
                 skip[at] = 1;
-    return metrics::luminance(reference.view(), skip);
+    return metrics::exposure_statistics(reference.view(), skip, make_parallel(nthreads));
 }
 
 } // namespace
@@ -132,7 +134,7 @@ bool plan_hdr(const HdrFlipOptions& options, FlipPlan& plan, std::string& error)
 }
 
 bool choose_exposures(const FlipPlan& plan, const ColorPlanes& reference, const OIIO::ROI& covered,
-                      Exposures& exposures, std::string& error) {
+                      int nthreads, Exposures& exposures, std::string& error) {
     if (!plan.hdr) {
         exposures.stops = plan.evaluation.stops;
         return true;
@@ -142,7 +144,7 @@ bool choose_exposures(const FlipPlan& plan, const ColorPlanes& reference, const 
     const bool need_median = !o.stop_exposure && o.num_exposures != 1;
     double maximum = o.max_luminance.value_or(0), median = o.median_luminance.value_or(0);
     if ((need_max && !o.max_luminance) || (need_median && !o.median_luminance)) {
-        const LuminanceStats stats = measure(reference, covered);
+        const metrics::ExposureStats stats = measure(reference, covered, nthreads);
         if (stats.max <= 0) {
             error = "the reference is black, so its exposures cannot be measured: pass "
                     "startExposure and stopExposure (or maxluminance and medianluminance)";

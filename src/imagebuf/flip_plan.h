@@ -34,7 +34,7 @@ struct Exposures {
 
 /// Exposures for a reference of which `covered` is the data window. LDR-FLIP gets stop 0 alone.
 bool choose_exposures(const FlipPlan& plan, const ColorPlanes& reference, const OIIO::ROI& covered,
-                      Exposures& exposures, std::string& error);
+                      int nthreads, Exposures& exposures, std::string& error);
 
 /// A user's coefficients must be sound up to `largest`, the largest component of any image, at the
 /// last exposure.

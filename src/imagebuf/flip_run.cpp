@@ -23,7 +23,7 @@ public:
     bool run(const FittedTest* tests, size_t count, const ROI& roi, std::vector<ImageBuf>& maps,
              std::vector<FlipResult>& results, std::string& error) {
         if (!clip(roi, tests[0].region(), error) || !read(tests, count, error) ||
-            !choose_exposures(m_plan, m_reference, m_image.roi(), m_exposures, error))
+            !choose_exposures(m_plan, m_reference, m_image.roi(), m_nthreads, m_exposures, error))
             return false;
         double largest = m_reference.largest;
         for (const ColorPlanes& test : m_tests)
@@ -105,7 +105,7 @@ private:
             maps.emplace_back();
             results.emplace_back();
             finish({m_plan, m_exposures, m_reference, m_tests[from + t], m_roi, m_image.roi_full(),
-                    both[t], m_fitted[from + t].notes()},
+                    both[t], m_fitted[from + t].notes(), m_nthreads},
                    planes[t], maps.back(), results.back());
         }
     }

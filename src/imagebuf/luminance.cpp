@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "imagebuf/guard.h"
+#include "imagebuf/parallel.h"
 #include "imagebuf/planes.h"
 #include "metrics/luminance.h"
 
@@ -31,7 +32,7 @@ bool measure(LuminanceStats& stats, const ImageBuf& src, const PixelOptions& opt
         error = "the image has no finite pixel";
         return false;
     }
-    stats = metrics::luminance(planes.view(), planes.nonfinite);
+    stats = metrics::luminance(planes.view(), planes.nonfinite, make_parallel(nthreads));
     stats.pixels = pixels;
     stats.nonfinite = planes.nonfinite_count;
     stats.negative = planes.negative_count;

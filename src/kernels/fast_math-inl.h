@@ -90,7 +90,7 @@ HWY_INLINE V LookUpHalfBinade(D tag, const float* table, VI bits) {
     }
 }
 
-/// Cube root of x in [2^-7, 2), exact to 1.5e-8 relative: without a division where a table of 16
+/// Cube root of x in [2^-7, 2), exact to 2e-8 relative: without a division where a table of 16
 /// fits into registers.
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE Root<V> CubeRootOfShare(D tag, V x) {

@@ -108,15 +108,14 @@ void FilterColumns(const RowTable (&in)[kOpponentPlanes], const TapVectors& taps
         StoreRows(v.first, out[kColumnD1], x + shift);
         StoreRows(v.second, out[kColumnD2], x + shift);
     }
-    ptrdiff_t x = from;
-    for (; x + LaneCount() < end; x += 2 * LaneCount()) {
-        const TwoFours v = EvenPair(DownRows{in[kXy], x}, taps[kTapsCx],
-                                    DownRows{in[kXy], x + LaneCount()}, taps[kTapsCx]);
+    // Two vectors at a time; the last one, if odd, twice.
+    for (ptrdiff_t x = from; x < end; x += 2 * LaneCount()) {
+        const ptrdiff_t next = std::min(x + LaneCount(), end - LaneCount());
+        const TwoFours v =
+            EvenPair(DownRows{in[kXy], x}, taps[kTapsCx], DownRows{in[kXy], next}, taps[kTapsCx]);
         StoreRows(v.first, out[kColumnCx], x + shift);
-        StoreRows(v.second, out[kColumnCx], x + LaneCount() + shift);
+        StoreRows(v.second, out[kColumnCx], next + shift);
     }
-    if (x < end)
-        StoreRows(Even(DownRows{in[kXy], x}, taps[kTapsCx]), out[kColumnCx], x + shift);
 }
 
 // The vectors beside the row, `reach` on each side, of a wide row: those of the neighbouring strip,

@@ -42,7 +42,7 @@ HWY_INLINE Four MulAdd(V tap, const Four& a, const Four& sum) {
 // Neighbouring outputs share their inputs: held in registers, each step towards the centre loads
 // one new vector instead of four. Of 32 registers both sides of a window take eight, of 16 one side
 // takes four.
-constexpr bool kManyRegisters = HWY_MAX_BYTES == 64;
+constexpr bool kManyRegisters = HWY_MAX_BYTES == 64 || HWY_ARCH_ARM_A64;
 
 // A row in strips: At(i) is i columns from the first output.
 struct AlongRow {

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "kernels/tone_curve.h"
+#include "metrics/blocks.h"
 #include "metrics/order_statistics.h"
 
 namespace tonetool::metrics {
@@ -11,66 +12,114 @@ namespace {
 
 using kernels::ConstRgb;
 using kernels::kLuminance;
+using kernels::ParallelFor;
 
 // Luminance of every pixel, NaN where it is to be skipped.
-std::vector<float> luminance_plane(const ConstRgb& image, const std::vector<uint8_t>& skip) {
-    std::vector<float> out(size_t(image.width) * size_t(image.height));
-    size_t at = 0;
-    for (int y = 0; y < image.height; ++y) {
-        const float* r = image.plane[0] + y * image.stride;
-        const float* g = image.plane[1] + y * image.stride;
-        const float* b = image.plane[2] + y * image.stride;
-        for (int x = 0; x < image.width; ++x, ++at)
-            out[at] = float(kLuminance[0]) * r[x] + float(kLuminance[1]) * g[x] +
-                      float(kLuminance[2]) * b[x];
-    }
-    for (size_t i = 0; i < skip.size(); ++i)
-        if (skip[i])
-            out[i] = std::numeric_limits<float>::quiet_NaN();
+std::vector<float> luminance_plane(const ConstRgb& image, const std::vector<uint8_t>& skip,
+                                   const ParallelFor& parallel) {
+    const auto width = size_t(std::max(image.width, 0));
+    std::vector<float> out(width * size_t(std::max(image.height, 0)));
+    for_each_block(image.width, image.height, parallel, [&](int first, int end) {
+        for (int y = first; y < end; ++y)
+            luminance_row(image.plane[0] + y * image.stride, image.plane[1] + y * image.stride,
+                          image.plane[2] + y * image.stride, out.data() + size_t(y) * width,
+                          image.width);
+        if (skip.empty())
+            return;
+        for (size_t i = size_t(first) * width; i < size_t(end) * width; ++i)
+            if (skip[i])
+                out[i] = std::numeric_limits<float>::quiet_NaN();
+    });
     return out;
 }
 
-// Mean and geometric mean, row by row in order.
-void averages(const std::vector<float>& plane, int width, int64_t count, LuminanceStats& stats) {
-    double sum = 0, logs = 0;
+struct Sums {
+    double values = 0, logs = 0;
     int64_t lit = 0;
-    for (size_t row = 0; row < plane.size(); row += size_t(width)) {
-        double row_sum = 0, row_logs = 0;
-        for (size_t i = row; i < row + size_t(width); ++i) {
-            if (!std::isfinite(plane[i]))
-                continue;
-            row_sum += double(plane[i]);
-            if (plane[i] > 0) {
-                row_logs += std::log(double(plane[i]));
-                ++lit;
-            }
+};
+
+Sums sums_of(const float* row, int width) {
+    Sums sums;
+    for (int x = 0; x < width; ++x) {
+        if (!std::isfinite(row[x]))
+            continue;
+        sums.values += double(row[x]);
+        if (row[x] > 0) {
+            sums.logs += std::log(double(row[x]));
+            ++sums.lit;
         }
-        sum += row_sum;
-        logs += row_logs;
     }
-    stats.mean = count ? sum / double(count) : 0;
-    stats.log_average = lit ? std::exp(logs / double(lit)) : 0;
+    return sums;
+}
+
+// Mean and geometric mean: sums of rows, added in their order.
+void averages(const float* plane, int width, int height, int64_t count, const ParallelFor& parallel,
+              LuminanceStats& stats) {
+    std::vector<Sums> rows(size_t(std::max(height, 0)));
+    for_each_block(width, height, parallel, [&](int first, int end) {
+        for (int y = first; y < end; ++y)
+            rows[size_t(y)] = sums_of(plane + int64_t(y) * width, width);
+    });
+    Sums all;
+    for (const Sums& row : rows) {
+        all.values += row.values;
+        all.logs += row.logs;
+        all.lit += row.lit;
+    }
+    stats.mean = count ? all.values / double(count) : 0;
+    stats.log_average = all.lit ? std::exp(all.logs / double(all.lit)) : 0;
+}
+
+// Largest, upper median, upper median of the lit.
+std::vector<Wanted> for_exposures(const OrderStatistics& order) {
+    const int64_t n = order.count(), black = order.zeros();
+    return {Wanted::rank(n - 1), Wanted::rank(n / 2), Wanted::rank(black + (n - black) / 2)};
 }
 
 } // namespace
 
-LuminanceStats luminance(const ConstRgb& image, const std::vector<uint8_t>& skip) {
+void luminance_row(const float* r, const float* g, const float* b, float* out, int64_t count) {
+    for (int64_t i = 0; i < count; ++i)
+        out[i] =
+            float(kLuminance[0]) * r[i] + float(kLuminance[1]) * g[i] + float(kLuminance[2]) * b[i];
+}
+
+ExposureStats exposure_statistics(const float* plane, int width, int height,
+                                  const ParallelFor& parallel) {
+    const OrderStatistics order(plane, width, height, width, parallel);
+    const auto found = order.find(for_exposures(order));
+    return {order.count(), order.zeros(), found[0], found[1], found[2]};
+}
+
+LuminanceStats luminance(const float* plane, int width, int height, const ParallelFor& parallel) {
+    const OrderStatistics order(plane, width, height, width, parallel);
+    auto wanted = for_exposures(order);
+    wanted.insert(wanted.end(), {Wanted::rank(0), Wanted::percentile(0.01),
+                                 Wanted::percentile(0.99), Wanted::percentile(0.999)});
+    const auto found = order.find(wanted);
     LuminanceStats stats;
-    if (image.width <= 0 || image.height <= 0)
-        return stats;
-    const auto plane = luminance_plane(image, skip);
-    const OrderStatistics order(plane.data(), image.width, image.height, image.width);
-    const int64_t n = order.count(), black = order.zeros();
-    stats.black = black;
-    stats.min = order.at_rank(0);
-    stats.max = order.at_rank(n - 1);
-    stats.median = order.at_rank(n / 2);
-    stats.median_lit = black < n ? order.at_rank(black + (n - black) / 2) : 0;
-    stats.p1 = order.percentile(0.01);
-    stats.p99 = order.percentile(0.99);
-    stats.p999 = order.percentile(0.999);
-    averages(plane, image.width, n, stats);
+    stats.black = order.zeros();
+    stats.max = found[0];
+    stats.median = found[1];
+    stats.median_lit = found[2];
+    stats.min = found[3];
+    stats.p1 = found[4];
+    stats.p99 = found[5];
+    stats.p999 = found[6];
+    averages(plane, width, height, order.count(), parallel, stats);
     return stats;
+}
+
+LuminanceStats luminance(const ConstRgb& image, const std::vector<uint8_t>& skip,
+                         const ParallelFor& parallel) {
+    const auto plane = luminance_plane(image, skip, parallel);
+    return luminance(plane.data(), image.width, image.height, parallel);
+}
+
+ExposureStats exposure_statistics(const ConstRgb& image, const std::vector<uint8_t>& skip,
+                                  const ParallelFor& parallel) {
+    const auto plane = luminance_plane(image, skip, parallel);
+    return exposure_statistics(plane.data(), image.width, image.height, parallel);
 }
 
 } // namespace tonetool::metrics

@@ -9,9 +9,29 @@
 
 namespace tonetool::metrics {
 
-/// Statistics of finite, non-negative linear Rec.709. `skip`, if not empty, marks (row by row,
-/// without padding) the pixels that are not to be looked at. Fills every figure of LuminanceStats
-/// but the counts of pixels, non-finite and negative ones, the layer and the space.
-LuminanceStats luminance(const kernels::ConstRgb& image, const std::vector<uint8_t>& skip);
+/// Luminance of `count` pixels of linear Rec.709.
+void luminance_row(const float* r, const float* g, const float* b, float* out, int64_t count);
+
+/// What the exposures of HDR-FLIP follow from; see LuminanceStats for the meaning.
+struct ExposureStats {
+    int64_t counted = 0, black = 0;
+    double max = 0, median = 0, median_lit = 0;
+};
+
+/// Of a luminance plane, row by row without padding; what is not finite is not looked at.
+ExposureStats exposure_statistics(const float* plane, int width, int height,
+                                  const kernels::ParallelFor& parallel);
+
+/// Of a luminance plane as above. Fills every figure of LuminanceStats but the counts of pixels,
+/// non-finite and negative ones, the layer and the space.
+LuminanceStats luminance(const float* plane, int width, int height,
+                         const kernels::ParallelFor& parallel);
+
+/// The same of finite, non-negative linear Rec.709, a whole image. `skip`, if not empty, marks
+/// (row by row, without padding) the pixels that are not to be looked at.
+LuminanceStats luminance(const kernels::ConstRgb& image, const std::vector<uint8_t>& skip,
+                         const kernels::ParallelFor& parallel);
+ExposureStats exposure_statistics(const kernels::ConstRgb& image, const std::vector<uint8_t>& skip,
+                                  const kernels::ParallelFor& parallel);
 
 } // namespace tonetool::metrics

@@ -2,59 +2,130 @@
 
 #include <algorithm>
 
+#include "metrics/blocks.h"
 #include "metrics/order_statistics.h"
 
 namespace tonetool::metrics {
 namespace {
 
-// Mean, extremes and histogram in one pass; a sum per row, then over rows, both in order.
-void scan(FlipPool& pool, const float* map, int width, int height, ptrdiff_t stride) {
-    const double buckets = double(pool.histogram.size());
+using Histogram = decltype(FlipPool::histogram);
+
+struct Row {
     double sum = 0;
-    pool.min = pool.max = map[0];
-    for (int y = 0; y < height; ++y) {
-        double row = 0;
-        for (int x = 0; x < width; ++x) {
-            const double value = map[y * stride + x];
-            row += value;
-            const auto bucket = std::clamp(value * buckets, 0.0, buckets - 1.0);
-            ++pool.histogram[size_t(bucket)];
-            if (value < pool.min) {
-                pool.min = value;
-                pool.min_x = x;
-                pool.min_y = y;
-            }
-            if (value > pool.max) {
-                pool.max = value;
-                pool.max_x = x;
-                pool.max_y = y;
-            }
+    float min = 0, max = 0;
+    int min_x = 0, max_x = 0; // the first ones
+};
+
+// Four sums by turns, so that an addition need not wait for the one before.
+double sum_of(const float* row, int width) {
+    double sums[4] = {};
+    int x = 0;
+    for (; x + 3 < width; x += 4)
+        for (int i = 0; i < 4; ++i)
+            sums[i] += double(row[x + i]);
+    for (; x < width; ++x)
+        sums[0] += double(row[x]);
+    return (sums[0] + sums[1]) + (sums[2] + sums[3]);
+}
+
+Row scan_row(const float* row, int width) {
+    Row out{sum_of(row, width), row[0], row[0], 0, 0};
+    for (int x = 1; x < width; ++x) {
+        if (row[x] < out.min) {
+            out.min = row[x];
+            out.min_x = x;
         }
-        sum += row;
+        if (row[x] > out.max) {
+            out.max = row[x];
+            out.max_x = x;
+        }
     }
-    pool.pixels = int64_t(width) * height;
+    return out;
+}
+
+// Two histograms by turns: neighbours are often equal. Buckets are found some pixels at a time, in
+// a loop that a compiler turns into vectors.
+struct Histograms {
+    Histogram even{}, odd{};
+
+    void add(const float* row, int width) {
+        constexpr int chunk = 64;
+        for (int x = 0; x < width; x += chunk)
+            add_few(row + x, std::min(chunk, width - x));
+    }
+
+private:
+    void add_few(const float* values, int count) {
+        constexpr auto buckets = double(std::tuple_size_v<Histogram>);
+        int32_t at[64];
+        for (int i = 0; i < count; ++i) {
+            const double scaled = double(values[i]) * buckets;
+            at[i] = int32_t(std::min(std::max(scaled, 0.0), buckets - 1.0));
+        }
+        for (int i = 0; i + 1 < count; i += 2) {
+            ++even[size_t(at[i])];
+            ++odd[size_t(at[i + 1])];
+        }
+        if (count % 2)
+            ++even[size_t(at[count - 1])];
+    }
+};
+
+// Sums of rows and extremes, in the order of the rows.
+void join(FlipPool& pool, const std::vector<Row>& rows, int width, int x0, int y0) {
+    const auto less_min = [](const Row& a, const Row& b) { return a.min < b.min; };
+    const auto less_max = [](const Row& a, const Row& b) { return a.max < b.max; };
+    const auto lowest = std::min_element(rows.begin(), rows.end(), less_min);
+    const auto highest = std::max_element(rows.begin(), rows.end(), less_max);
+    pool.min = lowest->min;
+    pool.min_x = x0 + lowest->min_x;
+    pool.min_y = y0 + int(lowest - rows.begin());
+    pool.max = highest->max;
+    pool.max_x = x0 + highest->max_x;
+    pool.max_y = y0 + int(highest - rows.begin());
+    double sum = 0;
+    for (const Row& row : rows)
+        sum += row.sum;
+    pool.pixels = int64_t(width) * int64_t(rows.size());
     pool.mean = sum / double(pool.pixels);
+}
+
+void percentiles(FlipPool& pool, const OrderStatistics& order) {
+    const auto found =
+        order.find({Wanted::percentile(0.50), Wanted::percentile(0.95), Wanted::percentile(0.99),
+                    Wanted::percentile(0.999), Wanted::weighted_percentile(0.25),
+                    Wanted::weighted_percentile(0.50), Wanted::weighted_percentile(0.75)});
+    pool.p50 = found[0];
+    pool.p95 = found[1];
+    pool.p99 = found[2];
+    pool.p999 = found[3];
+    pool.weighted_q1 = found[4];
+    pool.weighted_median = found[5];
+    pool.weighted_q3 = found[6];
 }
 
 } // namespace
 
-FlipPool pool(const float* map, int width, int height, ptrdiff_t stride, int x0, int y0) {
+FlipPool pool(const float* map, int width, int height, ptrdiff_t stride, int x0, int y0,
+              const kernels::ParallelFor& parallel) {
     FlipPool out;
     if (width <= 0 || height <= 0)
         return out;
-    scan(out, map, width, height, stride);
-    out.min_x += x0;
-    out.max_x += x0;
-    out.min_y += y0;
-    out.max_y += y0;
-    const OrderStatistics order(map, width, height, stride);
-    out.p50 = order.percentile(0.50);
-    out.p95 = order.percentile(0.95);
-    out.p99 = order.percentile(0.99);
-    out.p999 = order.percentile(0.999);
-    out.weighted_q1 = order.weighted_percentile(0.25);
-    out.weighted_median = order.weighted_percentile(0.50);
-    out.weighted_q3 = order.weighted_percentile(0.75);
+    std::vector<Row> rows(static_cast<size_t>(height));
+    Accumulators<Histograms> histograms([] { return Histograms(); });
+    for_each_block(width, height, parallel, [&](int first, int end) {
+        histograms.with_one([&](Histograms& histogram) {
+            for (int y = first; y < end; ++y) {
+                rows[size_t(y)] = scan_row(map + y * stride, width);
+                histogram.add(map + y * stride, width);
+            }
+        });
+    });
+    join(out, rows, width, x0, y0);
+    for (const auto& histogram : histograms.all())
+        for (size_t i = 0; i < out.histogram.size(); ++i)
+            out.histogram[i] += histogram->even[i] + histogram->odd[i];
+    percentiles(out, {map, width, height, stride, parallel, OrderStatistics::Keep::CountsAndSums});
     return out;
 }
 

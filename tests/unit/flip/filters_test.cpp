@@ -117,41 +117,75 @@ TEST(MakeTaps, AreFiniteWithinTheBounds) {
     }
 }
 
-TEST(FloatTaps, TrimWhatFloatCannotSee) {
-    const auto exact = make_taps(67);
-    const auto taps = lane_taps(exact);
-    // The tails dropped at 67 pixels per degree: 8.7e-11 and 1.1e-9 from 7 on; 1.1e-9 is too much.
-    EXPECT_EQ(taps.y.size(), 7u);
-    EXPECT_GE(taps.cx.size(), 7u);
+TEST(LaneTaps, TrimWhatFloatCannotSee) {
+    const auto at_67 = lane_taps(make_taps(67));
+    // The tails dropped at 67 pixels per degree: 8.7e-11 and 1.1e-9 from 7 on.
+    EXPECT_EQ(at_67.y.size(), 7u);
+    EXPECT_EQ(at_67.cx.size(), 7u);
     for (double ppd : kPpds) {
+        SCOPED_TRACE(ppd);
         const auto full = make_taps(ppd);
         const auto trimmed = lane_taps(full);
-        const std::pair<const std::vector<float>*, const Taps*> pairs[] = {{&trimmed.y, &full.y},
-                                                                           {&trimmed.cx, &full.cx}};
-        for (const auto& [ours, all] : pairs) {
-            const auto tail = [all = all](size_t from) {
-                return 2 * std::accumulate(all->begin() + ptrdiff_t(from), all->end(), 0.0);
-            };
-            EXPECT_LT(tail(ours->size()), 1e-9);
-            EXPECT_GE(tail(ours->size() - 1), 1e-9) << "could be shorter at " << ppd;
-        }
+        const auto tail = [](const Taps& taps, size_t from) {
+            return 2 * std::accumulate(taps.begin() + ptrdiff_t(from), taps.end(), 0.0);
+        };
+        ASSERT_EQ(trimmed.y.size(), trimmed.cx.size());
+        EXPECT_LT(std::max(tail(full.y, trimmed.y.size()), tail(full.cx, trimmed.y.size())), 2e-9);
+        EXPECT_GE(std::max(tail(full.y, trimmed.y.size() - 1), tail(full.cx, trimmed.y.size() - 1)),
+                  2e-9)
+            << "could be shorter";
     }
 }
 
-TEST(FloatTaps, KeepTheRest) {
+TEST(LaneTaps, KeepTheRest) {
     for (double ppd : kPpds) {
+        SCOPED_TRACE(ppd);
         const auto exact = make_taps(ppd);
         const auto taps = lane_taps(exact);
-        const std::pair<const std::vector<float>*, const Taps*> pairs[] = {
-            {&taps.cz1, &exact.cz1}, {&taps.cz2, &exact.cz2}, {&taps.g, &exact.g},
-            {&taps.d1, &exact.d1},   {&taps.d2, &exact.d2},   {&taps.y, &exact.y}};
-        for (const auto& [ours, all] : pairs) {
-            if (all != &exact.y) {
-                EXPECT_EQ(ours->size(), all->size()) << ppd;
+        EXPECT_EQ(taps.cz1.size(), exact.cz1.size());
+        EXPECT_EQ(taps.cz2.size(), exact.cz2.size());
+        EXPECT_GE(taps.g.size(), std::max(exact.g.size(), taps.y.size()));
+        const std::pair<const std::vector<float>*, const Taps*> pairs[] = {{&taps.cz1, &exact.cz1},
+                                                                           {&taps.cz2, &exact.cz2},
+                                                                           {&taps.g, &exact.g},
+                                                                           {&taps.y, &exact.y},
+                                                                           {&taps.cx, &exact.cx}};
+        for (const auto& [ours, all] : pairs)
+            for (size_t i = 0; i < ours->size(); ++i) {
+                const float tap = i < all->size() ? float((*all)[i]) : 0.0f;
+                // A list is as long as its partner, and then ends in zeros.
+                EXPECT_TRUE((*ours)[i] == tap || (*ours)[i] == 0.0f) << i;
+                EXPECT_LT(std::abs(double((*ours)[i]) - double(tap)), 2e-9) << i;
             }
-            for (size_t i = 0; i < ours->size(); ++i)
-                EXPECT_EQ((*ours)[i], float((*all)[i]));
+    }
+}
+
+// A filter whose taps sum to 0, applied to the steps between neighbours, is itself.
+TEST(LaneTaps, DetectStepsAsTheDetectorsDetectValues) {
+    for (double ppd : kPpds) {
+        SCOPED_TRACE(ppd);
+        const auto exact = make_taps(ppd);
+        const auto taps = lane_taps(exact);
+        const auto radius = ptrdiff_t(exact.d1.size()) - 1;
+        const auto value = [](ptrdiff_t x) {
+            return std::sin(0.7 * double(x) + 0.3) + 0.1 * double(x);
+        };
+        const auto step = [&value](ptrdiff_t x) { return value(x + 1) - value(x); };
+        double odd = 0, even = 0, odd_steps = 0, even_steps = 0;
+        for (ptrdiff_t i = -radius; i <= radius; ++i) {
+            const auto k = size_t(std::abs(i));
+            odd += (i < 0 ? -1 : 1) * exact.d1[k] * value(i);
+            even += exact.d2[k] * value(i);
         }
+        for (size_t i = 0; i < taps.d1.size(); ++i) {
+            const auto k = ptrdiff_t(i);
+            odd_steps += double(taps.d1[i]) * (step(k) + step(-1 - k));
+            even_steps += double(taps.d2[i]) * (step(k) - step(-1 - k));
+        }
+        // Taps are floats; the largest values are those of the ramp at the radius.
+        const double bound = 1e-6 * (2 + 0.1 * double(radius));
+        EXPECT_NEAR(odd_steps, odd, bound);
+        EXPECT_NEAR(even_steps, even, bound);
     }
 }
 

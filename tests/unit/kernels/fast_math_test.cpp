@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #undef HWY_TARGET_INCLUDE
@@ -18,15 +19,24 @@ namespace hn = hwy::HWY_NAMESPACE;
 constexpr hn::ScalableTag<float> d{};
 
 // `count` is a multiple of every vector length; what is exact is added up in double.
-void CubeRoots(const float* in, size_t count, double* out) {
-    float high[64], low[64];
+template <class Function>
+void StoreRoots(const float* in, size_t count, double* out, const Function& cube_root) {
+    float high[64], rest[64];
     for (size_t i = 0; i < count; i += hn::Lanes(d)) {
-        const auto root = CubeRoot(d, hn::LoadU(d, in + i));
+        const auto root = cube_root(hn::LoadU(d, in + i));
         hn::StoreU(root.high, d, high);
-        hn::StoreU(root.low, d, low);
+        hn::StoreU(root.rest, d, rest);
         for (size_t j = 0; j < hn::Lanes(d); ++j)
-            out[i + j] = double(high[j]) + double(low[j]);
+            out[i + j] = double(high[j]) * (1.0 + double(rest[j]));
     }
+}
+
+void CubeRoots(const float* in, size_t count, double* out) {
+    StoreRoots(in, count, out, [](auto x) HWY_ATTR { return CubeRoot(d, x); });
+}
+
+void CubeRootsOfShares(const float* in, size_t count, double* out) {
+    StoreRoots(in, count, out, [](auto x) HWY_ATTR { return CubeRootOfShare(d, x); });
 }
 
 void Logs(const float* in, size_t count, double* out) {
@@ -58,6 +68,7 @@ HWY_AFTER_NAMESPACE();
 namespace tonetool::kernels {
 
 HWY_EXPORT(CubeRoots);
+HWY_EXPORT(CubeRootsOfShares);
 HWY_EXPORT(Logs);
 HWY_EXPORT(Powers);
 HWY_EXPORT(Target);
@@ -94,20 +105,47 @@ protected:
 
 // The bounds are those the header promises.
 
+// The largest relative error of cube roots, and where it is.
+std::pair<double, double> worst_root(const std::vector<float>& x, const std::vector<double>& root) {
+    std::pair<double, double> worst;
+    for (size_t i = 0; i < x.size(); ++i) {
+        const double off = std::abs(root[i] / std::cbrt(double(x[i])) - 1);
+        if (!(off <= worst.first))
+            worst = {off, double(x[i])};
+    }
+    return worst;
+}
+
 TEST_P(FastMath, CubeRootIsExactTo1e9) {
     // 1e-30 and 1e30 as floats lie on either side of the promised ends, by half an ulp at most.
     const auto x = geometric(1e-30, 1e30);
     std::vector<double> root(kCount);
     HWY_DYNAMIC_DISPATCH(CubeRoots)(x.data(), kCount, root.data());
-    double worst = 0, at = 0;
-    for (size_t i = 0; i < kCount; ++i) {
-        const double exact = std::cbrt(double(x[i])), off = std::abs(root[i] / exact - 1);
-        if (!(off <= worst)) {
-            worst = off;
-            at = double(x[i]);
-        }
+    const auto worst = worst_root(x, root);
+    EXPECT_LE(worst.first, 1e-9) << "at " << worst.second;
+}
+
+TEST_P(FastMath, CubeRootOfShareIsExactTo2e8) {
+    const auto x = geometric(1.0 / 128, std::nextafter(2.0f, 0.0f));
+    std::vector<double> root(kCount);
+    HWY_DYNAMIC_DISPATCH(CubeRootsOfShares)(x.data(), kCount, root.data());
+    const auto worst = worst_root(x, root);
+    EXPECT_LE(worst.first, 2e-8) << "at " << worst.second;
+}
+
+// The high part of a sum must be so short that products with small integers are exact.
+TEST(CubeRootTable, HasShortRootsAndTheirCubes) {
+    const HWY_NAMESPACE::CubeRootTable& table = HWY_NAMESPACE::kCubeRootTable;
+    for (size_t i = 0; i < 16; ++i) {
+        int exponent = 0;
+        const double mantissa = std::frexp(double(table.root[i]), &exponent) * 256;
+        EXPECT_EQ(mantissa, std::round(mantissa)) << i;
+        const double cube = double(table.root[i]) * table.root[i] * table.root[i];
+        EXPECT_EQ(double(table.cube[i]), cube) << i;
+        EXPECT_EQ(table.inverse[i], float(1 / cube)) << i;
+        const double binade = std::ldexp(1.0, int(i / 2) - 7);
+        EXPECT_NEAR(cube, binade * (i % 2 ? 1.75 : 1.25), 0.02 * binade) << i;
     }
-    EXPECT_LE(worst, 1e-9) << "at " << at;
 }
 
 TEST_P(FastMath, Log2IsExactTo3e7) {

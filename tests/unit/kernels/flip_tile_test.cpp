@@ -12,77 +12,35 @@
 #include "flip/filters.h"
 #include "hdr_image.h"
 #include "kernels/flip_twin.h"
+#include "oracle.h"
+#include "target.h"
 #include "tonemap/rational.h"
 
 namespace tonetool::kernels {
 namespace {
 
-// E ~ h^0.7 has infinite slope at 0: float noise in Lab becomes up to 1e-4 there.
-constexpr double kSmallError = 0.01, kClose = 1e-5, kCloseBelow = 1e-4;
-// Two instruction sets, each within kClose of the twin.
-constexpr double kAmongTargets = 2e-5;
-
-struct Target {
-    explicit Target(int64_t target) {
-        hwy::SetSupportedTargetsForTest(target);
-        hwy::GetChosenTarget().Update(target);
-        EXPECT_STREQ(flip_tile_target(), hwy::TargetName(target));
-    }
-    Target(const Target&) = delete;
-    Target& operator=(const Target&) = delete;
-    ~Target() {
-        hwy::SetSupportedTargetsForTest(0);
-        hwy::GetChosenTarget().Update(hwy::SupportedTargets());
-    }
-};
-
-ToneCurve curve_of(const std::string& name) {
-    return name == "ldr" ? ToneCurve{} : *tonemap::rational_curve(name);
-}
-
 struct Maps {
     std::vector<float> error, index;
 };
 
-// The image as one tile.
-Maps run_lanes(const HdrImage& reference, const HdrImage& test, const FlipTaps<float>& taps,
-               const ToneCurve& curve, const std::vector<double>& stops) {
-    const TileShape shape(reference.width, reference.height, flip::reach(taps));
-    const TilePixels r(shape, reference.view(), 0, 0), t(shape, test.view(), 0, 0);
-    FlipTile tile(shape, taps);
-    Planes fr(kFeaturePlanes, shape.stride, shape.height);
-    Planes ft(kFeaturePlanes, shape.stride, shape.height);
-    Planes best(2, shape.stride, shape.height);
-    for (size_t n = 0; n < stops.size(); ++n) {
-        const auto scale = float(std::exp2(stops[n]));
-        tile.prepare(r, curve, scale, fr);
-        tile.prepare(t, curve, scale, ft);
-        tile.compare(fr, ft, float(n), best[0], best[1], nullptr);
-    }
-    Maps out;
-    for (int y = 0; y < shape.height; ++y)
-        for (int x = 0; x < shape.width; ++x) {
-            out.error.push_back(best[0][y * shape.stride + x]);
-            out.index.push_back(best[1][y * shape.stride + x]);
-        }
+// The image as one tile, or as much of it as `window` holds.
+Maps run_lanes(const HdrImage& reference, const HdrImage& test, const FlipTaps<double>& taps,
+               const ToneCurve& curve, const std::vector<double>& stops, Window window = {}) {
+    if (window.width == 0)
+        window = {0, 0, reference.width, reference.height};
+    const FlipRows& functions = flip_rows();
+    const LaneTaps lane_taps = flip::lane_taps(taps);
+    const TileShape shape(functions.lanes, window.width, window.height, flip::reach(lane_taps));
+    FlipTile tile(functions, shape, lane_taps, 1, false);
+    const ConstRgb r = reference.view(), t = test.view();
+    tile.load(window, r, {&t});
+    for (size_t n = 0; n < stops.size(); ++n)
+        tile.expose(curve, float(std::exp2(stops[n])), float(n));
+    const size_t pixels = size_t(window.width) * size_t(window.height);
+    Maps out{std::vector<float>(pixels, -1.0f), std::vector<float>(pixels, -1.0f)};
+    tile.store(0, FlipTile::kError, out.error.data(), window.width);
+    tile.store(0, FlipTile::kIndex, out.index.data(), window.width);
     return out;
-}
-
-// One failure for a map, at its worst pixel.
-template <typename T>
-void expect_close(const std::vector<float>& ours, const std::vector<T>& expected, double close,
-                  double close_below, const char* what) {
-    ASSERT_EQ(ours.size(), expected.size());
-    const auto share_of_bound = [&](size_t i) {
-        return std::abs(double(ours[i]) - double(expected[i])) /
-               (double(expected[i]) >= kSmallError ? close : close_below);
-    };
-    size_t worst = 0;
-    for (size_t i = 1; i < ours.size(); ++i)
-        if (!(share_of_bound(i) <= share_of_bound(worst)))
-            worst = i;
-    EXPECT_LE(share_of_bound(worst), 1.0) << what << ": pixel " << worst << " is " << ours[worst]
-                                          << " instead of " << expected[worst];
 }
 
 struct Case {
@@ -101,7 +59,6 @@ std::string name_of(const testing::TestParamInfo<Case>& info) {
 class Lanes : public testing::TestWithParam<Case> {
 protected:
     const FlipTaps<double> m_exact = flip::make_taps(GetParam().ppd);
-    const FlipTaps<float> m_taps = flip::float_taps(m_exact);
     const ToneCurve m_curve = curve_of(GetParam().curve);
     const std::vector<double> m_stops = GetParam().curve == std::string("ldr")
                                             ? std::vector<double>{0.0}
@@ -115,7 +72,7 @@ protected:
         for (int64_t id : hwy::SupportedAndGeneratedTargets()) {
             SCOPED_TRACE(hwy::TargetName(id));
             const Target target(id);
-            const auto ours = run_lanes(reference, test, m_taps, m_curve, m_stops).error;
+            const auto ours = run_lanes(reference, test, m_exact, m_curve, m_stops).error;
             expect_close(ours, expected, kClose, kCloseBelow, "twin");
             if (first.empty())
                 first = ours;
@@ -172,7 +129,7 @@ TEST_P(Lanes, IdenticalImagesAreExactlyZero) {
         const Target target(id);
         for (Content content : {Content::Noise, Content::Gradient, Content::Patches}) {
             const HdrImage image = make_image(content, 37, 11, 41);
-            const Maps maps = run_lanes(image, image, m_taps, m_curve, m_stops);
+            const Maps maps = run_lanes(image, image, m_exact, m_curve, m_stops);
             EXPECT_EQ(maps.error, std::vector<float>(image.size(), 0.0f));
             EXPECT_EQ(maps.index, std::vector<float>(image.size(), 0.0f));
         }
@@ -189,36 +146,87 @@ INSTANTIATE_TEST_SUITE_P(Curves, Lanes,
                                          Case{"reinhard", 200}),
                          name_of);
 
-TEST(TilePixels, ReplicateTheBorder) {
-    const HdrImage image = make_image(Content::Noise, 9, 6, 51);
-    // Tiles that lie inside, hang over each side, or see nothing but a replicated edge.
-    const Window tiles[] = {{0, 0, 9, 6}, {3, 2, 2, 2}, {7, 4, 2, 2}, {0, 5, 9, 1}, {8, 0, 1, 6}};
-    for (const Window& w : tiles)
-        for (int halo : {0, 1, 4, 13}) {
-            const TileShape shape(w.width, w.height, halo);
-            const TilePixels tile(shape, image.view(), w.x0, w.y0);
-            for (int c = 0; c < 3; ++c)
-                for (int y = 0; y < shape.padded_height(); ++y)
-                    for (int x = 0; x < shape.padded_width(); ++x) {
-                        const int sx = std::clamp(w.x0 - halo + x, 0, 8);
-                        const int sy = std::clamp(w.y0 - halo + y, 0, 5);
-                        ASSERT_EQ(tile.rgb[c][y * shape.padded_stride + x],
-                                  image.plane[c][size_t(sy * 9 + sx)])
-                            << "tile " << w.x0 << "," << w.y0 << " halo " << halo << " at " << x
-                            << "," << y;
-                    }
+// Tiles that lie inside, hang over each side, or are smaller than their halo.
+TEST(FlipTile, WindowsGiveTheBitsOfTheWhole) {
+    const HdrImage image = make_image(Content::Noise, 41, 26, 51),
+                   other = disturbed(image, 0.4, 52);
+    const auto taps = flip::make_taps(45);
+    const ToneCurve aces = curve_of("aces");
+    const Window windows[] = {
+        {13, 8, 11, 9}, {0, 0, 5, 26}, {37, 20, 4, 6}, {0, 25, 41, 1}, {40, 0, 1, 26}};
+    on_every_target([&] {
+        const Maps whole = run_lanes(image, other, taps, aces, {-1, 2});
+        for (const Window& w : windows) {
+            const Maps part = run_lanes(image, other, taps, aces, {-1, 2}, w);
+            for (int y = 0; y < w.height; ++y)
+                for (int x = 0; x < w.width; ++x) {
+                    const auto i = size_t((w.y0 + y) * 41 + w.x0 + x), k = size_t(y * w.width + x);
+                    ASSERT_EQ(part.error[k], whole.error[i])
+                        << w.x0 << "+" << x << "," << w.y0 << "+" << y;
+                    ASSERT_EQ(part.index[k], whole.index[i]);
+                }
         }
+    });
 }
 
-TEST(TilePixels, SameAsSeesEveryBit) {
+TEST(FlipTile, ForgetsTheTileBefore) {
+    const HdrImage a = make_image(Content::Noise, 30, 20, 53), b = disturbed(a, 0.5, 54);
+    const HdrImage same = make_image(Content::Patches, 30, 20, 55);
+    const LaneTaps taps = flip::lane_taps(flip::make_taps(30));
+    const ToneCurve aces = curve_of("aces");
+    const TileShape shape(flip_rows().lanes, 30, 20, flip::reach(taps));
+    FlipTile tile(flip_rows(), shape, taps, 2, true);
+    const ConstRgb ra = a.view(), rb = b.view(), rs = same.view();
+    const auto planes = [&tile](size_t test, FlipTile::ResultPlane plane) {
+        std::vector<float> out(600, -1.0f);
+        tile.store(test, plane, out.data(), 30);
+        return out;
+    };
+    tile.load({0, 0, 30, 20}, ra, {&rb, &ra});
+    tile.expose(aces, 1.0f, 3);
+    const auto error = planes(0, FlipTile::kError);
+    EXPECT_EQ(planes(0, FlipTile::kLastError), error);
+    EXPECT_EQ(planes(1, FlipTile::kError), std::vector<float>(600, 0.0f));
+    EXPECT_EQ(planes(1, FlipTile::kLastError), std::vector<float>(600, 0.0f));
+    // A smaller one of other images, then the first one again, among the tests in another place.
+    tile.load({3, 2, 7, 5}, rs, {&rs});
+    tile.expose(aces, 2.0f, 1);
+    tile.load({0, 0, 30, 20}, ra, {&ra, &rb});
+    tile.expose(aces, 1.0f, 3);
+    EXPECT_EQ(planes(0, FlipTile::kError), std::vector<float>(600, 0.0f));
+    EXPECT_EQ(planes(1, FlipTile::kError), error);
+}
+
+TEST(SamePixels, SeesEveryBitWithinTheHalo) {
     HdrImage image = make_image(Content::Patches, 9, 6, 52);
     image.plane[1][7] = 0.0f;
-    const TileShape shape(4, 4, 3);
-    const TilePixels tile(shape, image.view(), 1, 1);
-    EXPECT_TRUE(tile.same_as(TilePixels(shape, image.view(), 1, 1)));
+    const Window tile{1, 1, 4, 4};
+    EXPECT_TRUE(same_pixels(image.view(), image.view(), tile, 3));
     HdrImage other = image;
-    other.plane[2][0] = std::nextafter(other.plane[2][0], 100.0f); // in the halo
-    EXPECT_FALSE(tile.same_as(TilePixels(shape, other.view(), 1, 1)));
+    other.plane[2][0] = std::nextafter(other.plane[2][0], 100.0f);
+    EXPECT_FALSE(same_pixels(image.view(), other.view(), tile, 3));
+    EXPECT_TRUE(same_pixels(image.view(), other.view(), {4, 4, 2, 1}, 3)) << "out of reach";
+    other = image;
+    other.plane[0][7] = -other.plane[0][7]; // column 7: the last one that a halo of 3 reaches
+    EXPECT_FALSE(same_pixels(image.view(), other.view(), tile, 3));
+    EXPECT_TRUE(same_pixels(image.view(), other.view(), tile, 2));
+}
+
+TEST(Transpose, TransposesOnEveryTarget) {
+    on_every_target([] {
+        const ptrdiff_t lanes = flip_rows().lanes;
+        for (ptrdiff_t strip : {4, 8, 12, 44}) {
+            std::vector<float> in(size_t(lanes * strip)), out(in.size()), back(in.size());
+            for (size_t i = 0; i < in.size(); ++i)
+                in[i] = float(i);
+            flip_rows().transpose(in.data(), lanes, strip, out.data());
+            for (ptrdiff_t l = 0; l < lanes; ++l)
+                for (ptrdiff_t v = 0; v < strip; ++v)
+                    ASSERT_EQ(out[size_t(v * lanes + l)], float(l * strip + v));
+            flip_rows().transpose(out.data(), strip, lanes, back.data());
+            EXPECT_EQ(back, in);
+        }
+    });
 }
 
 TEST(ToneMapPixels, MatchTheTwinForEveryCount) {
@@ -277,7 +285,7 @@ TEST(HugeValues, SaturateToWhite) {
 }
 
 TEST(HugeValues, DifferFromBlackAsWhiteDoes) {
-    const auto taps = flip::float_taps(flip::make_taps(67));
+    const auto taps = flip::make_taps(67);
     HdrImage huge(5, 5), white(5, 5);
     const HdrImage black(5, 5);
     for (int c = 0; c < 3; ++c) {
@@ -295,7 +303,7 @@ TEST(HugeValues, DifferFromBlackAsWhiteDoes) {
 }
 
 TEST(FlipTile, CompareRaisesTheMaximumStrictly) {
-    const auto taps = flip::float_taps(flip::make_taps(20));
+    const auto taps = flip::make_taps(20);
     const HdrImage a = make_image(Content::Noise, 19, 6, 71), b = disturbed(a, 0.5, 72);
     const ToneCurve aces = curve_of("aces");
     const Maps once = run_lanes(a, b, taps, aces, {1.0});

@@ -9,6 +9,7 @@
 #include "flip/filters.h"
 #include "hdr_image.h"
 #include "kernels/flip_constants.h"
+#include "oracle.h"
 #include "tonemap/rational.h"
 
 namespace tonetool::kernels {
@@ -17,14 +18,14 @@ namespace {
 // float(0.7 * 3840 / 0.7 * pi / 180)
 constexpr double kPpd = 67.0206451;
 
-TwinImage constant(int width, int height, double r, double g, double b) {
+TwinImage<> constant(int width, int height, double r, double g, double b) {
     const auto n = size_t(width) * size_t(height);
     return {width,
             height,
             {std::vector<double>(n, r), std::vector<double>(n, g), std::vector<double>(n, b)}};
 }
 
-TwinImage twin(const HdrImage& image) {
+TwinImage<> twin(const HdrImage& image) {
     return tone_map_twin(image.view(), {}, 0.0);
 }
 
@@ -35,7 +36,7 @@ TEST(LdrFlipTwin, ConstantImagesGiveThePublishedErrors) {
     const double white =
         kKneeError + (std::pow(100, 0.7) - knee) / (kLargestQ - knee) * (1 - kKneeError);
     const struct {
-        TwinImage reference, test;
+        TwinImage<> reference, test;
         double exact, published;
     } cases[] = {{constant(5, 4, 0, 1, 0), constant(5, 4, 0, 0, 1), 1.0, 1.0},
                  {constant(5, 4, 0, 0, 0), constant(5, 4, 1, 1, 1), white, 0.9673883},
@@ -60,8 +61,8 @@ TEST(LdrFlipTwin, IsZeroOnIdentityAndSymmetric) {
 
 TEST(LdrFlipTwin, TurnsWithTheImages) {
     const auto taps = flip::make_taps(67);
-    const auto turn = [](const TwinImage& in) {
-        TwinImage out = constant(in.height, in.width, 0, 0, 0);
+    const auto turn = [](const TwinImage<>& in) {
+        TwinImage<> out = constant(in.height, in.width, 0, 0, 0);
         for (int c = 0; c < 3; ++c)
             for (int y = 0; y < in.height; ++y)
                 for (int x = 0; x < in.width; ++x)
@@ -97,6 +98,24 @@ TEST(HdrFlipTwin, IsTheFirstMaximumOverTheExposures) {
     EXPECT_EQ(error, best);
     EXPECT_EQ(index, first);
     EXPECT_EQ(std::count(index.begin(), index.end(), 2), 0) << "exposure 2 repeats exposure 1";
+}
+
+// Float evaluates the same formulas: what it misses is rounding, up to the D2 taps that sum to 1e-7
+// instead of 0, which the root and the power at small errors make 1e-3 of.
+TEST(HdrFlipTwin, InFloatIsCloseToItself) {
+    const auto taps = flip::make_taps(67);
+    const FlipTaps<float> float_taps = rounded(taps);
+    const HdrImage a = make_image(Content::Noise, 23, 18, 7), b = disturbed(a, 0.4, 8);
+    for (const char* curve : {"aces", "hable", "reinhard"}) {
+        const ToneCurve tone = *tonemap::rational_curve(curve);
+        const auto exact = hdr_flip_twin(a.view(), b.view(), taps, tone, {-2, 1}, nullptr);
+        const auto plain = hdr_flip_twin(a.view(), b.view(), float_taps, tone, {-2, 1}, nullptr);
+        double largest = 0;
+        for (size_t i = 0; i < exact.size(); ++i)
+            largest = std::max(largest, std::abs(double(plain[i]) - exact[i]));
+        EXPECT_LT(largest, 1e-3) << curve;
+        EXPECT_GT(largest, 1e-9) << curve << ": that would not be float";
+    }
 }
 
 TEST(ToneMapTwin, FollowsTheCurves) {

@@ -7,8 +7,15 @@
 #include <limits>
 #include <random>
 
+#include "schedules.h"
+
 namespace tonetool::metrics {
 namespace {
+
+using kernels::backwards;
+using kernels::in_order;
+using kernels::on_threads;
+using kernels::ParallelFor;
 
 struct Picture {
     int width, height, stride;
@@ -86,13 +93,13 @@ TEST(Luminance, AgreesWithBruteForce) {
     for (const auto& size : sizes) {
         SCOPED_TRACE(testing::Message() << size[0] << "x" << size[1]);
         const Picture p = random_picture(size[0], size[1]);
-        expect_statistics(luminance(p.view(), {}), brute_force(p, {}));
+        expect_statistics(luminance(p.view(), {}, in_order()), brute_force(p, {}));
     }
 }
 
 TEST(Luminance, RespectsTheStride) {
     const Picture p = random_picture(13, 11, 32);
-    expect_statistics(luminance(p.view(), {}), brute_force(p, {}));
+    expect_statistics(luminance(p.view(), {}, in_order()), brute_force(p, {}));
 }
 
 TEST(Luminance, SkipsWhatItIsTold) {
@@ -103,14 +110,14 @@ TEST(Luminance, SkipsWhatItIsTold) {
         for (auto& plane : p.plane)
             plane[i] = i % 2 ? 0.0f : 1e20f;
     }
-    expect_statistics(luminance(p.view(), skip), brute_force(p, skip));
+    expect_statistics(luminance(p.view(), skip, in_order()), brute_force(p, skip));
 }
 
 TEST(Luminance, MedianIsTheUpperOne) {
     Picture p(4, 1);
     for (int x = 0; x < 4; ++x)
         p.set(x, 0, float(x + 1), float(x + 1), float(x + 1));
-    EXPECT_NEAR(luminance(p.view(), {}).median, 3.0, 3 * kFloat);
+    EXPECT_NEAR(luminance(p.view(), {}, in_order()).median, 3.0, 3 * kFloat);
 }
 
 TEST(Luminance, BlackCountsAndLitMedian) {
@@ -119,7 +126,7 @@ TEST(Luminance, BlackCountsAndLitMedian) {
         const float v = x < 7 ? 0.0f : float(x);
         p.set(x, 0, v, v, v);
     }
-    const LuminanceStats s = luminance(p.view(), {});
+    const LuminanceStats s = luminance(p.view(), {}, in_order());
     EXPECT_EQ(s.black, 7);
     EXPECT_EQ(s.median, 0.0);
     EXPECT_NEAR(s.median_lit, 8.0, 8 * kFloat);
@@ -130,7 +137,7 @@ TEST(Luminance, OfBlackIsZero) {
     Picture p(3, 3);
     for (int i = 0; i < 9; ++i)
         p.set(i % 3, i / 3, 0, 0, 0);
-    const LuminanceStats s = luminance(p.view(), {});
+    const LuminanceStats s = luminance(p.view(), {}, in_order());
     EXPECT_EQ(s.black, 9);
     for (double v : {s.min, s.max, s.mean, s.median, s.median_lit, s.log_average, s.p999})
         EXPECT_EQ(v, 0.0);
@@ -142,8 +149,90 @@ TEST(Luminance, OfTheLargestFloatsIsNotLost) {
     const float most = std::numeric_limits<float>::max();
     p.set(0, 0, 1, 1, 1);
     p.set(1, 0, most, most, most);
-    const LuminanceStats s = luminance(p.view(), {});
+    const LuminanceStats s = luminance(p.view(), {}, in_order());
     EXPECT_NEAR(s.max / double(most), 1.0, kFloat);
+}
+
+// Larger than a block of rows, with holes and black pixels.
+std::vector<float> luminance_plane(int width, int height) {
+    std::mt19937 random(9);
+    std::vector<float> plane(size_t(width) * size_t(height));
+    for (float& v : plane) {
+        const auto r = uint32_t(random());
+        v = std::exp2(float(r) * 0x1p-32f * 20 - 10);
+        if (r % 5 == 0)
+            v = 0;
+        if (r % 13 == 0)
+            v = r % 2 ? std::numeric_limits<float>::quiet_NaN()
+                      : std::numeric_limits<float>::infinity();
+    }
+    return plane;
+}
+
+std::vector<double> figures(const LuminanceStats& s) {
+    return {s.min,         s.max, s.mean, s.median, s.median_lit,
+            s.log_average, s.p1,  s.p99,  s.p999,   double(s.black)};
+}
+
+std::vector<double> figures(const ExposureStats& s) {
+    return {s.max, s.median, s.median_lit, double(s.black), double(s.counted)};
+}
+
+TEST(Luminance, OfAPlaneLooksAtFiniteValuesOnly) {
+    const auto plane = luminance_plane(517, 301);
+    std::vector<double> finite;
+    for (float v : plane)
+        if (std::isfinite(v))
+            finite.push_back(double(v));
+    std::sort(finite.begin(), finite.end());
+    expect_statistics(luminance(plane.data(), 517, 301, in_order()), finite);
+}
+
+TEST(Luminance, ExposureStatisticsAreThoseOfTheWhole) {
+    const int sizes[][2] = {{517, 301}, {1, 1}, {2, 1}, {3, 5}};
+    for (const auto& size : sizes) {
+        const auto plane = luminance_plane(size[0], size[1]);
+        const LuminanceStats all = luminance(plane.data(), size[0], size[1], in_order());
+        const ExposureStats some = exposure_statistics(plane.data(), size[0], size[1], in_order());
+        EXPECT_EQ(some.counted, std::count_if(plane.begin(), plane.end(),
+                                              [](float v) { return std::isfinite(v); }));
+        EXPECT_EQ(some.black, all.black);
+        EXPECT_EQ(some.max, all.max);
+        EXPECT_EQ(some.median, all.median);
+        EXPECT_EQ(some.median_lit, all.median_lit);
+    }
+}
+
+TEST(Luminance, OfNothingIsZero) {
+    EXPECT_EQ(figures(luminance(nullptr, 0, 0, in_order())), std::vector<double>(10, 0.0));
+    const std::vector<float> holes(6, std::numeric_limits<float>::quiet_NaN());
+    EXPECT_EQ(figures(luminance(holes.data(), 3, 2, in_order())), std::vector<double>(10, 0.0));
+    EXPECT_EQ(figures(exposure_statistics(holes.data(), 3, 2, in_order())),
+              std::vector<double>(5, 0.0));
+}
+
+TEST(Luminance, ScheduleDoesNotChangeABit) {
+    const Picture p = random_picture(700, 301, 704);
+    std::vector<uint8_t> skip(700 * 301, 0);
+    for (size_t i = 0; i < skip.size(); i += 7)
+        skip[i] = 1;
+    const auto all = figures(luminance(p.view(), skip, in_order()));
+    const auto some = figures(exposure_statistics(p.view(), skip, in_order()));
+    for (const ParallelFor& parallel : {backwards(), on_threads(2), on_threads(7)}) {
+        EXPECT_EQ(figures(luminance(p.view(), skip, parallel)), all);
+        EXPECT_EQ(figures(exposure_statistics(p.view(), skip, parallel)), some);
+    }
+}
+
+// An image may become a plane in bands, by whoever reads it.
+TEST(Luminance, OfRowsOneByOneIsThatOfTheImage) {
+    const Picture p = random_picture(37, 23, 40);
+    std::vector<float> plane(37 * 23);
+    for (int y = 0; y < 23; ++y)
+        luminance_row(p.plane[0].data() + y * 40, p.plane[1].data() + y * 40,
+                      p.plane[2].data() + y * 40, plane.data() + y * 37, 37);
+    EXPECT_EQ(figures(luminance(plane.data(), 37, 23, in_order())),
+              figures(luminance(p.view(), {}, in_order())));
 }
 
 } // namespace

@@ -6,10 +6,17 @@
 #include <cmath>
 #include <limits>
 #include <random>
+#include <string>
+
+#include "schedules.h"
 
 namespace tonetool::metrics {
 namespace {
 
+using kernels::backwards;
+using kernels::in_order;
+using kernels::on_threads;
+using kernels::ParallelFor;
 using Values = std::vector<float>;
 
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
@@ -41,6 +48,11 @@ const std::vector<Case>& cases() {
         {"every exponent",
          random_values(3000, [](uint32_t r) { return std::ldexp(1.0f, int(r % 277) - 149); })},
         {"denormals", random_values(500, [](uint32_t r) { return float(r % 1000) * 0x1p-149f; })},
+        {"huge range", random_values(3000,
+                                     [](uint32_t r) {
+                                         return std::ldexp(1.0f + float(r >> 9) * 0x1p-23f,
+                                                           int(r % 270) - 149);
+                                     })},
         {"within a bucket",
          random_values(500, [](uint32_t r) { return 1.0f + float(r % 60000) * 0x1p-23f; })},
         {"mostly zero",
@@ -54,8 +66,14 @@ Values sorted(Values values) {
     return values;
 }
 
+constexpr auto kSums = OrderStatistics::Keep::CountsAndSums;
+
 OrderStatistics statistics(const Values& v) {
-    return {v.data(), int(v.size()), 1, ptrdiff_t(v.size())};
+    return {v.data(), int(v.size()), 1, ptrdiff_t(v.size()), in_order(), kSums};
+}
+
+float find(const OrderStatistics& order, const Wanted& wanted) {
+    return order.find({wanted})[0];
 }
 
 TEST(OrderStatistics, RanksAreThoseOfASort) {
@@ -66,10 +84,11 @@ TEST(OrderStatistics, RanksAreThoseOfASort) {
         EXPECT_EQ(order.zeros(), std::count(expected.begin(), expected.end(), 0.0f)) << c.name;
         const size_t step = std::max<size_t>(1, expected.size() / 23);
         for (size_t i = 0; i < expected.size(); i += step)
-            EXPECT_EQ(order.at_rank(int64_t(i)), expected[i]) << c.name << " rank " << i;
-        EXPECT_EQ(order.at_rank(order.count() - 1), expected.back()) << c.name;
-        EXPECT_EQ(order.at_rank(-5), expected.front()) << c.name;
-        EXPECT_EQ(order.at_rank(order.count() + 5), expected.back()) << c.name;
+            EXPECT_EQ(find(order, Wanted::rank(int64_t(i))), expected[i])
+                << c.name << " rank " << i;
+        EXPECT_EQ(find(order, Wanted::rank(order.count() - 1)), expected.back()) << c.name;
+        EXPECT_EQ(find(order, Wanted::rank(-5)), expected.front()) << c.name;
+        EXPECT_EQ(find(order, Wanted::rank(order.count() + 5)), expected.back()) << c.name;
     }
 }
 
@@ -83,32 +102,32 @@ TEST(OrderStatistics, PercentileIsTheNearestRank) {
                 return double(std::upper_bound(all.begin(), all.end(), v) - all.begin()) >=
                        share * double(all.size());
             });
-            EXPECT_EQ(order.percentile(share), *at) << c.name << " " << share;
+            EXPECT_EQ(find(order, Wanted::percentile(share)), *at) << c.name << " " << share;
         }
     }
 }
 
+// The definition, word by word, on sorted values. A sum of long doubles is exact to 2^-64, so that
+// only an element that ends within rounding of the share could differ: none here does.
+float weighted(const Values& all, double share) {
+    long double total = 0, running = 0;
+    for (float v : all)
+        total += v;
+    for (float v : all) {
+        running += v;
+        if (running > share * total)
+            return v;
+    }
+    return 0;
+}
+
 TEST(OrderStatistics, WeightedPercentileFollowsItsDefinition) {
     for (const Case& c : cases()) {
-        if (std::string(c.name) == "ends")
-            continue; // its sums round: see the test of large and small values
         const auto order = statistics(c.values);
         const Values all = sorted(c.values);
-        double total = 0;
-        for (float v : all)
-            total += double(v);
-        for (double share : {0.25, 0.5, 0.75}) {
-            double running = 0;
-            float expected = 0;
-            for (float v : all) {
-                running += double(v);
-                if (running > share * total) {
-                    expected = v;
-                    break;
-                }
-            }
-            EXPECT_EQ(order.weighted_percentile(share), expected) << c.name << " " << share;
-        }
+        for (double share : {0.001, 0.25, 0.5, 0.75, 0.999})
+            EXPECT_EQ(find(order, Wanted::weighted_percentile(share)), weighted(all, share))
+                << c.name << " " << share;
     }
 }
 
@@ -126,7 +145,8 @@ TEST(OrderStatistics, WeightedPercentileByHand) {
                  {{1, 2, 3}, 1.0, 3}, // nothing exceeds the total: the largest
                  {{1e30f, 1, 1}, 0.25, 1e30f}};
     for (const auto& row : table)
-        EXPECT_EQ(statistics(row.values).weighted_percentile(row.share), row.expected)
+        EXPECT_EQ(find(statistics(row.values), Wanted::weighted_percentile(row.share)),
+                  row.expected)
             << testing::PrintToString(row.values) << " " << row.share;
 }
 
@@ -135,19 +155,83 @@ TEST(OrderStatistics, IgnoreWhatIsNotAFiniteNonNegativeNumber) {
     const auto order = statistics(values);
     EXPECT_EQ(order.count(), 4);
     EXPECT_EQ(order.zeros(), 1) << "-0 is 0";
-    EXPECT_EQ(order.at_rank(0), 0.0f);
-    EXPECT_EQ(order.at_rank(1), 0.25f);
-    EXPECT_EQ(order.at_rank(3), 1.0f);
-    EXPECT_EQ(order.weighted_percentile(0.5), 1.0f);
+    EXPECT_EQ(find(order, Wanted::rank(0)), 0.0f);
+    EXPECT_EQ(find(order, Wanted::rank(1)), 0.25f);
+    EXPECT_EQ(find(order, Wanted::rank(3)), 1.0f);
+    EXPECT_EQ(find(order, Wanted::weighted_percentile(0.5)), 1.0f);
 }
 
 TEST(OrderStatistics, OfNothingAreZero) {
     for (const Values& values : {Values{}, Values{kNan, kNan}}) {
         const auto order = statistics(values);
         EXPECT_EQ(order.count(), 0);
-        EXPECT_EQ(order.at_rank(0), 0.0f);
-        EXPECT_EQ(order.percentile(0.5), 0.0f);
-        EXPECT_EQ(order.weighted_percentile(0.5), 0.0f);
+        EXPECT_EQ(find(order, Wanted::rank(0)), 0.0f);
+        EXPECT_EQ(find(order, Wanted::percentile(0.5)), 0.0f);
+        EXPECT_EQ(find(order, Wanted::weighted_percentile(0.5)), 0.0f);
+    }
+}
+
+// A picture with something of everything, larger than a block of rows.
+Values everything(size_t n) {
+    Values out = random_values(n, [](uint32_t r) {
+        const float value = std::ldexp(1.0f + float(r >> 9) * 0x1p-23f, int(r % 250) - 149);
+        return r % 7 ? value : -0.0f;
+    });
+    for (size_t i = 0; i < n; i += 11)
+        out[i] = i % 2 ? kNan : kInf;
+    std::fill_n(out.begin() + ptrdiff_t(n / 3), n / 5, 0.375f);
+    return out;
+}
+
+TEST(OrderStatistics, WantedTogetherAreThoseWantedAlone) {
+    const Values values = everything(300 * 400);
+    const OrderStatistics order(values.data(), 300, 400, 300, in_order(), kSums);
+    std::vector<Wanted> wanted;
+    for (double share : {0.5, 0.25, 0.999, 0.0, 1.0, 0.5, 0.75, 0.01}) {
+        wanted.push_back(Wanted::percentile(share));
+        wanted.push_back(Wanted::weighted_percentile(share));
+        wanted.push_back(Wanted::rank(int64_t(share * 1e5)));
+    }
+    const Values together = order.find(wanted);
+    for (size_t i = 0; i < wanted.size(); ++i)
+        EXPECT_EQ(together[i], find(order, wanted[i])) << i;
+    EXPECT_EQ(order.find({}), Values{});
+}
+
+TEST(OrderStatistics, MatchASortOfALargePicture) {
+    const Values values = everything(700 * 301);
+    const OrderStatistics order(values.data(), 700, 301, 700, in_order(), kSums);
+    Values all;
+    for (float v : values)
+        if (std::isfinite(v))
+            all.push_back(v);
+    std::sort(all.begin(), all.end());
+    ASSERT_EQ(order.count(), int64_t(all.size()));
+    EXPECT_EQ(order.zeros(), std::count(all.begin(), all.end(), 0.0f));
+    for (size_t i = 0; i < all.size(); i += 9973)
+        EXPECT_EQ(find(order, Wanted::rank(int64_t(i))), all[i]) << i;
+    for (double share : {0.25, 0.5, 0.75})
+        EXPECT_EQ(find(order, Wanted::weighted_percentile(share)), weighted(all, share)) << share;
+}
+
+TEST(OrderStatistics, ScheduleDoesNotChangeABit) {
+    const int sizes[][2] = {{700, 301}, {1, 200000}, {200000, 1}, {70000, 3}};
+    for (const auto& size : sizes) {
+        SCOPED_TRACE(testing::Message() << size[0] << "x" << size[1]);
+        const Values values = everything(size_t(size[0]) * size_t(size[1]));
+        const auto figures = [&](const ParallelFor& parallel) {
+            const OrderStatistics order(values.data(), size[0], size[1], size[0], parallel, kSums);
+            Values found =
+                order.find({Wanted::rank(0), Wanted::percentile(0.5), Wanted::percentile(0.999),
+                            Wanted::rank(order.count()), Wanted::weighted_percentile(0.25),
+                            Wanted::weighted_percentile(0.75)});
+            found.push_back(float(order.count()));
+            found.push_back(float(order.zeros()));
+            return found;
+        };
+        const Values expected = figures(in_order());
+        for (const ParallelFor& parallel : {backwards(), on_threads(2), on_threads(7)})
+            EXPECT_EQ(figures(parallel), expected);
     }
 }
 
@@ -159,12 +243,13 @@ TEST(OrderStatistics, RespectTheStride) {
             padded[size_t(y * 8 + x)] = float((x * 7 + y * 3) % 11);
             plain.push_back(padded[size_t(y * 8 + x)]);
         }
-    const OrderStatistics order(padded.data(), 3, 5, 8);
+    const OrderStatistics order(padded.data(), 3, 5, 8, in_order(), kSums);
     const Values expected = sorted(plain);
     ASSERT_EQ(order.count(), 15);
     for (int64_t i = 0; i < 15; ++i)
-        EXPECT_EQ(order.at_rank(i), expected[size_t(i)]);
-    EXPECT_EQ(order.weighted_percentile(0.5), statistics(plain).weighted_percentile(0.5));
+        EXPECT_EQ(find(order, Wanted::rank(i)), expected[size_t(i)]);
+    EXPECT_EQ(find(order, Wanted::weighted_percentile(0.5)),
+              find(statistics(plain), Wanted::weighted_percentile(0.5)));
 }
 
 } // namespace

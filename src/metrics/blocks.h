@@ -1,0 +1,66 @@
+// Blocks of rows, looked at in parallel with results that do not show how they were scheduled.
+#pragma once
+
+#include <algorithm>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <vector>
+
+#include "kernels/views.h"
+
+namespace tonetool::metrics {
+
+/// Calls visit(first row, end row) for blocks of about kBlockPixels, in any order.
+template <class Visit>
+void for_each_block(int width, int height, const kernels::ParallelFor& parallel,
+                    const Visit& visit) {
+    constexpr int64_t kBlockPixels = int64_t(1) << 16;
+    if (width <= 0 || height <= 0)
+        return;
+    const int64_t rows = std::max<int64_t>(1, kBlockPixels / width);
+    parallel((height + rows - 1) / rows, [&](int64_t block) {
+        visit(int(block * rows), int(std::min<int64_t>(height, (block + 1) * rows)));
+    });
+}
+
+/// Accumulators of type T, as many as are in use at once: large tables are not made for every
+/// block. What they end up with must not depend on the order: integers may be added so.
+template <class T>
+class Accumulators {
+public:
+    explicit Accumulators(std::function<T()> make) : m_make(std::move(make)) {}
+
+    /// Calls add(accumulator) with one that nobody else uses meanwhile.
+    template <class Add>
+    void with_one(const Add& add) {
+        T* const one = take();
+        add(*one);
+        const std::lock_guard<std::mutex> hold(m_lock);
+        m_idle.push_back(one);
+    }
+    std::vector<std::unique_ptr<T>>& all() { return m_all; }
+
+private:
+    T* take() {
+        {
+            const std::lock_guard<std::mutex> hold(m_lock);
+            if (!m_idle.empty()) {
+                T* const one = m_idle.back();
+                m_idle.pop_back();
+                return one;
+            }
+        }
+        auto made = std::make_unique<T>(m_make());
+        const std::lock_guard<std::mutex> hold(m_lock);
+        m_all.push_back(std::move(made));
+        return m_all.back().get();
+    }
+
+    const std::function<T()> m_make;
+    std::mutex m_lock;
+    std::vector<std::unique_ptr<T>> m_all;
+    std::vector<T*> m_idle;
+};
+
+} // namespace tonetool::metrics
