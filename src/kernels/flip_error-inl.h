@@ -23,10 +23,11 @@ HWY_INLINE V SquaredLength(V a, V b) {
     return hn::MulAdd(a, a, hn::Mul(b, b));
 }
 
-// log2 of the colour difference of h > 0 after the remap of q = h^0.7.
+// log2 of the colour difference of h after the remap of q = h^0.7. Below 1e-30 all h are one.
 HWY_INLINE V Log2ColorError(V h) {
     constexpr double knee = kKneeShare * kLargestQ;
-    const V log2_q = hn::Mul(hn::Set(d, float(kColorExponent)), Log2(d, h));
+    const V log2_h = Log2(d, hn::Max(h, hn::Set(d, 1e-30f)));
+    const V log2_q = hn::Mul(hn::Set(d, float(kColorExponent)), log2_h);
     const V low = hn::Add(log2_q, hn::Set(d, float(std::log2(kKneeError / knee))));
     const auto above = hn::Ge(log2_q, hn::Set(d, float(std::log2(knee))));
     if (hn::AllFalse(d, above))
@@ -55,13 +56,12 @@ HWY_INLINE V FeatureDistance(const float* const (&r)[kFeaturePlanes],
     return hn::Max(hn::Abs(Difference(r, t, kEdge, x)), hn::Abs(Difference(r, t, kPoint, x)));
 }
 
-// E = color^(1 - feature), with the power as a product of logarithms.
-HWY_INLINE V FlipError(V color_distance, V feature_distance) {
+// The power that features raise the colour error to: E = color^(1 - feature) is worked out as a
+// product of logarithms.
+HWY_INLINE V PowerOf(V feature_distance) {
     const V one = hn::Set(d, 1.0f);
     const V feature = hn::Sqrt(hn::Mul(feature_distance, hn::Set(d, 0.70710678118654752f)));
-    const V log2_color = Log2ColorError(hn::Max(color_distance, hn::Set(d, 1e-30f)));
-    const V error = Exp2(d, hn::Mul(hn::Sub(one, hn::Min(feature, one)), log2_color));
-    return hn::IfThenZeroElse(hn::Eq(color_distance, hn::Zero(d)), error);
+    return hn::Sub(one, hn::Min(feature, one));
 }
 
 } // namespace tonetool::kernels::HWY_NAMESPACE

@@ -212,11 +212,14 @@ void ClampColors(ptrdiff_t count, float* const (&work)[kWorkPlanes]) {
     float* HWY_RESTRICT xy = work[kFilteredCx];
     float* HWY_RESTRICT yz = work[kFilteredCz];
     for (ptrdiff_t i = 0; i < count; i += LaneCount()) {
-        const Color c = IntoGamut(to_opponent, to_rgb,
-                                  {hn::Load(d, y + i), hn::Load(d, xy + i), hn::Load(d, yz + i)});
-        hn::Store(c.c0, d, y + i);
-        hn::Store(c.c1, d, xy + i);
-        hn::Store(c.c2, d, yz + i);
+        const Color c = {hn::Load(d, y + i), hn::Load(d, xy + i), hn::Load(d, yz + i)};
+        const Color beyond = BeyondGamut(to_rgb, c);
+        if (AllZero(beyond))
+            continue;
+        const Color moved = to_opponent(beyond);
+        hn::Store(hn::Add(c.c0, moved.c0), d, y + i);
+        hn::Store(hn::Add(c.c1, moved.c1), d, xy + i);
+        hn::Store(hn::Add(c.c2, moved.c2), d, yz + i);
     }
 }
 
@@ -255,19 +258,22 @@ void ToFeatures(ptrdiff_t count, float* const (&work)[kWorkPlanes],
     LabFAndRoot(count, y, xy, 1.0f, fx, out[kEdge]);
     LabFAndRoot(count, y, yz, -1.0f, fz, out[kPoint]);
     SplitLabF(count, y, high, low);
-    const V scale = hn::Set(d, 116.0f);
+    const V scale = hn::Set(d, 116.0f), knee = hn::Set(d, float(kLabKnee));
     for (ptrdiff_t i = 0; i < count; i += LaneCount()) {
         const V fy_high = hn::Load(d, high + i), fy_low = hn::Load(d, low + i);
         // Exact: `high` has 8 bits, 116 has 5.
         const V l_high = hn::Sub(hn::Mul(scale, fy_high), hn::Set(d, 16.0f));
         const V l_low = hn::Mul(scale, fy_low);
         const V light = hn::Add(l_high, l_low), fy = hn::Add(fy_high, fy_low);
-        const V y_here = hn::Load(d, y + i);
+        const V here = hn::Load(d, y + i);
         const V x_less_y = hn::Load(d, xy + i), y_less_z = hn::Load(d, yz + i);
-        const V x_step =
-            LabStep(hn::Add(y_here, x_less_y), y_here, x_less_y, hn::Load(d, fx + i), fy);
-        const V z_step =
-            LabStep(y_here, hn::Sub(y_here, y_less_z), y_less_z, fy, hn::Load(d, fz + i));
+        const V f_x = hn::Load(d, fx + i), f_z = hn::Load(d, fz + i);
+        const V x = hn::Add(here, x_less_y), z = hn::Sub(here, y_less_z);
+        V x_step = RootStep(x_less_y, f_x, fy), z_step = RootStep(y_less_z, fy, f_z);
+        if (!hn::AllTrue(d, hn::Gt(hn::Min(here, hn::Min(x, z)), knee))) {
+            x_step = LabStep(x, here, x_less_y, f_x, fy);
+            z_step = LabStep(here, z, y_less_z, fy, f_z);
+        }
         hn::Store(l_high, d, high + i);
         hn::Store(l_low, d, low + i);
         hn::Store(hn::Mul(hn::Mul(light, hn::Set(d, 5.0f)), x_step), d, a + i);
@@ -285,7 +291,13 @@ void CompareRow(const float* const (&r)[kFeaturePlanes], const float* const (&t)
         hn::Store(FeatureDistance(r, t, x), d, feature + x);
     }
     for (ptrdiff_t x = 0; x < count; x += LaneCount()) {
-        const V e = FlipError(hn::Load(d, color + x), hn::Load(d, feature + x));
+        const V power = PowerOf(hn::Load(d, feature + x));
+        hn::Store(hn::Mul(power, Log2ColorError(hn::Load(d, color + x))), d, feature + x);
+    }
+    for (ptrdiff_t x = 0; x < count; x += LaneCount()) {
+        const V same = hn::Load(d, color + x);
+        const V e =
+            hn::IfThenZeroElse(hn::Eq(same, hn::Zero(d)), Exp2(d, hn::Load(d, feature + x)));
         const V old = hn::Load(d, best + x);
         const auto larger = hn::Gt(e, old);
         hn::Store(hn::IfThenElse(larger, e, old), d, best + x);

@@ -117,7 +117,12 @@ HWY_INLINE void Run(Filter& filter, ptrdiff_t count) {
         filter.Step();
         filter.OtherStep();
     }
-    for (; count > 0; --count)
+    if (count >= 2) {
+        filter.Step();
+        filter.OtherStep();
+        count -= 2;
+    }
+    if (count > 0)
         filter.Step();
 }
 

@@ -82,26 +82,29 @@ HWY_INLINE Split<V> SplitLabF(V t) {
             hn::IfThenElse(above, hn::Mul(root.high, root.rest), line)};
 }
 
-// f(p) - f(q), given p - q to its own precision: by (p - q) / (f(p)^2 + f(p) f(q) + f(q)^2) where
-// both are cube roots, by the slope where both lie on the line.
+// f(p) - f(q), given p - q to its own precision, where both are cube roots.
+HWY_INLINE V RootStep(V p_minus_q, V fp, V fq) {
+    return hn::Div(p_minus_q, hn::MulAdd(fp, hn::Add(fp, fq), hn::Mul(fq, fq)));
+}
+
+// The same wherever p and q are; by the slope where both lie on the line.
 HWY_INLINE V LabStep(V p, V q, V p_minus_q, V fp, V fq) {
     const V knee = hn::Set(d, float(kLabKnee));
     const auto roots = hn::Gt(hn::Min(p, q), knee), line = hn::Le(hn::Max(p, q), knee);
-    const V sum = hn::MulAdd(fp, hn::Add(fp, fq), hn::Mul(fq, fq));
-    const V step =
-        hn::Div(p_minus_q, hn::IfThenElse(line, hn::Set(d, float(1.0 / kLabSlope)), sum));
-    return hn::IfThenElse(hn::Or(roots, line), step, hn::Sub(fp, fq));
+    const V apart =
+        hn::IfThenElse(line, hn::Mul(p_minus_q, hn::Set(d, float(kLabSlope))), hn::Sub(fp, fq));
+    return hn::IfThenElse(roots, RootStep(p_minus_q, fp, fq), apart);
 }
 
-// Brings a filtered opponent colour into the gamut. The clamp of RGB is applied as a correction,
-// which is exactly nothing for colours inside.
-HWY_INLINE Color IntoGamut(const ToOpponentPlanes& to_opponent, const FromOpponentPlanes& to_rgb,
-                           const Color& c) {
+// What the clamp of RGB adds to a filtered opponent colour: exactly nothing to colours inside.
+HWY_INLINE Color BeyondGamut(const FromOpponentPlanes& to_rgb, const Color& c) {
     const Color rgb = to_rgb(c.c0, c.c1, c.c2);
-    const Color moved =
-        to_opponent(Color{hn::Sub(Clamp01(rgb.c0), rgb.c0), hn::Sub(Clamp01(rgb.c1), rgb.c1),
-                          hn::Sub(Clamp01(rgb.c2), rgb.c2)});
-    return {hn::Add(c.c0, moved.c0), hn::Add(c.c1, moved.c1), hn::Add(c.c2, moved.c2)};
+    return {hn::Sub(Clamp01(rgb.c0), rgb.c0), hn::Sub(Clamp01(rgb.c1), rgb.c1),
+            hn::Sub(Clamp01(rgb.c2), rgb.c2)};
+}
+
+HWY_INLINE bool AllZero(const Color& c) {
+    return hn::AllTrue(d, hn::Eq(hn::Or(hn::Or(c.c0, c.c1), c.c2), hn::Zero(d)));
 }
 
 } // namespace tonetool::kernels::HWY_NAMESPACE
