@@ -18,7 +18,7 @@ struct Split {
     V high, low;
 };
 
-/// A root high (1 + rest), |rest| < 0.07; `high` has at most 8 significant bits.
+/// A root high (1 + rest), |rest| < 0.13; `high` has at most 8 significant bits.
 template <class V>
 struct Root {
     V high, rest;
@@ -47,66 +47,69 @@ HWY_INLINE Root<V> CubeRoot(D tag, V x) {
     return {high, hn::Mul(p, u)};
 }
 
-/// Cube roots of the middles of the half binades from 2^-7 to 2, rounded to 8 bits so that their
-/// cubes are exact in float; the cubes, and one over them.
+/// Cube roots of the middles of equal parts of the binades from 2^-7 to 2, rounded to 8 bits so
+/// that their cubes are exact in float; the cubes, and one over them.
+template <int kParts>
 struct CubeRootTable {
-    alignas(64) float root[16];
-    alignas(64) float cube[16];
-    alignas(64) float inverse[16];
+    static constexpr int kEntries = 8 * kParts;
+    alignas(64) float root[kEntries];
+    alignas(64) float cube[kEntries];
+    alignas(64) float inverse[kEntries];
+
+    constexpr CubeRootTable() : root(), cube(), inverse() {
+        for (int i = 0; i < kEntries; ++i) {
+            const double binade = double(1 << (i / kParts)) / 128;
+            const double middle = binade * (1 + (i % kParts + 0.5) / kParts);
+            double exact = 1;
+            for (int step = 0; step < 20; ++step)
+                exact -= (exact - middle / (exact * exact)) / 3;
+            const double ulp = (exact < 0.25  ? 0.125
+                                : exact < 0.5 ? 0.25
+                                : exact < 1   ? 0.5
+                                              : 1) /
+                               128;
+            const double rounded = double(int(exact / ulp + 0.5)) * ulp;
+            root[i] = float(rounded);
+            cube[i] = float(rounded * rounded * rounded);
+            inverse[i] = float(1 / (rounded * rounded * rounded));
+        }
+    }
 };
 
-constexpr CubeRootTable MakeCubeRootTable() {
-    CubeRootTable out{};
-    for (int i = 0; i < 16; ++i) {
-        const double binade = double(1 << (i / 2)) / 128;
-        const double middle = binade * (1.25 + 0.5 * (i % 2));
-        double root = 1;
-        for (int step = 0; step < 20; ++step)
-            root -= (root - middle / (root * root)) / 3;
-        const double spacing = (root < 0.25 ? 0.125 : root < 0.5 ? 0.25 : root < 1 ? 0.5 : 1) / 128;
-        root = double(int(root / spacing + 0.5)) * spacing;
-        out.root[i] = float(root);
-        out.cube[i] = float(root * root * root);
-        out.inverse[i] = float(1 / (root * root * root));
-    }
-    return out;
-}
-
-inline constexpr CubeRootTable kCubeRootTable = MakeCubeRootTable();
-
-/// Entry (bits >> 22) & 15 of a table of 16, in registers of 16 or of 8 lanes.
-template <class D, class VI, class V = hn::Vec<D>>
-HWY_INLINE V LookUpHalfBinade(D tag, const float* table, VI bits) {
-    const hn::RebindToSigned<D> di;
-    const auto index = hn::ShiftRight<22>(bits);
-    if constexpr (HWY_MAX_BYTES == 64) {
-        const auto lanes = hn::IndicesFromVec(tag, hn::And(index, hn::Set(di, 15)));
-        return hn::TableLookupLanes(hn::Load(tag, table), lanes);
-    } else {
-        const auto lanes = hn::IndicesFromVec(tag, hn::And(index, hn::Set(di, 7)));
-        const auto upper = hn::MaskFromVec(hn::BitCast(tag, hn::ShiftLeft<6>(bits)));
-        return hn::IfThenElse(upper, hn::TableLookupLanes(hn::Load(tag, table + 8), lanes),
-                              hn::TableLookupLanes(hn::Load(tag, table), lanes));
-    }
-}
-
-/// Cube root of x in [2^-7, 2), exact to 2e-8 relative: without a division where a table of 16
-/// fits into registers.
+/// Cube root of x in [2^-7, 2), exact to 3e-8 relative, half an ulp: without a division where
+/// vectors are so long that a register holds the table.
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE Root<V> CubeRootOfShare(D tag, V x) {
 #if HWY_MAX_BYTES == 64 || HWY_MAX_BYTES == 32
+    constexpr int kParts = HWY_MAX_BYTES / 32;
+    static constexpr CubeRootTable<kParts> table{};
     const hn::RebindToSigned<D> di;
-    const auto bits = hn::BitCast(di, x);
-    const V high = LookUpHalfBinade(tag, kCubeRootTable.root, bits);
-    const V u = hn::Mul(hn::Sub(x, LookUpHalfBinade(tag, kCubeRootTable.cube, bits)),
-                        LookUpHalfBinade(tag, kCubeRootTable.inverse, bits));
-    // ((1 + u)^(1/3) - 1) / u, |u| < 0.204
-    V p = hn::Set(tag, -0.025342489778950903f);
-    p = hn::MulAdd(p, u, hn::Set(tag, 0.0315501658028984f));
-    p = hn::MulAdd(p, u, hn::Set(tag, -0.04109181212208456f));
-    p = hn::MulAdd(p, u, hn::Set(tag, 0.06170107902763325f));
-    p = hn::MulAdd(p, u, hn::Set(tag, -0.11111165557487199f));
-    p = hn::MulAdd(p, u, hn::Set(tag, 0.33333346374610767f));
+    // The lower bits of the exponent and, for two parts, the upper one of the mantissa.
+    const auto entry = hn::ShiftRight<24 - kParts>(hn::BitCast(di, x));
+    const auto index =
+        hn::IndicesFromVec(tag, hn::And(entry, hn::Set(di, int32_t(table.kEntries - 1))));
+    const V high = hn::TableLookupLanes(hn::Load(tag, table.root), index);
+    const V u = hn::Mul(hn::Sub(x, hn::TableLookupLanes(hn::Load(tag, table.cube), index)),
+                        hn::TableLookupLanes(hn::Load(tag, table.inverse), index));
+    // ((1 + u)^(1/3) - 1) / u
+    V p;
+    if constexpr (kParts == 2) { // |u| < 0.204
+        p = hn::Set(tag, -0.025342489778950903f);
+        p = hn::MulAdd(p, u, hn::Set(tag, 0.0315501658028984f));
+        p = hn::MulAdd(p, u, hn::Set(tag, -0.04109181212208456f));
+        p = hn::MulAdd(p, u, hn::Set(tag, 0.06170107902763325f));
+        p = hn::MulAdd(p, u, hn::Set(tag, -0.11111165557487199f));
+        p = hn::MulAdd(p, u, hn::Set(tag, 0.33333346374610767f));
+    } else { // |u| < 0.34
+        p = hn::Set(tag, -0.02105433338490693f);
+        p = hn::MulAdd(p, u, hn::Set(tag, 0.022778072074271252f));
+        p = hn::MulAdd(p, u, hn::Set(tag, -0.022807855175729478f));
+        p = hn::MulAdd(p, u, hn::Set(tag, 0.029858353179580056f));
+        p = hn::MulAdd(p, u, hn::Set(tag, -0.04118387083842544f));
+        p = hn::MulAdd(p, u, hn::Set(tag, 0.061738055807969115f));
+        p = hn::MulAdd(p, u, hn::Set(tag, -0.11111064829337594f));
+        p = hn::MulAdd(p, u, hn::Set(tag, 0.33333325974370326f));
+    }
     return {high, hn::Mul(p, u)};
 #else
     return CubeRoot(tag, x);

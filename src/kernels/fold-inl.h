@@ -203,9 +203,24 @@ struct TwoFilters {
     Four first_sum = ZeroFour();
 
     HWY_INLINE void Step() {
-        const Four pairs = second.Pairs();
-        first_sum = MulAdd(first_taps[second.window.above], pairs, first_sum);
-        second.AddPairs(pairs);
+        const V tap = first_taps[second.window.above];
+        if constexpr (kManyRegisters) {
+            const Four pairs = second.Pairs();
+            first_sum = MulAdd(tap, pairs, first_sum);
+            second.AddPairs(pairs);
+        } else {
+            const V second_tap = second.Tap();
+            AddPair(0, second.window.up.v0, tap, second_tap, first_sum.v0, second.sum.v0);
+            AddPair(1, second.window.up.v1, tap, second_tap, first_sum.v1, second.sum.v1);
+            AddPair(2, second.window.up.v2, tap, second_tap, first_sum.v2, second.sum.v2);
+            AddPair(3, second.window.up.v3, tap, second_tap, first_sum.v3, second.sum.v3);
+            second.window.Close();
+        }
+    }
+    HWY_INLINE void AddPair(ptrdiff_t j, V up, V tap, V second_tap, V& one, V& two) const {
+        const V pair = hn::Add(up, second.window.in.At(j - second.window.below));
+        one = hn::MulAdd(tap, pair, one);
+        two = hn::MulAdd(second_tap, pair, two);
     }
     HWY_INLINE void OtherStep() { Step(); }
 };
@@ -230,10 +245,23 @@ struct DetectorFilters {
     Four first = ZeroFour(), second = ZeroFour();
 
     HWY_INLINE void AddPairs() {
-        const Four down = window.Down();
-        const Four sums = Add(window.Up(), down), differences = Sub(window.Up(), down);
-        first = MulAdd(first_taps[window.above], sums, first);
-        second = MulAdd(second_taps[window.above], differences, second);
+        const V tap = first_taps[window.above], second_tap = second_taps[window.above];
+        if constexpr (kManyRegisters) {
+            const Four sums = Add(window.Up(), window.Down());
+            const Four differences = Sub(window.Up(), window.Down());
+            first = MulAdd(tap, sums, first);
+            second = MulAdd(second_tap, differences, second);
+        } else {
+            AddPair(0, window.up.v0, tap, second_tap, first.v0, second.v0);
+            AddPair(1, window.up.v1, tap, second_tap, first.v1, second.v1);
+            AddPair(2, window.up.v2, tap, second_tap, first.v2, second.v2);
+            AddPair(3, window.up.v3, tap, second_tap, first.v3, second.v3);
+        }
+    }
+    HWY_INLINE void AddPair(ptrdiff_t j, V up, V tap, V second_tap, V& one, V& two) const {
+        const V down = window.in.At(j - window.below);
+        one = hn::MulAdd(tap, hn::Add(up, down), one);
+        two = hn::MulAdd(second_tap, hn::Sub(up, down), two);
     }
     HWY_INLINE void Step() {
         AddPairs();
