@@ -20,9 +20,8 @@ std::vector<float> luminance_plane(const ConstRgb& image, const std::vector<uint
         const float* r = image.plane[0] + y * image.stride;
         const float* g = image.plane[1] + y * image.stride;
         const float* b = image.plane[2] + y * image.stride;
-        for (int x = 0; x < image.width; ++x, ++at)
-            out[at] = float(kLuminance[0]) * r[x] + float(kLuminance[1]) * g[x] +
-                      float(kLuminance[2]) * b[x];
+        luminance_row(r, g, b, out.data() + at, image.width);
+        at += size_t(image.width);
     }
     for (size_t i = 0; i < skip.size(); ++i)
         if (skip[i])
@@ -31,10 +30,11 @@ std::vector<float> luminance_plane(const ConstRgb& image, const std::vector<uint
 }
 
 // Mean and geometric mean, row by row in order.
-void averages(const std::vector<float>& plane, int width, int64_t count, LuminanceStats& stats) {
+void averages(const float* plane, int width, int height, int64_t count, LuminanceStats& stats) {
     double sum = 0, logs = 0;
     int64_t lit = 0;
-    for (size_t row = 0; row < plane.size(); row += size_t(width)) {
+    const size_t size = size_t(width) * size_t(height);
+    for (size_t row = 0; row < size; row += size_t(width)) {
         double row_sum = 0, row_logs = 0;
         for (size_t i = row; i < row + size_t(width); ++i) {
             if (!std::isfinite(plane[i]))
@@ -54,12 +54,22 @@ void averages(const std::vector<float>& plane, int width, int64_t count, Luminan
 
 } // namespace
 
+void luminance_row(const float* r, const float* g, const float* b, float* out, int64_t n) {
+    for (int64_t x = 0; x < n; ++x)
+        out[x] =
+            float(kLuminance[0]) * r[x] + float(kLuminance[1]) * g[x] + float(kLuminance[2]) * b[x];
+}
+
 LuminanceStats luminance(const ConstRgb& image, const std::vector<uint8_t>& skip) {
-    LuminanceStats stats;
     if (image.width <= 0 || image.height <= 0)
-        return stats;
+        return {};
     const auto plane = luminance_plane(image, skip);
-    const OrderStatistics order(plane.data(), image.width, image.height, image.width);
+    return luminance(plane.data(), image.width, image.height, {});
+}
+
+LuminanceStats luminance(const float* plane, int width, int height, const kernels::ParallelFor&) {
+    LuminanceStats stats;
+    const OrderStatistics order(plane, width, height, width);
     const int64_t n = order.count(), black = order.zeros();
     stats.black = black;
     stats.min = order.at_rank(0);
@@ -69,7 +79,7 @@ LuminanceStats luminance(const ConstRgb& image, const std::vector<uint8_t>& skip
     stats.p1 = order.percentile(0.01);
     stats.p99 = order.percentile(0.99);
     stats.p999 = order.percentile(0.999);
-    averages(plane, image.width, n, stats);
+    averages(plane, width, height, n, stats);
     return stats;
 }
 
