@@ -12,8 +12,10 @@ void warn_of_other_parts(Session& session, const Call& call, const Image& image)
     }
 }
 
-OIIO::ImageBuf color_input(Session& session, const Call& call, const Image& image,
-                           const PixelOptions& options) {
+namespace {
+
+void check_color(Session& session, const Call& call, const Image& image,
+                 const PixelOptions& options) {
     warn_of_other_parts(session, call, image);
     Part& part = image.part();
     OIIO::ImageSpec header = part.header();
@@ -25,7 +27,20 @@ OIIO::ImageBuf color_input(Session& session, const Call& call, const Image& imag
     if (!ToneAlgo::find_color(header, options, choice, why)) {
         throw CommandError("\"" + image.name() + "\": " + why);
     }
-    return part.color_view();
+}
+
+} // namespace
+
+OIIO::ImageBuf color_input(Session& session, const Call& call, const Image& image,
+                           const PixelOptions& options) {
+    check_color(session, call, image, options);
+    return image.part().color_view();
+}
+
+OIIO::ImageBuf color_source(Session& session, const Call& call, const Image& image,
+                            const PixelOptions& options) {
+    check_color(session, call, image, options);
+    return image.part().color_source();
 }
 
 const OIIO::ImageBuf& flat_pixels(const Image& image) {

@@ -10,6 +10,8 @@ namespace {
 constexpr int kLeastRows = 16;
 // Bands of more rows are multiples of it, so that whole tiles fit in.
 constexpr int kGoodRows = 96;
+// Fewer threads than these are not worth the memory that they would save.
+constexpr int kLeastThreads = 2;
 
 } // namespace
 
@@ -29,14 +31,23 @@ bool Bands::plan(uint64_t memory, const MemoryNeeds& needs, const OIIO::ROI& reg
     m_roi = roi;
     m_budget = memory > 0 ? memory : OIIO::Sysutil::physical_memory() / 2;
     const auto rows = uint64_t(region.height());
-    const uint64_t fixed = kSetAside + needs.held;
+    const auto fixed_for = [&](int threads) {
+        return kSetAside + needs.held + needs.thread * uint64_t(threads);
+    };
     // In one piece the luminances of the reference are held before the maps are.
     const uint64_t maps = maps_until(roi.yend);
     const uint64_t second = std::max(maps, needs.measuring);
-    m_one = fixed + needs.reading + needs.row * rows + second <= m_budget;
+    m_one = fixed_for(needs.threads) + needs.reading + needs.row * rows + second <= m_budget;
     const uint64_t band =
         needs.reading + needs.row * std::min(rows, uint64_t(kLeastRows + 2 * needs.reach));
-    const uint64_t least = fixed + std::max(maps + band, needs.measuring);
+    const int few = std::min(kLeastThreads, needs.threads);
+    const uint64_t least = fixed_for(few) + std::max(maps + band, needs.measuring);
+    // Half of what is left for more threads, the other half for larger bands.
+    const uint64_t left = m_budget > least ? m_budget - least : 0;
+    const uint64_t more = left / 2 / std::max<uint64_t>(needs.thread, 1);
+    m_threads = few + int(std::min(uint64_t(needs.threads - few), more));
+    m_threads = m_one ? needs.threads : m_threads;
+    m_fixed = fixed_for(m_threads);
     if (memory == 0 || least <= m_budget)
         return true;
     error = "memory is " + size_text(memory) + ": this comparison needs at least " +
@@ -49,7 +60,7 @@ int Bands::end_of(int begin) const {
     if (m_one)
         return m_region.yend;
     const uint64_t around = m_needs.row * uint64_t(2 * m_needs.reach);
-    const uint64_t taken = kSetAside + m_needs.held + m_needs.reading + around + maps_until(begin);
+    const uint64_t taken = m_fixed + m_needs.reading + around + maps_until(begin);
     const uint64_t left = m_budget > taken ? m_budget - taken : 0;
     uint64_t rows = std::max<uint64_t>(left / (m_needs.row + m_needs.map_row), kLeastRows);
     rows = rows > kGoodRows ? rows / kGoodRows * kGoodRows : rows;

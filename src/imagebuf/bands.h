@@ -8,8 +8,8 @@
 namespace tonetool {
 
 /// Counted against the bound before anything of a comparison is: the program, the shared libraries
-/// of OpenImageIO and what their allocators keep, the work space of the tiles.
-inline constexpr uint64_t kSetAside = uint64_t(108) << 20;
+/// of OpenImageIO and what their allocators keep.
+inline constexpr uint64_t kSetAside = uint64_t(104) << 20;
 
 /// What a comparison holds, in bytes.
 struct MemoryNeeds {
@@ -18,6 +18,8 @@ struct MemoryNeeds {
     uint64_t held = 0;      ///< all the time
     uint64_t reading = 0;   ///< while a band is read
     uint64_t measuring = 0; ///< of the pass that measures the reference, in all
+    uint64_t thread = 0;    ///< work space of a thread that evaluates
+    int threads = 1;        ///< as many as there may be
     int reach = 0;          ///< rows around a band that its errors depend on
 };
 
@@ -33,6 +35,8 @@ public:
               const OIIO::ROI& roi, std::string& error);
     /// Whether everything is in memory at once.
     bool one() const { return m_one; }
+    /// Threads that may evaluate at the same time.
+    int threads() const { return m_threads; }
     /// Where the band that begins with a row ends.
     int end_of(int begin) const;
 
@@ -41,7 +45,8 @@ private:
 
     MemoryNeeds m_needs;
     OIIO::ROI m_region, m_roi;
-    uint64_t m_budget = 0;
+    uint64_t m_budget = 0, m_fixed = 0;
+    int m_threads = 1;
     bool m_one = true;
 };
 

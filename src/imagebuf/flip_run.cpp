@@ -120,9 +120,18 @@ private:
         return false;
     }
 
+    // A tile with its halo: planes of both images and of all that is filtered from them.
+    uint64_t thread_bytes() const {
+        const auto tests = uint64_t(m_tests.size()), reach = uint64_t(m_reach);
+        const uint64_t side = std::clamp<uint64_t>(4 * reach, 96, 384), wide = side + 2 * reach;
+        return sizeof(float) * (wide * wide * (14 + 3 * tests) + side * side * (13 + 2 * tests));
+    }
+
     bool make_bands(size_t exposures, std::string& error) {
         m_needs = {};
         m_needs.reach = m_reach;
+        m_needs.thread = thread_bytes();
+        m_needs.threads = oiio::threads_of(m_nthreads);
         m_needs.held = m_held;
         for (size_t i = 0; i <= m_tests.size(); ++i) {
             const ColorReader& reader = i == 0 ? m_reference.reader : m_tests[i - 1].reader;
@@ -244,7 +253,7 @@ private:
         const kernels::Window window{m_roi.xbegin - m_region.xbegin, begin - m_region.ybegin,
                                      m_roi.width(), end - begin};
         flip::evaluate(evaluation, m_reference.planes.view(), views, window, outputs,
-                       make_parallel(m_nthreads));
+                       make_parallel(m_bands.threads()));
         for (size_t t = from; t < from + count; ++t)
             maps[t].take(begin, end, m_reference.planes, m_tests[t].planes);
     }

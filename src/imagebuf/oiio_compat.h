@@ -82,10 +82,15 @@ inline void on_own_threads(int64_t count, int most, const std::function<void(int
     tasks.rethrow();
 }
 
+/// Threads that 0 or a number of them stands for.
+inline int threads_of(int nthreads) {
+    return nthreads > 0 ? nthreads : OIIO::default_thread_pool()->size() + 1;
+}
+
 /// Runs task(i) for every i below count, each on whichever of `nthreads` threads (0: those of the
 /// pool) is free: tasks are coarse. An exception of a task is thrown here, once all have ended.
 inline void parallel_tasks(int64_t count, int nthreads, const std::function<void(int64_t)>& task) {
-    const int wanted = nthreads > 0 ? nthreads : OIIO::default_thread_pool()->size() + 1;
+    const int wanted = threads_of(nthreads);
 #if defined(__SANITIZE_THREAD__)
     // The sanitizer cannot see into the library's pool and takes its hand-over of work for races.
     on_own_threads(count, wanted, task);

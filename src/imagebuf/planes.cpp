@@ -17,7 +17,7 @@ using OIIO::ROI;
 // Rows per task of an image in memory: worth a task, but small beside the image.
 constexpr int kRowsInMemory = 64;
 // What is read from a file at once. Decoders want enough rows for all threads.
-constexpr size_t kStep = size_t(32) << 20, kFrugalStep = size_t(3) << 20;
+constexpr size_t kStep = size_t(32) << 20, kFrugalStep = size_t(2) << 20;
 // Channels as far apart as this are still read at once.
 constexpr int kGap = 2;
 
