@@ -37,7 +37,8 @@ bool Bands::plan(uint64_t memory, const MemoryNeeds& needs, const OIIO::ROI& reg
     // In one piece the luminances of the reference are held before the maps are.
     const uint64_t maps = maps_until(roi.yend);
     const uint64_t second = std::max(maps, needs.measuring);
-    m_one = fixed_for(needs.threads) + needs.reading + needs.row * rows + second <= m_budget;
+    m_one = needs.band_rows == 0 &&
+            fixed_for(needs.threads) + needs.reading + needs.row * rows + second <= m_budget;
     const uint64_t band =
         needs.reading + needs.row * std::min(rows, uint64_t(kLeastRows + 2 * needs.reach));
     const int few = std::min(kLeastThreads, needs.threads);
@@ -59,6 +60,8 @@ bool Bands::plan(uint64_t memory, const MemoryNeeds& needs, const OIIO::ROI& reg
 int Bands::end_of(int begin) const {
     if (m_one)
         return m_region.yend;
+    if (m_needs.band_rows > 0)
+        return std::min(begin + m_needs.band_rows, m_region.yend);
     const uint64_t around = m_needs.row * uint64_t(2 * m_needs.reach);
     const uint64_t taken = m_fixed + m_needs.reading + around + maps_until(begin);
     const uint64_t left = m_budget > taken ? m_budget - taken : 0;

@@ -9,7 +9,7 @@ namespace tonetool {
 
 /// Counted against the bound before anything of a comparison is: the program, the shared libraries
 /// of OpenImageIO and what their allocators keep.
-inline constexpr uint64_t kSetAside = uint64_t(104) << 20;
+inline constexpr uint64_t kSetAside = uint64_t(105) << 20;
 
 /// What a comparison holds, in bytes.
 struct MemoryNeeds {
@@ -21,6 +21,7 @@ struct MemoryNeeds {
     uint64_t thread = 0;    ///< work space of a thread that evaluates
     int threads = 1;        ///< as many as there may be
     int reach = 0;          ///< rows around a band that its errors depend on
+    int band_rows = 0;      ///< if not 0, bands are of so many rows, whatever the memory
 };
 
 /// "268435456" as "256M"; rounded up.

@@ -18,6 +18,7 @@ struct FlipPlan {
     bool hdr = false;
     double ppd = 0;
     std::string tonemapper;
+    int band_rows = 0;           ///< as in MemoryNeeds
     flip::Evaluation evaluation; ///< the stops of HDR-FLIP follow once the reference is read
 
     bool alpha() const { return common.alpha == AlphaPolicy::Error; }

@@ -130,6 +130,7 @@ private:
     bool make_bands(size_t exposures, std::string& error) {
         m_needs = {};
         m_needs.reach = m_reach;
+        m_needs.band_rows = m_plan.band_rows;
         m_needs.thread = thread_bytes();
         m_needs.threads = oiio::threads_of(m_nthreads);
         m_needs.held = m_held;

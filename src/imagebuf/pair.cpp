@@ -169,8 +169,8 @@ bool FittedTest::fill_window(const ColorPlanes& planes, ROI window, int nthreads
     window.chbegin = 0;
     window.chend = color.nchannels();
     ImageBuf holes;
-    if ((holey &&
-         !IBA::fixNonFinite(color, with_holes, IBA::NONFINITE_BOX3, nullptr, {}, nthreads)) ||
+    // Mending looks at pixels that it has mended: one thread, or the bits depend on the order.
+    if ((holey && !IBA::fixNonFinite(color, with_holes, IBA::NONFINITE_BOX3, nullptr, {}, 1)) ||
         !IBA::resize(m_resized, color, "", 0.0f, window, nthreads) ||
         (holey && !IBA::resample(holes, with_holes, false, window, nthreads))) {
         error = "resizing the test image: " + color.geterror() + m_resized.geterror() +

@@ -114,7 +114,7 @@ namespace ToneAlgo {
 ///   call itself, in bands where they are needed, only the channels that are compared, and nothing
 ///   of it is put into an ImageCache (an image opened with an IOProxy or a configuration must be
 ///   read() first). A file that changes meanwhile is an error. Counted against options.memory are:
-///   104 MiB set aside for the program and OpenImageIO's shared libraries; decoders; the
+///   105 MiB set aside for the program and OpenImageIO's shared libraries; decoders; the
 ///   results (the map 4 bytes per pixel, want_exposure_map 8, want_exposures 28 per exposure, for
 ///   each test); the bands; for SizePolicy::Resize the test image as a whole. Not counted: pixels
 ///   that the caller's ImageBufs hold, and decoders that hold the whole image (JPEG 2000, WebP).
