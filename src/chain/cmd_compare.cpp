@@ -124,7 +124,8 @@ void run_hdrflip(Session& session, const Call& call) {
         save_exposures(session, call, result, i);
         if (exposure_map) {
             push_map(session, call,
-                     *exposure_map == "stops" ? result.exposure_stops : result.exposure_index);
+                     std::move(*exposure_map == "stops" ? result.exposure_stops
+                                                        : result.exposure_index));
         }
         push_map(session, call, std::move(compared.maps[i]));
     }
