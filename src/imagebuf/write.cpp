@@ -201,6 +201,21 @@ private:
     std::string m_failure;
 };
 
+// In pieces, so that a conversion does not take another image's memory.
+bool write_pixels(const OIIO::ImageBuf& image, OIIO::ImageOutput& out) {
+    constexpr int rows_at_once = 512; // whole blocks of every compression, enough for all threads
+    const OIIO::ImageSpec& spec = image.spec();
+    if (!image.localpixels() || spec.deep || spec.depth > 1 || out.spec().tile_width > 0)
+        return image.write(&out);
+    for (int y = spec.y; y < spec.y + spec.height; y += rows_at_once) {
+        const int end = std::min(y + rows_at_once, spec.y + spec.height);
+        if (!out.write_scanlines(y, end, spec.z, spec.format, image.pixeladdr(spec.x, y),
+                                 image.pixel_stride(), image.scanline_stride()))
+            return false;
+    }
+    return true;
+}
+
 bool write_through(OIIO::ImageOutput& out, const std::vector<OutputImage>& images,
                    const std::string& filename, std::string& error) {
     std::vector<OIIO::ImageSpec> specs;
@@ -215,7 +230,7 @@ bool write_through(OIIO::ImageOutput& out, const std::vector<OutputImage>& image
             error = out.geterror();
             return false;
         }
-        if (!images[i].pixels->write(&out)) {
+        if (!write_pixels(*images[i].pixels, out)) {
             error = images[i].pixels->geterror();
             if (error.empty())
                 error = out.geterror();

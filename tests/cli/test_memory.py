@@ -107,3 +107,14 @@ def test_only_the_compared_channels_are_kept(program, tmp_path):
     taken = peak(program, [*files, FAST, "-o", "map.exr"], tmp_path)
     everything = 2 * 123 * 4 * 800 * 600
     assert taken < everything / 2
+
+
+def test_a_file_written_twice_is_read_anew(tonetool, make_image):
+    """What is compared is the file as it is, whatever an earlier command saw under its name."""
+    a = make_image("a.exr", 40, 30)
+    make_image("b.exr", 24, 18)
+    ran = tonetool(a, "-o", "x.exr", "x.exr", "--hdrflip:fail=0:print=0", "--pop",
+                   "b.exr", "-o", "x.exr", "x.exr", "--hdrflip:fail=0:print=0", "--pop",
+                   a, "--exposure", "1", "-o", "x.exr", "--pop", a, "x.exr", "--hdrflip:fail=0",
+                   status=3)
+    assert ran.out.count("PASS mean 0 <= 0") == 2 and "FAIL" in ran.out
