@@ -54,11 +54,13 @@ void run_threads(Session&, const Call& call) {
 // Per thread OpenEXR's decoder holds blocks of rows of the whole width.
 constexpr int threads_within_memory = 2;
 
-// glibc keeps freed blocks of up to 32 MB for itself; within a bound they go back to the system.
+// glibc keeps freed blocks of up to 32 MB for itself, and some for each thread; within a bound they
+// go back to the system.
 void give_memory_back() {
 #ifdef __GLIBC__
     mallopt(M_MMAP_THRESHOLD, 1 << 20);
     mallopt(M_TRIM_THRESHOLD, 1 << 20);
+    mallopt(M_ARENA_MAX, 2);
 #endif
 }
 
