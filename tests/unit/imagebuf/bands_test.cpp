@@ -28,6 +28,7 @@ using Images = std::vector<const ImageBuf*>;
 HdrFlipOptions all_maps() {
     HdrFlipOptions options;
     options.want_exposure_map = options.want_exposures = true;
+    options.num_exposures = 3;
     return options;
 }
 
@@ -222,7 +223,7 @@ TEST(Bands, OfALayerAmongMany) {
     const auto reference = picture(16, names), test = disturbed(reference, 0.3, 17);
     const UnreadFile a(write_file(folder / "a.exr", reference));
     const UnreadFile b(write_file(folder / "b.exr", test));
-    for (const char* layer : {"", "aov7", "aov39"}) {
+    for (const char* layer : {"", "aov7"}) {
         HdrFlipOptions options = all_maps();
         options.pixels.layer = layer;
         options.alpha = *layer ? AlphaPolicy::Error : AlphaPolicy::Ignore;
