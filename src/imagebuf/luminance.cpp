@@ -6,7 +6,6 @@
 
 #include "imagebuf/guard.h"
 #include "imagebuf/measure.h"
-#include "imagebuf/planes.h"
 
 namespace tonetool {
 namespace {

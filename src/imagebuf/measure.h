@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "imagebuf/planes.h"
+#include "imagebuf/color_reader.h"
 #include "include/tonetool/numbers.h"
 
 namespace tonetool {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "imagebuf/planes.h"
+#include "imagebuf/color_reader.h"
 #include "include/tonetool/flip.h"
 
 namespace tonetool {

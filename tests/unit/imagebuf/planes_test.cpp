@@ -1,4 +1,4 @@
-#include "imagebuf/planes.h"
+#include "imagebuf/color_reader.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
