@@ -47,7 +47,7 @@ std::string luminance_text(const std::string& label, const LuminanceStats& stats
 void run_luminance(Session& session, const Call& call) {
     const Image& image = *call.images[0];
     const std::string label = call.row().label();
-    OIIO::ImageBuf view = color_input(session, call, image, pixel_options(call));
+    OIIO::ImageBuf view = color_source(session, call, image, pixel_options(call));
     LuminanceStats stats;
     std::string why;
     if (!ToneAlgo::luminance_stats(stats, view, why, pixel_options(call))) {

@@ -22,11 +22,14 @@ struct Compared {
     Results results;
 };
 
-Compared compare(Session& session, const Call& call, const Compare& function) {
+// `again`: the function looks at the images many times, so that they are read before, unless they
+// may not take that much memory.
+Compared compare(Session& session, const Call& call, const Compare& function, bool again = false) {
+    const auto view = again && session.memory == 0 ? color_input : color_source;
     std::vector<OIIO::ImageBuf> views;
     views.reserve(call.images.size());
     for (const ImagePtr& image : call.images) {
-        views.push_back(color_input(session, call, *image, pixel_options(call)));
+        views.push_back(view(session, call, *image, pixel_options(call)));
     }
     Tests tests;
     for (size_t i = 1; i < views.size(); ++i) {
@@ -103,6 +106,7 @@ void run_hdrflip(Session& session, const Call& call) {
     HdrFlipOptions options;
     read_flip_options(call, true, options);
     read_hdr_options(call, options);
+    options.memory = session.memory;
     Thresholds thresholds = thresholds_of(call);
     (void)call.flag("print", true);
     auto exposure_map = call.choice("exposuremap", {"stops", "index"});
@@ -120,7 +124,8 @@ void run_hdrflip(Session& session, const Call& call) {
         save_exposures(session, call, result, i);
         if (exposure_map) {
             push_map(session, call,
-                     *exposure_map == "stops" ? result.exposure_stops : result.exposure_index);
+                     std::move(*exposure_map == "stops" ? result.exposure_stops
+                                                        : result.exposure_index));
         }
         push_map(session, call, std::move(compared.maps[i]));
     }
@@ -138,6 +143,7 @@ Compare ldr_function(const FlipOptions& options) {
 void run_ldrflip(Session& session, const Call& call) {
     FlipOptions options;
     read_flip_options(call, true, options);
+    options.memory = session.memory;
     Thresholds thresholds = thresholds_of(call);
     (void)call.flag("print", true);
     Compared compared = compare(session, call, ldr_function(options));
@@ -148,6 +154,7 @@ void run_ldrflip(Session& session, const Call& call) {
 
 void run_flipdiff(Session& session, const Call& call) {
     HdrFlipOptions options = flipdiff_options(call);
+    options.memory = session.memory;
     bool hdr = call.flag("hdr", true);
     Thresholds thresholds{"max", call.number("fail", {0, 1}), std::nullopt};
     auto colors = call.text("colormap");
@@ -176,6 +183,7 @@ void run_filmstrip(Session& session, const Call& call) {
     HdrFlipOptions options;
     read_flip_options(call, false, options);
     read_hdr_options(call, options);
+    options.memory = session.memory;
     Thresholds thresholds = thresholds_of(call);
     (void)call.flag("print", true);
     ToneAlgo::FilmstripOptions look;
@@ -187,7 +195,8 @@ void run_filmstrip(Session& session, const Call& call) {
         [&](Maps& maps, const OIIO::ImageBuf& reference, const Tests& tests, Results& results) {
             return ToneAlgo::flip_filmstrip(maps[0], reference, *tests[0], options, look,
                                             &results[0]);
-        });
+        },
+        true);
     report(session, call, compared.results[0].summary, 0);
     judge(session, call, compared.results[0].summary.pool, thresholds);
     compared.maps[0].specmod().attribute("oiio:ColorSpace", "sRGB");

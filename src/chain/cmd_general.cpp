@@ -1,5 +1,10 @@
 // Commands that set how the rest of the command line runs, and help.
 #include <OpenImageIO/imageio.h>
+#include <OpenImageIO/sysutil.h>
+#include <algorithm>
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
 
 #include "chain/call.h"
 #include "chain/error.h"
@@ -46,6 +51,32 @@ void run_threads(Session&, const Call& call) {
     OIIO::attribute("threads", call.integer_argument(0, {0, 4096}));
 }
 
+// Per thread OpenEXR's decoder holds blocks of rows of the whole width.
+constexpr int threads_within_memory = 2;
+
+// glibc keeps freed blocks of up to 32 MB for itself, and some for each thread; within a bound they
+// go back to the system.
+void give_memory_back() {
+#ifdef __GLIBC__
+    mallopt(M_MMAP_THRESHOLD, 1 << 20);
+    mallopt(M_TRIM_THRESHOLD, 1 << 20);
+    mallopt(M_ARENA_MAX, 2);
+#endif
+}
+
+void run_memory(Session& session, const Call& call) {
+    auto size = parse_size(call.argument(0));
+    if (!size) {
+        throw CommandError("SIZE \"" + call.argument(0) +
+                           "\": not a size; valid: bytes, or a whole number with K, M or G "
+                           "(powers of 1024), above 0: 268435456, 256M, 1G");
+    }
+    session.memory = *size;
+    int cores = static_cast<int>(OIIO::Sysutil::hardware_concurrency());
+    OIIO::attribute("exr_threads", std::min(cores, threads_within_memory));
+    give_memory_back();
+}
+
 void run_warnings_exit(Session& session, const Call&) {
     session.warnings_exit = true;
 }
@@ -80,6 +111,15 @@ std::vector<Command> general_commands() {
          "Number of threads (0: one per core)",
          Group::General,
          run_threads},
+        {{"memory"},
+         {"SIZE"},
+         0,
+         0,
+         {},
+         "Peak memory of the comparisons that follow, 256M or 1G: larger images are read in bands "
+         "(half of the computer's)",
+         Group::General,
+         run_memory},
         {{"warnings-exit"},
          {},
          0,

@@ -12,20 +12,45 @@ void warn_of_other_parts(Session& session, const Call& call, const Image& image)
     }
 }
 
-OIIO::ImageBuf color_input(Session& session, const Call& call, const Image& image,
-                           const PixelOptions& options) {
+namespace {
+
+void check_header(const Image& image, const OIIO::ImageSpec& header, const PixelOptions& options) {
+    ColorChoice choice;
+    std::string why;
+    if (!ToneAlgo::find_color(header, options, choice, why)) {
+        throw CommandError("\"" + image.name() + "\": " + why);
+    }
+}
+
+void check_color(Session& session, const Call& call, const Image& image,
+                 const PixelOptions& options) {
     warn_of_other_parts(session, call, image);
     Part& part = image.part();
     OIIO::ImageSpec header = part.header();
     if (part.integer_encoded()) {
         header.format = part.format().type;
     }
-    ColorChoice choice;
-    std::string why;
-    if (!ToneAlgo::find_color(header, options, choice, why)) {
-        throw CommandError("\"" + image.name() + "\": " + why);
+    check_header(image, header, options);
+}
+
+} // namespace
+
+OIIO::ImageBuf color_input(Session& session, const Call& call, const Image& image,
+                           const PixelOptions& options) {
+    check_color(session, call, image, options);
+    return image.part().color_view();
+}
+
+OIIO::ImageBuf color_source(Session& session, const Call& call, const Image& image,
+                            const PixelOptions& options) {
+    check_color(session, call, image, options);
+    // A tag must be a known one also where the library would take an integer file's for sRGB.
+    OIIO::ImageSpec header = image.part().header();
+    if (header.find_attribute("oiio:ColorSpace")) {
+        header.set_format(OIIO::TypeFloat);
+        check_header(image, header, options);
     }
-    return part.color_view();
+    return image.part().color_source();
 }
 
 const OIIO::ImageBuf& flat_pixels(const Image& image) {

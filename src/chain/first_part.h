@@ -15,6 +15,10 @@ void warn_of_other_parts(Session& session, const Call& call, const Image& image)
 OIIO::ImageBuf color_input(Session& session, const Call& call, const Image& image,
                            const PixelOptions& options);
 
+/// The same for functions of the library that read what they need of the file themselves.
+OIIO::ImageBuf color_source(Session& session, const Call& call, const Image& image,
+                            const PixelOptions& options);
+
 /// The pixels of the first subimage; a CommandError if it is deep.
 const OIIO::ImageBuf& flat_pixels(const Image& image);
 

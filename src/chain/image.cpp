@@ -78,10 +78,14 @@ void Part::read_before_replacing(const std::string& filename) {
     }
 }
 
-void Part::read() {
+void Part::check_unchanged() const {
     if (!(state_of(m_file) == m_state)) {
         throw CommandError("\"" + m_file + "\" has changed since it was opened");
     }
+}
+
+void Part::read() {
+    check_unchanged();
     auto input = open_input(m_file);
     const OIIO::ImageSpec now = input->spec(m_subimage, 0);
     if (now.roi() != m_header.roi() || now.deep != m_header.deep) {
@@ -118,6 +122,17 @@ OIIO::ImageBuf Part::color_view() {
         spec.attribute("oiio:ColorSpace", "sRGB");
     }
     return view_with_spec(buffer, spec);
+}
+
+OIIO::ImageBuf Part::color_source() {
+    if (m_read || m_header.deep) {
+        return color_view();
+    }
+    check_unchanged();
+    m_cache = make_header_cache();
+    OIIO::ImageBuf buffer = unread_file(m_file, m_subimage, m_cache);
+    return buffer.has_error() || buffer.spec().roi() != m_header.roi() ? color_view()
+                                                                       : std::move(buffer);
 }
 
 ImagePtr Image::open(const std::string& filename) {

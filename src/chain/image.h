@@ -2,6 +2,7 @@
 #pragma once
 
 #include <OpenImageIO/imagebuf.h>
+#include <OpenImageIO/imagecache.h>
 #include <cstdint>
 #include <filesystem>
 #include <memory>
@@ -49,8 +50,13 @@ public:
     /// they come from. Valid as long as this part is.
     OIIO::ImageBuf color_view();
 
+    /// The same for functions that read what they need of an ImageBuf that was not read: the file
+    /// if its pixels are still to come.
+    OIIO::ImageBuf color_source();
+
 private:
     void read();
+    void check_unchanged() const;
 
     OIIO::ImageSpec m_header;
     DataFormat m_format;
@@ -59,6 +65,7 @@ private:
     int m_subimage = 0, m_mip_levels = 1;
     bool m_integer_encoded = false, m_read = false;
     OIIO::ImageBuf m_pixels;
+    std::shared_ptr<OIIO::ImageCache> m_cache; ///< of the header, for color_source
 };
 
 using PartPtr = std::shared_ptr<Part>;

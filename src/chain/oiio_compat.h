@@ -2,6 +2,7 @@
 #pragma once
 
 #include <OpenImageIO/imagebuf.h>
+#include <OpenImageIO/imagecache.h>
 #include <OpenImageIO/imageio.h>
 #include <memory>
 #include <string>
@@ -12,6 +13,23 @@ namespace tonetool::chain {
 /// data type. It is valid as long as `pixels` is.
 inline OIIO::ImageBuf view_with_spec(const OIIO::ImageBuf& pixels, const OIIO::ImageSpec& spec) {
     return OIIO::ImageBuf(spec, const_cast<void*>(pixels.localpixels()));
+}
+
+/// A cache for one file: it holds the file's header, and not the one that some other cache has kept
+/// of an older file of that name.
+using HeaderCache = std::shared_ptr<OIIO::ImageCache>;
+
+inline HeaderCache make_header_cache() {
+    return {OIIO::ImageCache::create(false),
+            [](OIIO::ImageCache* cache) { OIIO::ImageCache::destroy(cache); }};
+}
+
+/// An ImageBuf that knows the header of a subimage and reads no pixel. It is valid as long as the
+/// cache is.
+inline OIIO::ImageBuf unread_file(const std::string& file, int subimage, const HeaderCache& cache) {
+    OIIO::ImageBuf buffer(file, subimage, 0, cache.get());
+    cache->close_all();
+    return buffer;
 }
 
 /// Read one subimage as float into `buffer`.

@@ -97,6 +97,21 @@ std::optional<int> parse_integer(const std::string& text) {
     return stream.fail() ? std::nullopt : std::optional<int>(value);
 }
 
+std::optional<uint64_t> parse_size(const std::string& text) {
+    const std::string units = "KMG";
+    size_t end = skip_digits(text, 0);
+    size_t unit = end + 1 == text.size() ? units.find(text[end]) : std::string::npos;
+    if (end == 0 || end > 18 || (end < text.size() && unit == std::string::npos)) {
+        return std::nullopt;
+    }
+    int shift = end < text.size() ? 10 * (static_cast<int>(unit) + 1) : 0;
+    uint64_t value = std::stoull(text.substr(0, end));
+    if (value == 0 || value > (UINT64_MAX >> 1 >> shift)) {
+        return std::nullopt;
+    }
+    return value << shift;
+}
+
 std::string format_number(double value) {
     return printed("%.6g", value);
 }

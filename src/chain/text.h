@@ -1,6 +1,7 @@
 // Strict numbers, near names, and other small pure pieces of text.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -15,6 +16,10 @@ std::optional<double> parse_number(const std::string& text);
 
 /// The whole text as an int; nullopt for anything else.
 std::optional<int> parse_integer(const std::string& text);
+
+/// The whole text as a number of bytes above 0: digits, then nothing or K, M, G (powers of 1024);
+/// nullopt for anything else.
+std::optional<uint64_t> parse_size(const std::string& text);
 
 /// Six significant digits.
 std::string format_number(double value);

@@ -24,9 +24,15 @@ int part_size(int length, int wanted) {
     return (length + parts - 1) / parts;
 }
 
-Window tile_size(const Window& window, int halo) {
-    return {0, 0, part_size(window.width, std::max(kTileWidth, 16 * halo)),
-            part_size(window.height, std::max(kTileHeight, 8 * halo))};
+Window tile_size(const Evaluation& what, int width, int height) {
+    const int halo = reach(what.taps);
+    const int rows =
+        what.most_tile_rows > 0 ? what.most_tile_rows : std::max(kTileHeight, 8 * halo);
+    return {0, 0, part_size(width, std::max(kTileWidth, 16 * halo)), part_size(height, rows)};
+}
+
+const kernels::FlipRows& functions_of(const Evaluation& what) {
+    return what.functions ? *what.functions : kernels::flip_rows();
 }
 
 // Evaluates tiles, several at a time: each takes a work space that is free, or makes one.
@@ -40,8 +46,8 @@ public:
           m_tests(tests),
           m_window(window),
           m_outputs(outputs),
-          m_functions(what.functions ? *what.functions : kernels::flip_rows()),
-          m_size(tile_size(window, reach(what.taps))),
+          m_functions(functions_of(what)),
+          m_size(tile_size(what, window.width, window.height)),
           m_across((window.width + m_size.width - 1) / m_size.width),
           m_down((window.height + m_size.height - 1) / m_size.height) {
         for (const Output& output : outputs)
@@ -154,6 +160,14 @@ void evaluate(const Evaluation& what, const kernels::ConstRgb& reference,
               const std::vector<Output>& outputs, const kernels::ParallelFor& parallel) {
     Tiles tiles(what, reference, tests, window, outputs);
     parallel(tiles.count(), [&tiles](int64_t i) { tiles.run(i); });
+}
+
+size_t work_bytes(const Evaluation& what, int width, size_t tests, bool keep_each) {
+    constexpr int enough = 1 << 20;
+    const Window size = tile_size(what, width, enough);
+    const kernels::TileShape shape(functions_of(what).lanes, size.width, size.height,
+                                   reach(what.taps));
+    return FlipTile::bytes(shape, tests, keep_each);
 }
 
 } // namespace tonetool::flip

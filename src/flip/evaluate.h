@@ -16,6 +16,7 @@ struct Evaluation {
     std::vector<double> stops; ///< {0} with ToneKind::None is LDR-FLIP
     /// Instruction set to run on; null: the best of this machine.
     const kernels::FlipRows* functions = nullptr;
+    int most_tile_rows = 0; ///< to take less memory; 0: as many as is fast
 };
 
 /// Where the results of one test go: planes of the window's size, row stride `stride` floats.
@@ -32,5 +33,9 @@ struct Output {
 void evaluate(const Evaluation& what, const kernels::ConstRgb& reference,
               const std::vector<kernels::ConstRgb>& tests, const kernels::Window& window,
               const std::vector<Output>& outputs, const kernels::ParallelFor& parallel);
+
+/// Bytes of work space that each thread takes to evaluate a window of at least the height of a
+/// tile.
+size_t work_bytes(const Evaluation& what, int width, size_t tests, bool keep_each);
 
 } // namespace tonetool::flip

@@ -2,6 +2,7 @@
 
 #include <OpenImageIO/strutil.h>
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 
 #include "imagebuf/annotate.h"
@@ -15,76 +16,12 @@ namespace {
 using OIIO::ImageBuf;
 using OIIO::ROI;
 
-// Calls visit(index in the planes of the region, index in the maps, x, y) for every pixel.
-template <class F>
-void for_each_pixel(const Compared& c, const F& visit) {
-    const ROI& region = c.reference.region;
-    size_t at = 0;
-    for (int y = c.roi.ybegin; y < c.roi.yend; ++y)
-        for (int x = c.roi.xbegin; x < c.roi.xend; ++x, ++at)
-            visit(size_t(y - region.ybegin) * size_t(region.width()) + size_t(x - region.xbegin),
-                  at, x, y);
-}
-
-size_t pixels_of(const ROI& r) {
-    return size_t(r.width()) * size_t(r.height());
-}
-
-// `channels` interleaved floats per pixel of `roi` as an image.
-ImageBuf make_image(const Compared& c, int channels, const float* pixels) {
-    OIIO::ImageSpec spec(c.roi.width(), c.roi.height(), channels, OIIO::TypeFloat);
-    spec.x = c.roi.xbegin;
-    spec.y = c.roi.ybegin;
-    spec.full_x = c.full.xbegin;
-    spec.full_y = c.full.ybegin;
-    spec.full_width = c.full.width();
-    spec.full_height = c.full.height();
-    ImageBuf image(spec);
-    image.set_pixels(image.roi(), OIIO::TypeFloat, pixels);
-    return image;
-}
-
-void compare_alpha(const Compared& c, FlipMaps& maps, FlipSummary& s) {
-    s.alpha_compared = true;
-    double sum = 0;
-    for_each_pixel(c, [&](size_t i, size_t at, int x, int y) {
-        if (c.reference.nonfinite[i] || c.test.nonfinite[i])
-            return;
-        const double difference = std::abs(double(c.reference.alpha[i]) - c.test.alpha[i]);
-        sum += difference;
-        if (difference > s.alpha_max) {
-            s.alpha_max = difference;
-            s.alpha_max_x = x;
-            s.alpha_max_y = y;
-        }
-        maps.error[at] = std::max(maps.error[at], float(difference));
-    });
-    s.alpha_mean = sum / double(pixels_of(c.roi));
-}
-
-// Error 1 where one image alone is non-finite, 0 where both are.
-void override_nonfinite(const Compared& c, FlipMaps& maps) {
-    if (c.reference.nonfinite_count == 0 && c.test.nonfinite_count == 0)
-        return;
-    for_each_pixel(c, [&](size_t i, size_t at, int, int) {
-        const bool r = c.reference.nonfinite[i], t = c.test.nonfinite[i];
-        if (!r && !t)
-            return;
-        maps.error[at] = r != t ? 1.0f : 0.0f;
-        if (!maps.index.empty())
-            maps.index[at] = 0;
-        for (auto& plane : maps.per_exposure)
-            plane[at] = maps.error[at];
-    });
-}
-
 FlipSide side_of(const ColorPlanes& planes) {
-    return {planes.choice.layer, planes.choice.space, planes.nonfinite_count, planes.negative_count,
-            planes.uncovered_count};
+    return {planes.choice.layer, planes.choice.space, planes.counts.nonfinite,
+            planes.counts.negative, planes.uncovered_count};
 }
 
-void collect_warnings(const Compared& c, FlipSummary& s) {
-    s.warnings = c.notes;
+void collect_warnings(const ColorPlanes& reference, const ColorPlanes& test, FlipSummary& s) {
     const auto say = [&s](int64_t n, const char* what) {
         if (n > 0)
             s.warnings.push_back(std::to_string(n) + " " + what);
@@ -99,115 +36,226 @@ void collect_warnings(const Compared& c, FlipSummary& s) {
             "more than half of the reference is black: the stop exposure follows the median "
             "{:.6g} of the lit pixels",
             s.median_luminance));
-    if (s.alpha_compared && (c.reference.choice.a < 0 || c.test.choice.a < 0))
+    if (s.alpha_compared && (reference.choice.a < 0 || test.choice.a < 0))
         s.warnings.emplace_back("only one image has alpha: the other counts as opaque");
 }
 
-// Images that differ although nothing shows must not look like equal ones.
-void warn_of_unseen(const Compared& c, FlipSummary& s) {
-    constexpr double nothing_shows = 1e-6;
-    if (s.pool.max > nothing_shows)
-        return;
-    int64_t differing = 0;
-    for_each_pixel(c, [&](size_t i, size_t, int, int) {
-        bool differs = false;
-        for (size_t p = 0; p < 3; ++p)
-            differs = differs || c.reference.plane[p][i] != c.test.plane[p][i];
-        differing += differs;
-    });
-    if (differing > 0)
-        s.warnings.push_back(std::to_string(differing) +
-                             " pixel(s) differ, but none shows at the exposures compared");
-    if (c.reference.negative_digest != c.test.negative_digest)
-        s.warnings.emplace_back("the images differ in negative values, which count as 0");
-}
-
-FlipSummary summarize(const Compared& c, FlipMaps& maps) {
-    FlipSummary s;
-    s.hdr = c.plan.hdr;
-    s.ppd = c.plan.ppd;
-    s.region = c.roi;
-    s.reference = side_of(c.reference);
-    s.test = side_of(c.test);
-    s.nonfinite_both = c.nonfinite_both;
-    if (c.plan.hdr) {
-        s.tonemapper = c.plan.tonemapper;
-        s.coeffs.assign(c.plan.evaluation.curve.k.begin(), c.plan.evaluation.curve.k.end());
-        s.exposures = c.exposures.stops;
-        s.max_luminance = c.exposures.max_luminance;
-        s.median_luminance = c.exposures.median_luminance;
-        s.median_of_lit = c.exposures.median_of_lit;
-    }
-    if (c.plan.alpha())
-        compare_alpha(c, maps, s);
-    override_nonfinite(c, maps);
-    s.pool = metrics::pool(maps.error.data(), c.roi.width(), c.roi.height(), c.roi.width(),
-                           c.roi.xbegin, c.roi.ybegin, make_parallel(c.nthreads));
-    collect_warnings(c, s);
-    warn_of_unseen(c, s);
-    return s;
-}
-
-// What the comparison saw of one image at one exposure.
-ImageBuf tone_mapped(const Compared& c, const ColorPlanes& planes, double stops) {
-    std::vector<float> mapped[3];
-    const float* in[3];
-    float* out[3];
-    for (int p = 0; p < 3; ++p) {
-        mapped[p].resize(planes.plane[p].size());
-        in[p] = planes.plane[p].data();
-        out[p] = mapped[p].data();
-    }
-    kernels::tone_map_pixels(in, out, ptrdiff_t(mapped[0].size()), c.plan.evaluation.curve,
-                             float(std::exp2(stops)));
-    std::vector<float> pixels(pixels_of(c.roi) * 3);
-    for_each_pixel(c, [&](size_t i, size_t at, int, int) {
-        for (size_t p = 0; p < 3; ++p)
-            pixels[at * 3 + p] = mapped[p][i];
-    });
-    ImageBuf image = make_image(c, 3, pixels.data());
-    image.specmod().attribute("oiio:ColorSpace", "Linear");
-    return image;
-}
-
-void keep_exposure_maps(const Compared& c, const FlipMaps& maps, FlipResult& result) {
-    std::vector<float> stops(maps.index.size());
-    for (size_t i = 0; i < stops.size(); ++i)
-        stops[i] = float(c.exposures.stops[size_t(maps.index[i])]);
-    result.exposure_index = make_image(c, 1, maps.index.data());
-    result.exposure_stops = make_image(c, 1, stops.data());
+// Whether a map of these pixels can be computed in an image's own.
+bool takes_map(const ImageBuf& dst, const ROI& roi) {
+    return dst.initialized() && dst.nchannels() == 1 && dst.pixeltype() == OIIO::TypeFloat &&
+           dst.localpixels() && dst.roi().contains(roi) &&
+           dst.scanline_stride() == OIIO::stride_t(sizeof(float)) * roi.width();
 }
 
 } // namespace
 
-FlipMaps::FlipMaps(const FlipPlan& plan, size_t pixels, size_t exposures)
-    : error(pixels),
-      index(plan.hdr && plan.hdr_options.want_exposure_map ? pixels : 0),
-      per_exposure(plan.hdr && plan.hdr_options.want_exposures ? exposures : 0,
-                   std::vector<float>(pixels)) {}
+size_t map_bytes(const FlipPlan& plan, size_t exposures) {
+    size_t planes = 1;
+    if (plan.hdr && plan.hdr_options.want_exposure_map)
+        planes += 2;
+    if (plan.hdr && plan.hdr_options.want_exposures)
+        planes += 7 * exposures;
+    return planes * sizeof(float);
+}
 
-flip::Output FlipMaps::output(int width) {
+FlipMaps::FlipMaps(const FlipPlan& plan, const Exposures& exposures, const ROI& roi,
+                   const ROI& full, ImageBuf& dst, int nthreads)
+    : m_plan(plan),
+      m_exposures(exposures),
+      m_roi(roi),
+      m_full(full),
+      m_nthreads(nthreads),
+      m_error(make_image(1)),
+      m_alpha(plan.alpha() ? size_t(roi.height()) : 0) {
+    if (takes_map(dst, roi)) {
+        const OIIO::ImageSpec spec = m_error.spec();
+        m_error = ImageBuf(spec, dst.pixeladdr(roi.xbegin, roi.ybegin));
+    }
+    if (plan.hdr && plan.hdr_options.want_exposure_map)
+        m_index = make_image(1);
+    if (plan.hdr && plan.hdr_options.want_exposures)
+        for (double stops : exposures.stops)
+            m_pictures.push_back({stops, make_image(3), make_image(3), make_image(1)});
+    for (FlipExposure& picture : m_pictures)
+        for (ImageBuf* image : {&picture.reference, &picture.test})
+            image->specmod().attribute("oiio:ColorSpace", "Linear");
+}
+
+// An image of the roi; its memory is not touched yet.
+ImageBuf FlipMaps::make_image(int channels) const {
+    OIIO::ImageSpec spec(m_roi.width(), m_roi.height(), channels, OIIO::TypeFloat);
+    spec.x = m_roi.xbegin;
+    spec.y = m_roi.ybegin;
+    spec.full_x = m_full.xbegin;
+    spec.full_y = m_full.ybegin;
+    spec.full_width = m_full.width();
+    spec.full_height = m_full.height();
+    ImageBuf image(spec, OIIO::InitializePixels::No);
+    if (!image.localpixels())
+        throw std::bad_alloc();
+    return image;
+}
+
+float* FlipMaps::row(ImageBuf& image, int y) const {
+    return static_cast<float*>(image.localpixels()) +
+           size_t(y - m_roi.ybegin) * size_t(m_roi.width()) * size_t(image.nchannels());
+}
+
+flip::Output FlipMaps::output(int y) {
     flip::Output out;
-    out.error = error.data();
-    out.index = index.empty() ? nullptr : index.data();
-    for (auto& plane : per_exposure)
-        out.per_exposure.push_back(plane.data());
-    out.stride = width;
+    out.error = row(m_error, y);
+    out.index = m_index.initialized() ? row(m_index, y) : nullptr;
+    for (FlipExposure& picture : m_pictures)
+        out.per_exposure.push_back(row(picture.flip, y));
+    out.stride = m_roi.width();
     return out;
 }
 
-void finish(const Compared& c, FlipMaps& maps, ImageBuf& map, FlipResult& result) {
-    result.summary = summarize(c, maps);
-    map = make_image(c, 1, maps.error.data());
-    annotate(map.specmod(), result.summary);
-    if (!maps.index.empty())
-        keep_exposure_maps(c, maps, result);
-    for (size_t n = 0; n < maps.per_exposure.size(); ++n) {
-        const double stops = c.exposures.stops[n];
-        result.exposures.push_back({stops, tone_mapped(c, c.reference, stops),
-                                    tone_mapped(c, c.test, stops),
-                                    make_image(c, 1, maps.per_exposure[n].data())});
+void FlipMaps::take(int begin, int end, const ColorPlanes& reference, const ColorPlanes& test) {
+    const Sides sides{reference, test};
+    const bool nonfinite = reference.counts.nonfinite > 0 || test.counts.nonfinite > 0;
+    std::atomic<int64_t> different{0};
+    make_parallel(m_nthreads)(end - begin, [&](int64_t i) {
+        const int y = begin + int(i);
+        if (m_plan.alpha())
+            compare_alpha(y, sides);
+        if (nonfinite)
+            override_nonfinite(y, sides);
+        different += differing(y, sides);
+        for (FlipExposure& picture : m_pictures) {
+            tone_map_row(y, picture.stops, reference, picture.reference);
+            tone_map_row(y, picture.stops, test, picture.test);
+        }
+    });
+    m_differing += different;
+}
+
+void FlipMaps::compare_alpha(int y, const Sides& sides) {
+    const size_t at = sides.reference.at(y) + size_t(m_roi.xbegin - sides.reference.region.xbegin);
+    float* error = row(m_error, y);
+    AlphaRow& found = m_alpha[size_t(y - m_roi.ybegin)];
+    for (size_t x = 0; x < size_t(m_roi.width()); ++x) {
+        if (sides.reference.nonfinite[at + x] || sides.test.nonfinite[at + x])
+            continue;
+        const double difference =
+            std::abs(double(sides.reference.alpha[at + x]) - sides.test.alpha[at + x]);
+        found.sum += difference;
+        if (difference > found.max) {
+            found.max = difference;
+            found.max_x = m_roi.xbegin + int(x);
+        }
+        error[x] = std::max(error[x], float(difference));
     }
+}
+
+// Error 1 where one image alone is non-finite, 0 where both are.
+void FlipMaps::override_nonfinite(int y, const Sides& sides) {
+    const size_t at = sides.reference.at(y) + size_t(m_roi.xbegin - sides.reference.region.xbegin);
+    for (size_t x = 0; x < size_t(m_roi.width()); ++x) {
+        const bool r = sides.reference.nonfinite[at + x], t = sides.test.nonfinite[at + x];
+        if (!r && !t)
+            continue;
+        const float error = r != t ? 1.0f : 0.0f;
+        row(m_error, y)[x] = error;
+        if (m_index.initialized())
+            row(m_index, y)[x] = 0;
+        for (FlipExposure& picture : m_pictures)
+            row(picture.flip, y)[x] = error;
+    }
+}
+
+int64_t FlipMaps::differing(int y, const Sides& sides) const {
+    const float *r[3], *t[3];
+    sides.reference.row(m_roi.xbegin, y, r);
+    sides.test.row(m_roi.xbegin, y, t);
+    int64_t count = 0;
+    for (int x = 0; x < m_roi.width(); ++x)
+        count += (r[0][x] != t[0][x]) | (r[1][x] != t[1][x]) | (r[2][x] != t[2][x]);
+    return count;
+}
+
+// What the comparison saw of one image at one exposure.
+void FlipMaps::tone_map_row(int y, double stops, const ColorPlanes& planes, ImageBuf& image) const {
+    const auto width = size_t(m_roi.width());
+    std::vector<float> mapped(3 * width);
+    const float* in[3];
+    float* const out[3] = {mapped.data(), mapped.data() + width, mapped.data() + 2 * width};
+    planes.row(m_roi.xbegin, y, in);
+    kernels::tone_map_pixels(in, out, ptrdiff_t(width), m_plan.evaluation.curve,
+                             float(std::exp2(stops)));
+    float* pixels = row(image, y);
+    for (size_t x = 0; x < width; ++x)
+        for (size_t p = 0; p < 3; ++p)
+            pixels[x * 3 + p] = out[p][x];
+}
+
+// Images that differ although nothing shows must not look like equal ones.
+void FlipMaps::warn_of_unseen(const Sides& sides, FlipSummary& s) const {
+    constexpr double nothing_shows = 1e-6;
+    if (s.pool.max > nothing_shows)
+        return;
+    if (m_differing > 0)
+        s.warnings.push_back(std::to_string(m_differing) +
+                             " pixel(s) differ, but none shows at the exposures compared");
+    if (sides.reference.counts.negative_digest != sides.test.counts.negative_digest)
+        s.warnings.emplace_back("the images differ in negative values, which count as 0");
+}
+
+FlipSummary FlipMaps::summarize(const Sides& sides, int64_t both,
+                                const std::vector<std::string>& notes) {
+    FlipSummary s;
+    s.hdr = m_plan.hdr;
+    s.ppd = m_plan.ppd;
+    s.region = m_roi;
+    s.reference = side_of(sides.reference);
+    s.test = side_of(sides.test);
+    s.nonfinite_both = both;
+    s.warnings = notes;
+    if (m_plan.hdr) {
+        s.tonemapper = m_plan.tonemapper;
+        s.coeffs.assign(m_plan.evaluation.curve.k.begin(), m_plan.evaluation.curve.k.end());
+        s.exposures = m_exposures.stops;
+        s.max_luminance = m_exposures.max_luminance;
+        s.median_luminance = m_exposures.median_luminance;
+        s.median_of_lit = m_exposures.median_of_lit;
+    }
+    s.alpha_compared = m_plan.alpha();
+    for (size_t y = 0; y < m_alpha.size(); ++y) {
+        s.alpha_mean += m_alpha[y].sum;
+        if (m_alpha[y].max > s.alpha_max) {
+            s.alpha_max = m_alpha[y].max;
+            s.alpha_max_x = m_alpha[y].max_x;
+            s.alpha_max_y = m_roi.ybegin + int(y);
+        }
+    }
+    s.alpha_mean /= double(m_roi.width()) * m_roi.height();
+    s.pool = metrics::pool(row(m_error, m_roi.ybegin), m_roi.width(), m_roi.height(), m_roi.width(),
+                           m_roi.xbegin, m_roi.ybegin, make_parallel(m_nthreads));
+    collect_warnings(sides.reference, sides.test, s);
+    warn_of_unseen(sides, s);
+    return s;
+}
+
+void FlipMaps::make_stops() {
+    m_stops = make_image(1);
+    make_parallel(m_nthreads)(m_roi.height(), [&](int64_t i) {
+        const int y = m_roi.ybegin + int(i);
+        std::transform(row(m_index, y), row(m_index, y) + m_roi.width(), row(m_stops, y),
+                       [&](float n) { return float(m_exposures.stops[size_t(n)]); });
+    });
+}
+
+void FlipMaps::finish(const ColorPlanes& reference, const ColorPlanes& test, int64_t nonfinite_both,
+                      const std::vector<std::string>& notes, ImageBuf& map, FlipResult& result) {
+    result.summary = summarize({reference, test}, nonfinite_both, notes);
+    annotate(m_error.specmod(), result.summary);
+    map = std::move(m_error);
+    if (m_index.initialized()) {
+        make_stops();
+        result.exposure_index = std::move(m_index);
+        result.exposure_stops = std::move(m_stops);
+    }
+    result.exposures = std::move(m_pictures);
 }
 
 } // namespace tonetool

@@ -1,4 +1,4 @@
-// From the planes of a comparison to its map, summary and pictures.
+// From the planes of a comparison, band by band, to its map, summary and pictures.
 #pragma once
 
 #include <OpenImageIO/imagebuf.h>
@@ -8,29 +8,54 @@
 
 namespace tonetool {
 
-/// Results of one test over the pixels asked for, without padding.
-struct FlipMaps {
-    std::vector<float> error, index;
-    std::vector<std::vector<float>> per_exposure;
+/// Bytes of all results of one test per pixel.
+size_t map_bytes(const FlipPlan& plan, size_t exposures);
 
-    FlipMaps(const FlipPlan& plan, size_t pixels, size_t exposures);
-    flip::Output output(int width);
+/// The results of one test over the pixels asked for: filled band by band, then finished.
+class FlipMaps {
+public:
+    /// `roi` are the pixels of the maps, `full` their display window. The map goes into the pixels
+    /// of `dst` if they are a plane of that size or larger, else into pixels of its own.
+    FlipMaps(const FlipPlan& plan, const Exposures& exposures, const OIIO::ROI& roi,
+             const OIIO::ROI& full, OIIO::ImageBuf& dst, int nthreads);
+
+    /// Where rows from `y` on are to be evaluated to.
+    flip::Output output(int y);
+    /// Rows of the roi that have been evaluated from these planes: lets alpha and non-finite pixels
+    /// enter the map, counts, makes the pictures that were asked for.
+    void take(int begin, int end, const ColorPlanes& reference, const ColorPlanes& test);
+    /// Pools; the counts of the planes are complete. Leaves the map in `map`.
+    void finish(const ColorPlanes& reference, const ColorPlanes& test, int64_t nonfinite_both,
+                const std::vector<std::string>& notes, OIIO::ImageBuf& map, FlipResult& result);
+
+private:
+    struct AlphaRow {
+        double sum = 0, max = 0;
+        int max_x = 0;
+    };
+    struct Sides {
+        const ColorPlanes& reference;
+        const ColorPlanes& test;
+    };
+
+    OIIO::ImageBuf make_image(int channels) const;
+    float* row(OIIO::ImageBuf& image, int y) const;
+    void compare_alpha(int y, const Sides& sides);
+    void override_nonfinite(int y, const Sides& sides);
+    int64_t differing(int y, const Sides& sides) const;
+    void tone_map_row(int y, double stops, const ColorPlanes& planes, OIIO::ImageBuf& image) const;
+    FlipSummary summarize(const Sides& sides, int64_t both, const std::vector<std::string>& notes);
+    void warn_of_unseen(const Sides& sides, FlipSummary& summary) const;
+    void make_stops();
+
+    const FlipPlan& m_plan;
+    const Exposures& m_exposures;
+    OIIO::ROI m_roi, m_full;
+    int m_nthreads;
+    OIIO::ImageBuf m_error, m_index, m_stops;
+    std::vector<FlipExposure> m_pictures;
+    std::vector<AlphaRow> m_alpha;
+    int64_t m_differing = 0;
 };
-
-/// One comparison after the algorithm has run.
-struct Compared {
-    const FlipPlan& plan;
-    const Exposures& exposures;
-    const ColorPlanes& reference;
-    const ColorPlanes& test;
-    OIIO::ROI roi;  ///< pixels of the maps, within the region of the planes
-    OIIO::ROI full; ///< display window of the map
-    int64_t nonfinite_both = 0;
-    std::vector<std::string> notes; ///< more warnings
-    int nthreads = 0;
-};
-
-/// Lets non-finite pixels and alpha enter the map, pools it, and fills `result` and `map`.
-void finish(const Compared& compared, FlipMaps& planes, OIIO::ImageBuf& map, FlipResult& result);
 
 } // namespace tonetool

@@ -6,8 +6,6 @@
 #include "flip/exposures.h"
 #include "flip/filters.h"
 #include "imagebuf/flip_plan.h"
-#include "imagebuf/parallel.h"
-#include "metrics/luminance.h"
 #include "tonemap/rational.h"
 
 namespace tonetool {
@@ -106,17 +104,12 @@ bool check_exposures(const HdrFlipOptions& options, std::string& error) {
             positive(*options.median_luminance, "medianluminance", "linear light", error));
 }
 
-// The reference's own finite pixels.
-metrics::ExposureStats measure(const ColorPlanes& reference, const OIIO::ROI& covered,
-                               int nthreads) {
-    std::vector<uint8_t> skip = reference.nonfinite;
-    const OIIO::ROI& all = reference.region;
-    size_t at = 0;
-    for (int y = all.ybegin; reference.uncovered_count > 0 && y < all.yend; ++y)
-        for (int x = all.xbegin; x < all.xend; ++x, ++at)
-            if (!covered.contains(x, y))
-                skip[at] = 1;
-    return metrics::exposure_statistics(reference.view(), skip, make_parallel(nthreads));
+bool needs_max(const HdrFlipOptions& o) {
+    return !o.start_exposure;
+}
+
+bool needs_median(const HdrFlipOptions& o) {
+    return !o.stop_exposure && o.num_exposures != 1;
 }
 
 } // namespace
@@ -133,18 +126,22 @@ bool plan_hdr(const HdrFlipOptions& options, FlipPlan& plan, std::string& error)
            check_exposures(options, error);
 }
 
-bool choose_exposures(const FlipPlan& plan, const ColorPlanes& reference, const OIIO::ROI& covered,
-                      int nthreads, Exposures& exposures, std::string& error) {
+bool needs_luminance(const FlipPlan& plan) {
+    const HdrFlipOptions& o = plan.hdr_options;
+    return plan.hdr &&
+           ((needs_max(o) && !o.max_luminance) || (needs_median(o) && !o.median_luminance));
+}
+
+bool choose_exposures(const FlipPlan& plan, const metrics::ExposureStats& stats,
+                      Exposures& exposures, std::string& error) {
     if (!plan.hdr) {
         exposures.stops = plan.evaluation.stops;
         return true;
     }
     const HdrFlipOptions& o = plan.hdr_options;
-    const bool need_max = !o.start_exposure;
-    const bool need_median = !o.stop_exposure && o.num_exposures != 1;
+    const bool need_max = needs_max(o), need_median = needs_median(o);
     double maximum = o.max_luminance.value_or(0), median = o.median_luminance.value_or(0);
-    if ((need_max && !o.max_luminance) || (need_median && !o.median_luminance)) {
-        const metrics::ExposureStats stats = measure(reference, covered, nthreads);
+    if (needs_luminance(plan)) {
         if (stats.max <= 0) {
             error = "the reference is black, so its exposures cannot be measured: pass "
                     "startExposure and stopExposure (or maxluminance and medianluminance)";

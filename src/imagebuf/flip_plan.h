@@ -7,6 +7,7 @@
 #include "flip/evaluate.h"
 #include "imagebuf/planes.h"
 #include "include/tonetool/flip.h"
+#include "metrics/luminance.h"
 
 namespace tonetool {
 
@@ -17,6 +18,7 @@ struct FlipPlan {
     bool hdr = false;
     double ppd = 0;
     std::string tonemapper;
+    int band_rows = 0;           ///< as in MemoryNeeds
     flip::Evaluation evaluation; ///< the stops of HDR-FLIP follow once the reference is read
 
     bool alpha() const { return common.alpha == AlphaPolicy::Error; }
@@ -32,9 +34,13 @@ struct Exposures {
     bool median_of_lit = false;
 };
 
-/// Exposures for a reference of which `covered` is the data window. LDR-FLIP gets stop 0 alone.
-bool choose_exposures(const FlipPlan& plan, const ColorPlanes& reference, const OIIO::ROI& covered,
-                      int nthreads, Exposures& exposures, std::string& error);
+/// Whether the reference must be measured before its exposures are known.
+bool needs_luminance(const FlipPlan& plan);
+
+/// Exposures for a reference of these statistics, which are looked at only where they are needed.
+/// LDR-FLIP gets stop 0 alone.
+bool choose_exposures(const FlipPlan& plan, const metrics::ExposureStats& stats,
+                      Exposures& exposures, std::string& error);
 
 /// A user's coefficients must be sound up to `largest`, the largest component of any image, at the
 /// last exposure.

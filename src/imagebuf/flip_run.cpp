@@ -2,9 +2,13 @@
 
 #include <algorithm>
 
+#include "flip/filters.h"
+#include "imagebuf/bands.h"
 #include "imagebuf/flip_finish.h"
+#include "imagebuf/measure.h"
 #include "imagebuf/pair.h"
 #include "imagebuf/parallel.h"
+#include "metrics/luminance.h"
 
 namespace tonetool {
 namespace {
@@ -12,119 +16,276 @@ namespace {
 using OIIO::ImageBuf;
 using OIIO::ROI;
 
-// The tests that share one region with the reference, compared together.
+// One image of a comparison.
+struct Side {
+    ColorReader reader;
+    ColorPlanes planes;
+    std::string name; ///< how errors begin
+
+    bool read(int begin, int end, std::string& error) {
+        if (reader.read(begin, end, planes, error))
+            return true;
+        error = name + error;
+        return false;
+    }
+};
+
+// The tests that share one region with the reference, compared together: in bands of rows, of
+// which there is one where everything fits into memory.
 class Group {
 public:
     Group(const FlipPlan& plan, const ImageBuf& reference, int nthreads)
         : m_plan(plan),
           m_image(reference),
-          m_nthreads(nthreads) {}
+          m_nthreads(nthreads),
+          m_reach(flip::reach(plan.evaluation.taps)) {}
 
-    bool run(const FittedTest* tests, size_t count, const ROI& roi, std::vector<ImageBuf>& maps,
-             std::vector<FlipResult>& results, std::string& error) {
-        if (!clip(roi, tests[0].region(), error) || !read(tests, count, error) ||
-            !choose_exposures(m_plan, m_reference, m_image.roi(), m_nthreads, m_exposures, error))
+    /// `held`: bytes that earlier groups have made.
+    bool run(const FittedTest* fitted, const std::vector<ImageBuf*>& dst, const ROI& roi,
+             uint64_t held, std::vector<ImageBuf>& maps, std::vector<FlipResult>& results,
+             std::string& error) {
+        m_fitted = fitted;
+        m_held = held;
+        if (!clip(roi, error) || !open(dst.size(), error) || !measure(error))
             return false;
-        double largest = m_reference.largest;
-        for (const ColorPlanes& test : m_tests)
-            largest = std::max(largest, double(test.largest));
-        if (!check_curve(m_plan, m_exposures, largest, error))
-            return false;
-        if (m_reference.nonfinite_count == 0) {
-            evaluate(0, count, maps, results);
-            return true;
+        std::vector<FlipMaps> filled;
+        filled.reserve(dst.size());
+        for (ImageBuf* map : dst)
+            filled.emplace_back(m_plan, m_exposures, m_roi, m_image.roi_full(), *map, m_nthreads);
+        for (int begin = m_region.ybegin; begin < m_region.yend;) {
+            const int end = m_bands.end_of(begin);
+            if (!run_band(begin, end, filled, error))
+                return false;
+            begin = end;
         }
-        // A reference with non-finite pixels is mended differently for each test.
-        const ColorPlanes as_read = m_reference;
-        for (size_t t = 0; t < count; ++t) {
-            m_reference = as_read;
-            evaluate(t, 1, maps, results);
-        }
+        for (size_t t = 0; t < dst.size(); ++t)
+            filled[t].finish(m_reference.planes, m_tests[t].planes, m_both[t], m_fitted[t].notes(),
+                             maps.emplace_back(), results.emplace_back());
         return true;
     }
 
+    uint64_t map_bytes_made() const { return m_needs.map_row * uint64_t(m_roi.height()); }
+
 private:
-    bool clip(const ROI& roi, const ROI& region, std::string& error) {
-        m_region = region;
-        m_roi = roi.defined() ? OIIO::roi_intersection(roi, region) : region;
+    bool clip(const ROI& roi, std::string& error) {
+        m_region = m_fitted[0].region();
+        m_roi = roi.defined() ? OIIO::roi_intersection(roi, m_region) : m_region;
         if (m_roi.width() > 0 && m_roi.height() > 0)
             return true;
         error = "the region of interest holds no pixel of the images";
         return false;
     }
 
-    bool read(const FittedTest* tests, size_t count, std::string& error) {
-        if (!read_side(m_image, m_plan.common.pixels, m_region, m_plan.alpha(), m_nthreads,
-                       "reference", m_reference, error))
+    bool open(size_t count, std::string& error) {
+        m_reference.name = side_name("reference", m_image);
+        if (!m_reference.reader.open(m_image, m_plan.common.pixels, m_region, m_plan.alpha(),
+                                     m_nthreads, error)) {
+            error = m_reference.name + error;
             return false;
+        }
+        m_reference.planes = m_reference.reader.planes();
         m_tests.resize(count);
-        m_fitted = tests;
-        for (size_t t = 0; t < count; ++t)
-            if (!tests[t].read(m_plan.alpha(), m_nthreads, m_tests[t], error) ||
-                !comparable(m_tests[t], error))
+        m_both.assign(count, 0);
+        for (size_t t = 0; t < count; ++t) {
+            m_tests[t].name = m_fitted[t].name();
+            if (!m_fitted[t].open_reader(m_plan.alpha(), m_nthreads, m_tests[t].reader, error))
                 return false;
+            m_tests[t].planes = m_fitted[t].planes(m_tests[t].reader);
+            if (m_plan.alpha() && m_reference.planes.choice.a < 0 &&
+                m_tests[t].planes.choice.a < 0) {
+                error = "alpha=error, but neither image has an alpha channel";
+                return false;
+            }
+            if (!is_covered(m_reference, "the reference", error) ||
+                !is_covered(m_tests[t], "the test", error))
+                return false;
+        }
         return true;
     }
 
-    bool comparable(const ColorPlanes& test, std::string& error) const {
-        if (m_plan.alpha() && m_reference.choice.a < 0 && test.choice.a < 0) {
-            error = "alpha=error, but neither image has an alpha channel";
+    int64_t pixels() const { return int64_t(m_region.width()) * m_region.height(); }
+
+    bool is_covered(const Side& side, const char* who, std::string& error) const {
+        if (side.planes.uncovered_count < pixels())
+            return true;
+        error = std::string(who) +
+                "'s data window covers none of the compared pixels: there is nothing to compare";
+        return false;
+    }
+
+    // Once every pixel has been read.
+    bool is_finite(const Side& side, const char* who, std::string& error) const {
+        if (side.planes.counts.nonfinite + side.planes.uncovered_count < pixels())
+            return true;
+        error = std::string(who) + " has no finite pixel: there is nothing to compare";
+        return false;
+    }
+
+    bool keeps_each() const { return m_plan.hdr && m_plan.hdr_options.want_exposures; }
+
+    // Tiles of few rows: their halos take time, but little memory.
+    flip::Evaluation bounded() const {
+        constexpr int frugal_rows = 16;
+        flip::Evaluation evaluation = m_plan.evaluation;
+        evaluation.most_tile_rows = m_plan.common.memory > 0 ? frugal_rows : 0;
+        return evaluation;
+    }
+
+    bool make_bands(size_t exposures, std::string& error) {
+        m_needs = {};
+        m_needs.reach = m_reach;
+        m_needs.band_rows = m_plan.band_rows;
+        m_needs.thread = flip::work_bytes(bounded(), m_roi.width(), m_tests.size(), keeps_each());
+        m_needs.threads = oiio::threads_of(m_nthreads);
+        m_needs.held = m_held;
+        for (size_t i = 0; i <= m_tests.size(); ++i) {
+            const ColorReader& reader = i == 0 ? m_reference.reader : m_tests[i - 1].reader;
+            m_needs.row += reader.row_bytes();
+            m_needs.reading = std::max<uint64_t>(m_needs.reading, reader.frugal_bytes());
+            m_needs.held += reader.kept_bytes();
+            if (i > 0)
+                m_needs.held += m_fitted[i - 1].held_bytes();
+        }
+        m_needs.map_row = uint64_t(m_roi.width()) * m_tests.size() * map_bytes(m_plan, exposures);
+        if (needs_luminance(m_plan))
+            m_needs.measuring = luminance_bytes(m_region) +
+                                m_reference.reader.row_bytes() * kLuminanceRows +
+                                m_reference.reader.frugal_bytes();
+        if (!m_bands.plan(m_plan.common.memory, m_needs, m_region, m_roi, error))
+            return false;
+        for (size_t i = 0; !m_bands.one() && i <= m_tests.size(); ++i)
+            (i == 0 ? m_reference.reader : m_tests[i - 1].reader).be_frugal();
+        return true;
+    }
+
+    // The exposures, and what is compared if it fits.
+    bool measure(std::string& error) {
+        constexpr size_t usual_exposures = 16;
+        if (!make_bands(size_t(m_plan.hdr_options.num_exposures.value_or(usual_exposures)), error))
+            return false;
+        if (m_bands.one() && !read(m_region.ybegin, m_region.yend, error))
+            return false;
+        metrics::ExposureStats stats;
+        if (needs_luminance(m_plan) && !measure_reference(stats, error))
+            return false;
+        if (!choose_exposures(m_plan, stats, m_exposures, error) ||
+            !make_bands(m_exposures.stops.size(), error))
+            return false;
+        if (!m_bands.one())
+            start_again();
+        return true;
+    }
+
+    bool measure_reference(metrics::ExposureStats& stats, std::string& error) {
+        PagedArray<float> luminance;
+        if (!read_luminance(m_reference.reader, m_reference.planes, m_nthreads, luminance, error)) {
+            error = m_reference.name + error;
             return false;
         }
-        const auto all = int64_t(m_region.width()) * m_region.height();
-        for (const ColorPlanes* side : {&m_reference, &test}) {
-            const std::string who = side == &test ? "the test" : "the reference";
-            if (side->uncovered_count >= all)
-                error = who + "'s data window covers none of the compared pixels: there is nothing "
-                              "to compare";
-            else if (side->nonfinite_count + side->uncovered_count >= all)
-                error = who + " has no finite pixel: there is nothing to compare";
-        }
+        stats = metrics::exposure_statistics(luminance.data(), m_region.width(), m_region.height(),
+                                             make_parallel(m_nthreads));
+        return is_finite(m_reference, "the reference", error);
+    }
+
+    void start_again() {
+        m_reference.planes = m_reference.reader.planes();
+        for (size_t t = 0; t < m_tests.size(); ++t)
+            m_tests[t].planes = m_fitted[t].planes(m_tests[t].reader);
+    }
+
+    // Rows of all images: of several files at the same time where memory is no matter.
+    bool read(int begin, int end, std::string& error) {
+        std::vector<std::string> errors(m_tests.size() + 1);
+        std::vector<std::function<void()>> tasks;
+        for (size_t i = 0; i < errors.size(); ++i)
+            tasks.emplace_back([this, begin, end, i, &errors] {
+                Side& side = i == 0 ? m_reference : m_tests[i - 1];
+                side.read(begin, end, errors[i]);
+            });
+        run_beside(tasks, m_bands.one() ? m_nthreads : 1);
+        for (const std::string& why : errors)
+            if (error.empty())
+                error = why;
         return error.empty();
     }
 
-    void evaluate(size_t from, size_t count, std::vector<ImageBuf>& maps,
-                  std::vector<FlipResult>& results) {
-        flip::Evaluation evaluation = m_plan.evaluation;
+    bool run_band(int begin, int end, std::vector<FlipMaps>& maps, std::string& error) {
+        const int had = m_reference.planes.end;
+        if (!m_reference.planes.whole() && !read(std::max(begin - m_reach, m_region.ybegin),
+                                                 std::min(end + m_reach, m_region.yend), error))
+            return false;
+        if (m_reference.planes.end == m_region.yend && !is_sound(error))
+            return false;
+        const int fresh = m_bands.one() ? m_region.ybegin : had;
+        // A reference with non-finite pixels is mended differently for each test.
+        const size_t step = m_reference.planes.counts.nonfinite > 0 ? 1 : m_tests.size();
+        for (size_t t = 0; t < m_tests.size(); t += step) {
+            for (size_t i = t; i < t + step; ++i)
+                mend(i, fresh);
+            evaluate(t, step, std::max(begin, m_roi.ybegin), std::min(end, m_roi.yend), maps);
+            if (m_tests.size() > 1)
+                unmend(m_reference.planes);
+        }
+        return true;
+    }
+
+    void mend(size_t test, int fresh) {
+        ColorPlanes &r = m_reference.planes, &t = m_tests[test].planes;
+        mend_nonfinite(r, t, r.begin, fresh);
+        m_both[test] += mend_nonfinite(r, t, fresh, r.end);
+    }
+
+    // Everything has been read: whether there was something to compare.
+    bool is_sound(std::string& error) const {
+        double largest = m_reference.planes.counts.largest;
+        for (const Side& test : m_tests) {
+            if (!is_finite(m_reference, "the reference", error) ||
+                !is_finite(test, "the test", error))
+                return false;
+            largest = std::max(largest, double(test.planes.counts.largest));
+        }
+        return check_curve(m_plan, m_exposures, largest, error);
+    }
+
+    void evaluate(size_t from, size_t count, int begin, int end, std::vector<FlipMaps>& maps) {
+        if (begin >= end)
+            return;
+        flip::Evaluation evaluation = m_bands.one() ? m_plan.evaluation : bounded();
         evaluation.stops = m_exposures.stops;
-        const size_t pixels = size_t(m_roi.width()) * size_t(m_roi.height());
-        std::vector<FlipMaps> planes(count, FlipMaps(m_plan, pixels, evaluation.stops.size()));
         std::vector<flip::Output> outputs;
         std::vector<kernels::ConstRgb> views;
-        std::vector<int64_t> both;
-        for (size_t t = 0; t < count; ++t) {
-            both.push_back(mend_nonfinite(m_reference, m_tests[from + t]));
-            views.push_back(m_tests[from + t].view());
-            outputs.push_back(planes[t].output(m_roi.width()));
+        for (size_t t = from; t < from + count; ++t) {
+            views.push_back(m_tests[t].planes.view());
+            outputs.push_back(maps[t].output(begin));
         }
-        const kernels::Window window{m_roi.xbegin - m_region.xbegin, m_roi.ybegin - m_region.ybegin,
-                                     m_roi.width(), m_roi.height()};
-        flip::evaluate(evaluation, m_reference.view(), views, window, outputs,
-                       make_parallel(m_nthreads));
-        for (size_t t = 0; t < count; ++t) {
-            maps.emplace_back();
-            results.emplace_back();
-            finish({m_plan, m_exposures, m_reference, m_tests[from + t], m_roi, m_image.roi_full(),
-                    both[t], m_fitted[from + t].notes(), m_nthreads},
-                   planes[t], maps.back(), results.back());
-        }
+        const kernels::Window window{m_roi.xbegin - m_region.xbegin, begin - m_region.ybegin,
+                                     m_roi.width(), end - begin};
+        flip::evaluate(evaluation, m_reference.planes.view(), views, window, outputs,
+                       make_parallel(m_bands.threads()));
+        for (size_t t = from; t < from + count; ++t)
+            maps[t].take(begin, end, m_reference.planes, m_tests[t].planes);
     }
 
     const FlipPlan& m_plan;
     const ImageBuf& m_image;
-    int m_nthreads;
+    int m_nthreads, m_reach;
     ROI m_region, m_roi;
-    ColorPlanes m_reference;
     const FittedTest* m_fitted = nullptr;
-    std::vector<ColorPlanes> m_tests;
+    uint64_t m_held = 0;
+    MemoryNeeds m_needs;
+    Bands m_bands;
+    Side m_reference;
+    std::vector<Side> m_tests;
+    std::vector<int64_t> m_both; ///< pixels that are non-finite in both images
     Exposures m_exposures;
 };
 
 } // namespace
 
 bool run_flip(const FlipPlan& plan, const ImageBuf& reference,
-              const std::vector<const ImageBuf*>& tests, ROI roi, int nthreads,
-              std::vector<ImageBuf>& maps, std::vector<FlipResult>& results, std::string& error) {
+              const std::vector<const ImageBuf*>& tests, const std::vector<ImageBuf*>& dst, ROI roi,
+              int nthreads, std::vector<ImageBuf>& maps, std::vector<FlipResult>& results,
+              std::string& error) {
     std::vector<FittedTest> fitted(tests.size());
     bool one_region = true;
     for (size_t t = 0; t < tests.size(); ++t) {
@@ -132,12 +293,16 @@ bool run_flip(const FlipPlan& plan, const ImageBuf& reference,
             return false;
         one_region = one_region && same_window(fitted[t].region(), fitted[0].region());
     }
-    if (one_region)
-        return Group(plan, reference, nthreads)
-            .run(fitted.data(), fitted.size(), roi, maps, results, error);
-    for (const FittedTest& test : fitted)
-        if (!Group(plan, reference, nthreads).run(&test, 1, roi, maps, results, error))
+    const size_t step = one_region ? tests.size() : 1;
+    uint64_t held = 0;
+    for (size_t t = 0; t < tests.size(); t += step) {
+        Group group(plan, reference, nthreads);
+        const std::vector<ImageBuf*> to(dst.begin() + ptrdiff_t(t),
+                                        dst.begin() + ptrdiff_t(t + step));
+        if (!group.run(&fitted[t], to, roi, held, maps, results, error))
             return false;
+        held += group.map_bytes_made();
+    }
     return true;
 }
 

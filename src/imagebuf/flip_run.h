@@ -10,9 +10,11 @@
 namespace tonetool {
 
 /// Compares the tests with the reference; `maps` and `results` get one element per test, in order.
-/// False with a reason: they are not to be used.
+/// A map is computed in the pixels of its `dst` where these can take it. False with a reason: none
+/// of them is to be used.
 bool run_flip(const FlipPlan& plan, const OIIO::ImageBuf& reference,
-              const std::vector<const OIIO::ImageBuf*>& tests, OIIO::ROI roi, int nthreads,
+              const std::vector<const OIIO::ImageBuf*>& tests,
+              const std::vector<OIIO::ImageBuf*>& dst, OIIO::ROI roi, int nthreads,
               std::vector<OIIO::ImageBuf>& maps, std::vector<FlipResult>& results,
               std::string& error);
 

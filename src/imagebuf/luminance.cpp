@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "imagebuf/guard.h"
+#include "imagebuf/measure.h"
 #include "imagebuf/parallel.h"
-#include "imagebuf/planes.h"
 #include "metrics/luminance.h"
 
 namespace tonetool {
@@ -24,18 +24,23 @@ bool measure(LuminanceStats& stats, const ImageBuf& src, const PixelOptions& opt
         error = "the region of interest holds no pixel of the image";
         return false;
     }
-    ColorPlanes planes;
-    if (!read_planes(src, options, region, false, nthreads, planes, error))
+    ColorReader reader;
+    if (!reader.open(src, options, region, false, nthreads, error))
+        return false;
+    ColorPlanes planes = reader.planes();
+    PagedArray<float> luminance;
+    if (!read_luminance(reader, planes, nthreads, luminance, error))
         return false;
     const int64_t pixels = int64_t(region.width()) * region.height();
-    if (planes.nonfinite_count == pixels) {
+    if (planes.counts.nonfinite == pixels) {
         error = "the image has no finite pixel";
         return false;
     }
-    stats = metrics::luminance(planes.view(), planes.nonfinite, make_parallel(nthreads));
+    stats = metrics::luminance(luminance.data(), region.width(), region.height(),
+                               make_parallel(nthreads));
     stats.pixels = pixels;
-    stats.nonfinite = planes.nonfinite_count;
-    stats.negative = planes.negative_count;
+    stats.nonfinite = planes.counts.nonfinite;
+    stats.negative = planes.counts.negative;
     stats.layer = planes.choice.layer;
     stats.space = planes.choice.space;
     return true;

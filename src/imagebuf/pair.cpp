@@ -2,8 +2,11 @@
 
 #include <OpenImageIO/imagebufalgo.h>
 #include <OpenImageIO/strutil.h>
+#include <algorithm>
 #include <cmath>
 #include <limits>
+
+#include "imagebuf/bands.h"
 
 namespace tonetool {
 namespace {
@@ -46,21 +49,36 @@ std::vector<std::string> differing_tags(const OIIO::ImageSpec& reference,
 ImageBuf interleaved(const ColorPlanes& planes, const ROI& full) {
     const bool alpha = !planes.alpha.empty();
     const size_t channels = alpha ? 4 : 3;
-    OIIO::ImageSpec spec(planes.width(), planes.height(), int(channels), OIIO::TypeFloat);
+    OIIO::ImageSpec spec(planes.width(), planes.region.height(), int(channels), OIIO::TypeFloat);
     spec.x = planes.region.xbegin;
     spec.y = planes.region.ybegin;
-    ImageBuf image(spec);
+    ImageBuf image(spec, OIIO::InitializePixels::No);
     image.set_roi_full(full);
-    std::vector<float> pixels(planes.nonfinite.size() * channels);
-    for (size_t i = 0; i < planes.nonfinite.size(); ++i) {
+    auto* pixels = static_cast<float*>(image.localpixels());
+    for (size_t i = 0; pixels && i < planes.nonfinite.size(); ++i) {
         for (size_t p = 0; p < 3; ++p)
             pixels[i * channels + p] =
                 planes.nonfinite[i] ? std::numeric_limits<float>::quiet_NaN() : planes.plane[p][i];
         if (alpha)
             pixels[i * channels + 3] = planes.alpha[i];
     }
-    image.set_pixels(image.roi(), OIIO::TypeFloat, pixels.data());
     return image;
+}
+
+// What resizing holds at most: planes and image, or images with and without holes before and after.
+uint64_t resize_bytes(const ROI& from, const ROI& to, bool alpha) {
+    const auto pixels = [](const ROI& r) { return uint64_t(r.width()) * uint64_t(r.height()); };
+    const uint64_t pixel = (alpha ? 4 : 3) * sizeof(float);
+    return std::max(pixels(from) * (2 * pixel + 1), 2 * pixel * (pixels(from) + pixels(to)));
+}
+
+bool resize_fits(const ROI& from, const ROI& to, const FlipOptions& options, std::string& error) {
+    const uint64_t least = kSetAside + resize_bytes(from, to, options.alpha == AlphaPolicy::Error);
+    if (options.memory == 0 || least <= options.memory)
+        return true;
+    error = "memory is " + size_text(options.memory) +
+            ": resizing takes the whole test image, which needs at least " + size_text(least);
+    return false;
 }
 
 } // namespace
@@ -112,60 +130,83 @@ bool FittedTest::open(const ImageBuf& reference, const ImageBuf& test, const Fli
     m_notes = differing_tags(reference.spec(), test.spec());
     const ROI window = reference.roi_full();
     if (options.size == SizePolicy::Resize && !same_window(window, test.roi_full()) &&
-        !resize(window, options.alpha == AlphaPolicy::Error, nthreads, error))
+        !resize(window, options, nthreads, error))
         return false;
     return compared_region(reference, *m_test, options.size, m_region, error);
 }
 
 // Only what is compared, in linear light and without its non-finite pixels, which stay what they
 // are where they were instead of spreading through the filter.
-bool FittedTest::resize(const ROI& window, bool alpha, int nthreads, std::string& error) {
-    ColorPlanes planes;
-    if (!read_side(*m_test, m_pixels, m_test->roi(), alpha, nthreads, "test", planes, error))
+bool FittedTest::resize(const ROI& window, const FlipOptions& options, int nthreads,
+                        std::string& error) {
+    const bool alpha = options.alpha == AlphaPolicy::Error;
+    ColorReader reader;
+    if (!resize_fits(m_test->roi(), window, options, error))
         return false;
-    ImageBuf color = interleaved(planes, m_test->roi_full());
-    const ImageBuf with_holes = color;
-    ROI target = window;
-    target.chbegin = 0;
-    target.chend = color.nchannels();
-    ImageBuf holes;
-    if (!IBA::fixNonFinite(color, with_holes, IBA::NONFINITE_BOX3, nullptr, {}, nthreads) ||
-        !IBA::resize(m_resized, color, "", 0.0f, target, nthreads) ||
-        !IBA::resample(holes, with_holes, false, target, nthreads)) {
-        error = "resizing the test image: " + color.geterror() + m_resized.geterror() +
-                holes.geterror();
+    if (!reader.open(*m_test, m_pixels, plane_of(m_test->roi()), alpha, nthreads, error)) {
+        error = name() + error;
         return false;
     }
-    if (planes.nonfinite_count > 0)
-        for (ImageBuf::Iterator<float> p(m_resized); !p.done(); ++p)
-            if (std::isnan(holes.getchannel(p.x(), p.y(), 0, 0)))
-                p[0] = std::numeric_limits<float>::quiet_NaN();
+    if (options.memory > 0)
+        reader.be_frugal();
+    ColorPlanes planes = reader.planes();
+    if (!reader.read(planes.region.ybegin, planes.region.yend, planes, error)) {
+        error = name() + error;
+        return false;
+    }
+    if (!fill_window(planes, window, nthreads, error))
+        return false;
     m_test = &m_resized;
     m_pixels = {"", "rec709"};
     return true;
 }
 
-bool FittedTest::read(bool alpha, int nthreads, ColorPlanes& planes, std::string& error) const {
-    if (!read_side(*m_test, m_pixels, m_region, alpha, nthreads, "test", planes, error))
+bool FittedTest::fill_window(const ColorPlanes& planes, ROI window, int nthreads,
+                             std::string& error) {
+    ImageBuf color = interleaved(planes, m_test->roi_full());
+    const bool holey = planes.counts.nonfinite > 0;
+    const ImageBuf with_holes = holey ? color : ImageBuf();
+    window.chbegin = 0;
+    window.chend = color.nchannels();
+    ImageBuf holes;
+    // Mending looks at pixels that it has mended: one thread, or the bits depend on the order.
+    if ((holey && !IBA::fixNonFinite(color, with_holes, IBA::NONFINITE_BOX3, nullptr, {}, 1)) ||
+        !IBA::resize(m_resized, color, "", 0.0f, window, nthreads) ||
+        (holey && !IBA::resample(holes, with_holes, false, window, nthreads))) {
+        error = "resizing the test image: " + color.geterror() + m_resized.geterror() +
+                holes.geterror();
         return false;
-    planes.choice.layer = m_choice.layer;
-    planes.choice.space = m_choice.space;
+    }
+    for (ImageBuf::Iterator<float> p(m_resized); holey && !p.done(); ++p)
+        if (std::isnan(holes.getchannel(p.x(), p.y(), 0, 0)))
+            p[0] = std::numeric_limits<float>::quiet_NaN();
     return true;
 }
 
-bool read_side(const ImageBuf& image, const PixelOptions& options, const ROI& region, bool alpha,
-               int nthreads, const char* what, ColorPlanes& planes, std::string& error) {
-    if (read_planes(image, options, region, alpha, nthreads, planes, error))
+uint64_t FittedTest::held_bytes() const {
+    return m_test == &m_resized ? m_resized.spec().image_bytes() : 0;
+}
+
+bool FittedTest::open_reader(bool alpha, int nthreads, ColorReader& reader,
+                             std::string& error) const {
+    if (reader.open(*m_test, m_pixels, m_region, alpha, nthreads, error))
         return true;
-    error = side_name(what, image) + error;
+    error = name() + error;
     return false;
 }
 
-int64_t mend_nonfinite(ColorPlanes& r, ColorPlanes& t) {
+ColorPlanes FittedTest::planes(const ColorReader& reader) const {
+    ColorPlanes planes = reader.planes();
+    planes.choice.layer = m_choice.layer;
+    planes.choice.space = m_choice.space;
+    return planes;
+}
+
+int64_t mend_nonfinite(ColorPlanes& r, ColorPlanes& t, int begin, int end) {
     int64_t both = 0;
-    if (r.nonfinite_count == 0 && t.nonfinite_count == 0)
+    if (r.counts.nonfinite == 0 && t.counts.nonfinite == 0)
         return both;
-    for (size_t i = 0; i < r.nonfinite.size(); ++i) {
+    for (size_t i = r.at(begin); i < r.at(end); ++i) {
         if (r.nonfinite[i] == t.nonfinite[i]) {
             both += r.nonfinite[i];
             continue;
@@ -176,6 +217,12 @@ int64_t mend_nonfinite(ColorPlanes& r, ColorPlanes& t) {
             bad.plane[p][i] = good.plane[p][i];
     }
     return both;
+}
+
+void unmend(ColorPlanes& planes) {
+    for (size_t i = 0; planes.counts.nonfinite > 0 && i < planes.nonfinite.size(); ++i)
+        for (size_t p = 0; planes.nonfinite[i] && p < 3; ++p)
+            planes.plane[p][i] = 0;
 }
 
 } // namespace tonetool

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "imagebuf/planes.h"
+#include "imagebuf/color_reader.h"
 #include "include/tonetool/flip.h"
 
 namespace tonetool {
@@ -27,10 +27,19 @@ public:
     const OIIO::ROI& region() const { return m_region; }
     /// What a user must know of how the two go together.
     const std::vector<std::string>& notes() const { return m_notes; }
-    bool read(bool alpha, int nthreads, ColorPlanes& planes, std::string& error) const;
+    /// A reader of the region; valid as long as this is.
+    bool open_reader(bool alpha, int nthreads, ColorReader& reader, std::string& error) const;
+    /// Planes of that reader, which say how the image was read as it came.
+    ColorPlanes planes(const ColorReader& reader) const;
+    /// Bytes of the resized image, 0 if there is none.
+    uint64_t held_bytes() const;
+    /// How errors about the test begin.
+    std::string name() const { return side_name("test", *m_test); }
 
 private:
-    bool resize(const OIIO::ROI& window, bool alpha, int nthreads, std::string& error);
+    bool resize(const OIIO::ROI& window, const FlipOptions& options, int nthreads,
+                std::string& error);
+    bool fill_window(const ColorPlanes& planes, OIIO::ROI window, int nthreads, std::string& error);
 
     const OIIO::ImageBuf* m_test = nullptr;
     PixelOptions m_pixels;
@@ -40,12 +49,12 @@ private:
     std::vector<std::string> m_notes;
 };
 
-/// Reads one side of a comparison; the error says which.
-bool read_side(const OIIO::ImageBuf& image, const PixelOptions& options, const OIIO::ROI& region,
-               bool alpha, int nthreads, const char* what, ColorPlanes& planes, std::string& error);
-
 /// A pixel that is non-finite in one image takes the other's colour, so that the neighbourhood
-/// sees no difference there; non-finite in both it stays black. Returns how many are the latter.
-int64_t mend_nonfinite(ColorPlanes& reference, ColorPlanes& test);
+/// sees no difference there; non-finite in both it stays black. Works on rows that both hold and
+/// returns how many pixels are the latter; once more it changes nothing.
+int64_t mend_nonfinite(ColorPlanes& reference, ColorPlanes& test, int begin, int end);
+
+/// Makes the non-finite pixels of a mended image black again.
+void unmend(ColorPlanes& planes);
 
 } // namespace tonetool

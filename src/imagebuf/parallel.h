@@ -1,6 +1,9 @@
 // OpenImageIO's thread pool as the rooms below see it.
 #pragma once
 
+#include <functional>
+#include <vector>
+
 #include "imagebuf/oiio_compat.h"
 #include "kernels/views.h"
 
@@ -11,6 +14,13 @@ inline kernels::ParallelFor make_parallel(int nthreads) {
     return [nthreads](int64_t count, const std::function<void(int64_t)>& task) {
         oiio::parallel_tasks(count, nthreads, task);
     };
+}
+
+/// Runs the tasks at the same time on threads of their own, from which the pool can be used; one
+/// after the other where only one thread is wanted.
+inline void run_beside(const std::vector<std::function<void()>>& tasks, int nthreads) {
+    oiio::on_own_threads(int64_t(tasks.size()), nthreads == 1 ? 1 : 4,
+                         [&](int64_t i) { tasks[size_t(i)](); });
 }
 
 } // namespace tonetool

@@ -4,28 +4,42 @@
 #include <OpenImageIO/imagebuf.h>
 #include <cstdint>
 #include <string>
-#include <vector>
 
+#include "imagebuf/paged_array.h"
 #include "include/tonetool/pixels.h"
 #include "kernels/views.h"
 
 namespace tonetool {
 
-/// Finite linear Rec.709 >= 0 over a region, and what had to be done to get there.
-struct ColorPlanes {
-    OIIO::ROI region;
-    ColorChoice choice;
-    std::vector<float> plane[3];
-    std::vector<float> alpha;       ///< empty unless asked for
-    std::vector<uint8_t> nonfinite; ///< 1 where R, G, B (or the alpha asked for) is NaN or Inf
-    int64_t nonfinite_count = 0, negative_count = 0, uncovered_count = 0;
+/// What was found in the pixels read so far, each of them looked at once.
+struct ColorCounts {
+    int64_t nonfinite = 0, negative = 0;
     float largest = 0; ///< largest component
     /// Depends on the values of the negative pixels as they were before they became 0.
     uint64_t negative_digest = 0;
 
+    void add(const ColorCounts& other);
+};
+
+/// Finite linear Rec.709 >= 0 over a band of the rows of a region, or over all of them, and what
+/// had to be done to get there.
+struct ColorPlanes {
+    OIIO::ROI region;       ///< the whole
+    int begin = 0, end = 0; ///< rows that are held
+    ColorChoice choice;
+    PagedArray<float> plane[3];
+    PagedArray<float> alpha;       ///< empty unless asked for
+    PagedArray<uint8_t> nonfinite; ///< 1 where R, G, B (or the alpha asked for) is NaN or Inf
+    ColorCounts counts;
+    int64_t uncovered_count = 0; ///< pixels of the region outside the data window
+
     int width() const { return region.width(); }
-    int height() const { return region.height(); }
+    bool whole() const { return begin == region.ybegin && end == region.yend; }
+    /// Where a row begins in the planes.
+    size_t at(int y) const { return size_t(y - begin) * size_t(width()); }
     kernels::ConstRgb view() const;
+    /// Row `y` of the planes from column `x` on, as the kernels take it.
+    void row(int x, int y, const float* (&out)[3]) const;
 };
 
 /// How errors begin: `side image "name": `, or without the name where there is none.
@@ -37,10 +51,5 @@ bool check_readable(const OIIO::ImageBuf& image, const char* what, std::string& 
 /// The header `find_color` decides by: the image's spec with the data format of its file, which
 /// tells display-encoded integers from linear floats.
 OIIO::ImageSpec deciding_spec(const OIIO::ImageBuf& image);
-
-/// Reads `region` of an image; pixels outside its data window are black (alpha 0). Non-finite
-/// pixels become black and are marked, negative components become 0 and are counted.
-bool read_planes(const OIIO::ImageBuf& image, const PixelOptions& options, OIIO::ROI region,
-                 bool want_alpha, int nthreads, ColorPlanes& out, std::string& error);
 
 } // namespace tonetool

@@ -201,6 +201,21 @@ private:
     std::string m_failure;
 };
 
+// In pieces, so that a conversion does not take another image's memory.
+bool write_pixels(const OIIO::ImageBuf& image, OIIO::ImageOutput& out) {
+    constexpr int rows_at_once = 512; // whole blocks of every compression, enough for all threads
+    const OIIO::ImageSpec& spec = image.spec();
+    if (!image.localpixels() || spec.deep || spec.depth > 1 || out.spec().tile_width > 0)
+        return image.write(&out);
+    for (int y = spec.y; y < spec.y + spec.height; y += rows_at_once) {
+        const int end = std::min(y + rows_at_once, spec.y + spec.height);
+        if (!out.write_scanlines(y, end, spec.z, spec.format, image.pixeladdr(spec.x, y),
+                                 image.pixel_stride(), image.scanline_stride()))
+            return false;
+    }
+    return true;
+}
+
 bool write_through(OIIO::ImageOutput& out, const std::vector<OutputImage>& images,
                    const std::string& filename, std::string& error) {
     std::vector<OIIO::ImageSpec> specs;
@@ -215,7 +230,7 @@ bool write_through(OIIO::ImageOutput& out, const std::vector<OutputImage>& image
             error = out.geterror();
             return false;
         }
-        if (!images[i].pixels->write(&out)) {
+        if (!write_pixels(*images[i].pixels, out)) {
             error = images[i].pixels->geterror();
             if (error.empty())
                 error = out.geterror();
@@ -253,6 +268,32 @@ bool check_images(const std::vector<OutputImage>& images, const OIIO::ImageOutpu
     return true;
 }
 
+// Rows that are read back at once: whole strips and tiles of most files.
+constexpr int kRowsBack = 256;
+
+bool read_back_rows(OIIO::ImageInput& in, int subimage, const OIIO::ImageSpec& spec) {
+    std::vector<unsigned char> pixels;
+    if (spec.depth > 1) {
+        pixels.resize(spec.image_bytes(true));
+        return in.read_image(subimage, 0, 0, -1, OIIO::TypeUnknown, pixels.data());
+    }
+    const bool tiled = spec.tile_width > 0;
+    const int block = tiled ? spec.tile_height : 1;
+    const int step = std::max(kRowsBack / block, 1) * block;
+    for (int y = spec.y; y < spec.y + spec.height; y += step) {
+        const int end = std::min(y + step, spec.y + spec.height);
+        pixels.resize(size_t(end - y) * spec.scanline_bytes(true));
+        const bool read =
+            tiled ? in.read_tiles(subimage, 0, spec.x, spec.x + spec.width, y, end, 0, 1, 0,
+                                  spec.nchannels, OIIO::TypeUnknown, pixels.data())
+                  : in.read_scanlines(subimage, 0, y, end, 0, 0, spec.nchannels, OIIO::TypeUnknown,
+                                      pixels.data());
+        if (!read)
+            return false;
+    }
+    return true;
+}
+
 // Reads every pixel of a file back; a writer that buffers may not notice that its last bytes were
 // lost.
 bool reads_back(const std::string& path, size_t subimages, std::string& error) {
@@ -262,9 +303,8 @@ bool reads_back(const std::string& path, size_t subimages, std::string& error) {
         if (spec.undefined())
             break;
         OIIO::DeepData deep;
-        std::vector<unsigned char> pixels(spec.deep ? 0 : spec.image_bytes(true));
-        const bool read = spec.deep ? in->read_native_deep_image(s, 0, deep)
-                                    : in->read_image(s, 0, 0, -1, OIIO::TypeUnknown, pixels.data());
+        const bool read =
+            spec.deep ? in->read_native_deep_image(s, 0, deep) : read_back_rows(*in, s, spec);
         if (!read)
             break;
         if (s + 1 == int(subimages))

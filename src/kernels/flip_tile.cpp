@@ -84,6 +84,18 @@ FlipTile::FlipTile(const FlipRows& functions, const TileShape& shape, const Lane
     }
 }
 
+size_t FlipTile::bytes(const TileShape& shape, size_t tests, bool keep_each) {
+    const StripShape& s = shape.strips;
+    const auto pitch = size_t(s.pitch()), wide = size_t(s.wide_pitch());
+    const auto columns = size_t(s.columns()), rows = size_t(shape.rows());
+    const size_t side = pitch * (kColors * size_t(shape.padded_rows()) +
+                                 kOpponentPlanes * size_t(2 * s.halo + kRowBlock));
+    const size_t result = columns * rows * size_t(keep_each ? kResultPlanes : kLastError);
+    const size_t row = columns * (1 + kWorkPlanes + kFeaturePlanes * (kRowBlock + 1));
+    const size_t block = wide * (kColumnPlanes * kRowBlock + 1);
+    return sizeof(float) * (side * (1 + tests) + result * tests + row + block);
+}
+
 void FlipTile::make(Side& side) const {
     side.rgb = Planes(kColors, m_shape.strips.pitch(), m_shape.padded_rows());
     side.ring = Planes(kOpponentPlanes, m_shape.strips.pitch(), m_slots);

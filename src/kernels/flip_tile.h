@@ -50,6 +50,9 @@ public:
     FlipTile(const FlipRows& functions, const TileShape& shape, const LaneTaps& taps, size_t tests,
              bool keep_each);
 
+    /// Bytes that such an object takes.
+    static size_t bytes(const TileShape& shape, size_t tests, bool keep_each);
+
     /// Begins with the tile: as many tests as the object is for, or fewer.
     void load(const Window& tile, const ConstRgb& reference,
               const std::vector<const ConstRgb*>& tests);

@@ -28,6 +28,11 @@ struct FlipOptions {
     double distance = 0.7;       ///< viewing distance in metres, > 0
     double width = 0.7;          ///< width of the screen in metres, > 0
     double pixels_across = 3840; ///< width of the screen in pixels, > 0
+    /// Bytes that a process with no other work needs at most for the call. Where the images as
+    /// planes (13 bytes per pixel and image) do not fit, they are read in bands of rows, twice if
+    /// the reference is measured: the same bits in more time. See "Memory" at ldr_flip. 0: bands
+    /// only where half of the physical memory is not enough.
+    uint64_t memory = 0;
 };
 
 /// HDR-FLIP: the exposures and the tone curve.
@@ -105,6 +110,15 @@ namespace ToneAlgo {
 ///   other image's pixel (black if both). Counted and warned about; if no finite pixel is left
 ///   the call fails.
 /// Identical images give exactly 0; the result does not depend on nthreads to the bit.
+/// Memory: an ImageBuf that was opened with a file name and not read is read from the file by the
+///   call itself, in bands where they are needed, only the channels that are compared, and nothing
+///   of it is put into an ImageCache (an image opened with an IOProxy or a configuration must be
+///   read() first). A file that changes meanwhile is an error. Counted against options.memory are:
+///   105 MiB set aside for the program and OpenImageIO's shared libraries; decoders; the
+///   results (the map 4 bytes per pixel, want_exposure_map 8, want_exposures 28 per exposure, for
+///   each test); the bands; for SizePolicy::Resize the test image as a whole. Not counted: pixels
+///   that the caller's ImageBufs hold, and decoders that hold the whole image (JPEG 2000, WebP).
+///   A bound that is too small is an error that says what would do.
 /// `result`, when given, receives the summary; the summary also lands in dst as `FLIP:*`.
 /// Returns false, with the reason in dst.geterror(), and then never leaves a map in dst.
 TONETOOL_API bool ldr_flip(OIIO::ImageBuf& dst, const OIIO::ImageBuf& reference,

@@ -13,7 +13,8 @@ namespace tonetool {
 namespace ToneAlgo {
 
 /// Measure an image. Returns false with the reason in `error`; deep images, images without colour
-/// and images without a finite pixel are errors.
+/// and images without a finite pixel are errors. An ImageBuf that was not read is read from its
+/// file in bands, as ldr_flip says; then 4 bytes per pixel are held.
 TONETOOL_API bool luminance_stats(LuminanceStats& stats, const OIIO::ImageBuf& src,
                                   std::string& error, const PixelOptions& options = {},
                                   OIIO::ROI roi = {}, int nthreads = 0);

@@ -8,6 +8,17 @@ namespace {
 using testing::ElementsAre;
 using testing::IsEmpty;
 
+TEST(ParseSize, TakesWholeNumbersWithAUnit) {
+    EXPECT_EQ(parse_size("1"), 1u);
+    EXPECT_EQ(parse_size("268435456"), uint64_t(1) << 28);
+    EXPECT_EQ(parse_size("256M"), uint64_t(1) << 28);
+    EXPECT_EQ(parse_size("3K"), 3u * 1024);
+    EXPECT_EQ(parse_size("8589934591G"), ((uint64_t(1) << 33) - 1) << 30);
+    for (const char* bad : {"", "0", "00K", "K", "1.5G", "-1", "+1", " 1", "1 ", "1k", "1MB", "1T",
+                            "8589934592G", "99999999999999999999"})
+        EXPECT_FALSE(parse_size(bad)) << bad;
+}
+
 TEST(ParseNumber, TakesDecimals) {
     const std::pair<const char*, double> cases[] = {
         {"0", 0},         {"-2", -2},     {"+1.5", 1.5},  {".5", 0.5},

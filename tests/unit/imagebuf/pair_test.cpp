@@ -70,7 +70,7 @@ TEST(MendNonfinite, TakesTheOtherImagesPixel) {
     std::string error;
     ASSERT_TRUE(read_planes(r, {}, r.roi(), false, 1, pr, error));
     ASSERT_TRUE(read_planes(t, {}, t.roi(), false, 1, pt, error));
-    EXPECT_EQ(mend_nonfinite(pr, pt), 1);
+    EXPECT_EQ(mend_nonfinite(pr, pt, 0, 1), 1);
     for (int p = 0; p < 3; ++p) {
         EXPECT_EQ(pr.plane[p][0], pt.plane[p][0]);
         EXPECT_EQ(pr.plane[p][0], pixel_of(other, 0, 0)[size_t(p)]);
@@ -79,6 +79,14 @@ TEST(MendNonfinite, TakesTheOtherImagesPixel) {
         EXPECT_EQ(pt.plane[p][2], 0.0f);
         EXPECT_EQ(pr.plane[p][3], pixel_of(clean, 3, 0)[size_t(p)]);
     }
+}
+
+bool read(const FittedTest& fitted, bool alpha, ColorPlanes& planes, std::string& error) {
+    ColorReader reader;
+    if (!fitted.open_reader(alpha, 1, reader, error))
+        return false;
+    planes = fitted.planes(reader);
+    return reader.read(fitted.region().ybegin, fitted.region().yend, planes, error);
 }
 
 FlipOptions with_size(SizePolicy size) {
@@ -98,7 +106,7 @@ TEST(FittedTest, ResizesToTheReferencesDisplayWindow) {
     ASSERT_TRUE(fitted.open(reference, test, options, 1, error)) << error;
     EXPECT_EQ(fitted.region(), rect(0, 20, 0, 10));
     ColorPlanes planes;
-    ASSERT_TRUE(fitted.read(true, 1, planes, error)) << error;
+    ASSERT_TRUE(read(fitted, true, planes, error)) << error;
     const float expected[3] = {0.75f, 0.5f, 0.25f};
     for (int p = 0; p < 3; ++p)
         for (float v : planes.plane[p]) // filter weights of a constant sum to 1 within rounding
@@ -115,7 +123,7 @@ TEST(FittedTest, ResizeKeepsTheColorSpace) {
     std::string error;
     FittedTest fitted;
     ASSERT_TRUE(fitted.open(noise(12, 12, 1), test, with_size(SizePolicy::Resize), 1, error));
-    ASSERT_TRUE(fitted.read(false, 1, resized, error)) << error;
+    ASSERT_TRUE(read(fitted, false, resized, error)) << error;
     ASSERT_TRUE(read_planes(test, {}, test.roi(), false, 1, plain, error));
     for (int p = 0; p < 3; ++p)
         EXPECT_NEAR(resized.plane[p][70], plain.plane[p][0], 1e-6); // resampling's rounding
@@ -131,8 +139,8 @@ TEST(FittedTest, ResizeKeepsAHoleWhereItIs) {
     ColorPlanes planes;
     std::string error;
     ASSERT_TRUE(fitted.open(noise(16, 16, 1), test, with_size(SizePolicy::Resize), 1, error));
-    ASSERT_TRUE(fitted.read(false, 1, planes, error)) << error;
-    EXPECT_EQ(planes.nonfinite_count, 4);
+    ASSERT_TRUE(read(fitted, false, planes, error)) << error;
+    EXPECT_EQ(planes.counts.nonfinite, 4);
     for (size_t i = 0; i < planes.nonfinite.size(); ++i) {
         const size_t x = i % 16, y = i / 16;
         EXPECT_EQ(planes.nonfinite[i] != 0, x / 2 == 3 && y / 2 == 4) << x << "," << y;

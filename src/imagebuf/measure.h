@@ -1,0 +1,22 @@
+// Luminances of a region, read band by band.
+#pragma once
+
+#include <string>
+
+#include "imagebuf/color_reader.h"
+#include "imagebuf/paged_array.h"
+
+namespace tonetool {
+
+/// The luminances of a region, row by row; NaN where the image does not cover it or is not finite.
+/// Planes that hold the whole region are used as they are; others are read through from the top and
+/// end up empty, with the counts of all pixels. Holds 4 bytes per pixel beside a band.
+bool read_luminance(ColorReader& reader, ColorPlanes& planes, int nthreads,
+                    PagedArray<float>& luminance, std::string& error);
+
+/// Bytes of the plane of luminances.
+size_t luminance_bytes(const OIIO::ROI& region);
+/// Rows that are read at once.
+inline constexpr int kLuminanceRows = 64;
+
+} // namespace tonetool

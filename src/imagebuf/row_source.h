@@ -1,0 +1,71 @@
+// Rows of an ImageBuf, from memory or straight from its file.
+#pragma once
+
+#include <OpenImageIO/imagebuf.h>
+#include <OpenImageIO/imageio.h>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace tonetool {
+
+/// Channels next to each other that are read at once.
+struct ChannelRun {
+    int begin = 0, end = 0;
+    int count() const { return end - begin; }
+};
+
+/// An ImageBuf that was opened with a file name and never read is taken from the file itself, by
+/// an ImageInput of its own: no pixel goes into an ImageCache. Any other is asked for its pixels.
+class RowSource {
+public:
+    /// The image must live as long as this does.
+    bool open(const OIIO::ImageBuf& image, std::vector<ChannelRun> runs, std::string& error);
+
+    bool from_file() const { return m_from_file; }
+    const std::vector<ChannelRun>& runs() const { return m_runs; }
+    int left() const { return m_spec.x; } ///< first column of the rows
+    int width() const { return m_spec.width; }
+    /// How many rows from `row` on are best read at once, when they take about `bytes` as float.
+    int rows_at_once(int row, size_t bytes) const;
+    /// What the decoder of the file holds until `rest`, by estimate.
+    size_t decoder_bytes() const;
+    /// What is kept of the file for the next read, at most.
+    size_t kept_bytes() const;
+
+    /// Rows of the data window, its whole width, as interleaved floats of one run. From a file
+    /// only one thread at a time may ask. A file that has changed since `open` is an error.
+    bool read(int begin, int end, size_t run, float* out, std::string& error);
+    /// Gives back what the decoder holds, where it costs little to start it again.
+    void rest();
+
+private:
+    /// Rows of tiles that the next band may want again.
+    struct TileRows {
+        int begin = 0, end = 0;
+        std::vector<float> pixels;
+    };
+    struct FileState {
+        std::filesystem::file_time_type written{};
+        uintmax_t size = 0;
+        bool operator==(const FileState& o) const { return written == o.written && size == o.size; }
+    };
+
+    bool open_file(std::string& error);
+    bool read_file(int begin, int end, size_t run, float* out);
+    bool read_tiles(int begin, int end, size_t run, float* out);
+    bool unchanged(std::string& error) const;
+    FileState state() const;
+
+    const OIIO::ImageBuf* m_image = nullptr;
+    std::vector<ChannelRun> m_runs;
+    bool m_from_file = false;
+    FileState m_state;
+    std::unique_ptr<OIIO::ImageInput> m_input;
+    OIIO::ImageSpec m_spec;
+    std::string m_format;
+    std::vector<TileRows> m_tiles; // one per run
+};
+
+} // namespace tonetool
