@@ -20,14 +20,22 @@ inline OIIO::ImageBuf view_with_spec(const OIIO::ImageBuf& pixels, const OIIO::I
 using HeaderCache = std::shared_ptr<OIIO::ImageCache>;
 
 inline HeaderCache make_header_cache() {
+#if OIIO_VERSION >= 30000 // shares its caches itself
+    return OIIO::ImageCache::create(false);
+#else
     return {OIIO::ImageCache::create(false),
             [](OIIO::ImageCache* cache) { OIIO::ImageCache::destroy(cache); }};
+#endif
 }
 
 /// An ImageBuf that knows the header of a subimage and reads no pixel. It is valid as long as the
 /// cache is.
 inline OIIO::ImageBuf unread_file(const std::string& file, int subimage, const HeaderCache& cache) {
+#if OIIO_VERSION >= 30000
+    OIIO::ImageBuf buffer(file, subimage, 0, cache);
+#else
     OIIO::ImageBuf buffer(file, subimage, 0, cache.get());
+#endif
     cache->close_all();
     return buffer;
 }
