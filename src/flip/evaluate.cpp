@@ -17,6 +17,8 @@ using kernels::Window;
 // A few rows of a tile must stay in a core's L2 cache; narrow or low tiles spend their time on
 // halos. Enough tiles remain for all threads to end at the same time.
 constexpr int kTileWidth = 640, kTileHeight = 128;
+// Of several tests at a time, each with rows of its own.
+constexpr int kNarrowTileWidth = 320, kNarrowFrom = 3;
 
 // `length` in equal parts of about `wanted`.
 int part_size(int length, int wanted) {
@@ -24,11 +26,12 @@ int part_size(int length, int wanted) {
     return (length + parts - 1) / parts;
 }
 
-Window tile_size(const Evaluation& what, int width, int height) {
+Window tile_size(const Evaluation& what, int width, int height, size_t tests) {
     const int halo = reach(what.taps);
+    const int columns = tests >= kNarrowFrom ? kNarrowTileWidth : kTileWidth;
     const int rows =
         what.most_tile_rows > 0 ? what.most_tile_rows : std::max(kTileHeight, 8 * halo);
-    return {0, 0, part_size(width, std::max(kTileWidth, 16 * halo)), part_size(height, rows)};
+    return {0, 0, part_size(width, std::max(columns, 16 * halo)), part_size(height, rows)};
 }
 
 const kernels::FlipRows& functions_of(const Evaluation& what) {
@@ -47,7 +50,7 @@ public:
           m_window(window),
           m_outputs(outputs),
           m_functions(functions_of(what)),
-          m_size(tile_size(what, window.width, window.height)),
+          m_size(tile_size(what, window.width, window.height, tests.size())),
           m_across((window.width + m_size.width - 1) / m_size.width),
           m_down((window.height + m_size.height - 1) / m_size.height) {
         for (const Output& output : outputs)
@@ -164,7 +167,7 @@ void evaluate(const Evaluation& what, const kernels::ConstRgb& reference,
 
 size_t work_bytes(const Evaluation& what, int width, size_t tests, bool keep_each) {
     constexpr int enough = 1 << 20;
-    const Window size = tile_size(what, width, enough);
+    const Window size = tile_size(what, width, enough, tests);
     const kernels::TileShape shape(functions_of(what).lanes, size.width, size.height,
                                    reach(what.taps));
     return FlipTile::bytes(shape, tests, keep_each);

@@ -71,10 +71,13 @@ PicturePair make_corner_pair(int width, int height) {
     return out;
 }
 
+// As many as asked for, over the range that HDR-FLIP takes for the pair: its maximum is 16, its
+// median 1, and ACES brings 2.119 to the brightness of the paper.
 std::vector<double> exposures(int count) {
+    const double start = std::log2(2.119 / 16), stop = std::log2(2.119);
     std::vector<double> out;
     for (int i = 0; i < count; ++i)
-        out.push_back(-4.0 + 8.0 * i / (count - 1));
+        out.push_back(start + (stop - start) * i / (count - 1));
     return out;
 }
 
