@@ -17,10 +17,12 @@
 namespace tonetool::flip {
 namespace {
 
+using kernels::Case;
 using kernels::ConstRgb;
 using kernels::Content;
 using kernels::FlipTaps;
 using kernels::HdrImage;
+using kernels::name_of;
 using kernels::on_every_target;
 using kernels::Uniform;
 using kernels::Window;
@@ -108,19 +110,6 @@ Maps cut(const Maps& whole, int width, const Window& w) {
 }
 
 // ------------------------------------------------------------------ the formulas
-
-struct Case {
-    const char* curve;
-    double ppd;
-};
-
-std::ostream& operator<<(std::ostream& out, const Case& c) {
-    return out << c.curve << " at " << c.ppd;
-}
-
-std::string name_of(const testing::TestParamInfo<Case>& info) {
-    return std::string(info.param.curve) + "_" + std::to_string(std::lround(info.param.ppd));
-}
 
 class EvaluateSpec : public testing::TestWithParam<Case> {
 protected:

@@ -3,58 +3,32 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <atomic>
 #include <numeric>
-#include <thread>
 
 #include "flip/filters.h"
 #include "hdr_image.h"
 #include "kernels/flip_twin.h"
+#include "schedules.h"
 #include "tonemap/rational.h"
 
 namespace tonetool::flip {
 namespace {
 
+using kernels::backwards;
 using kernels::Content;
 using kernels::HdrImage;
+using kernels::in_order;
+using kernels::on_threads;
 using kernels::ParallelFor;
 using kernels::Window;
 
-// More than one tile of 96 x 96 in both directions, none of them whole vectors.
-constexpr int kWidth = 143, kHeight = 109;
+// Two tiles in both directions, of 351 x 71 pixels: none of them whole vectors.
+constexpr int kWidth = 701, kHeight = 141, kSeamX = 351, kSeamY = 71;
 
 const std::vector<double> kStops = {-3.5, -1.0, 0.5, 2.0};
 
 Evaluation evaluation(double ppd = 67.02, std::vector<double> stops = kStops) {
     return {lane_taps(make_taps(ppd)), *tonemap::rational_curve("aces"), std::move(stops)};
-}
-
-ParallelFor in_order() {
-    return [](int64_t n, const std::function<void(int64_t)>& task) {
-        for (int64_t i = 0; i < n; ++i)
-            task(i);
-    };
-}
-
-ParallelFor backwards() {
-    return [](int64_t n, const std::function<void(int64_t)>& task) {
-        for (int64_t i = n; i-- > 0;)
-            task(i);
-    };
-}
-
-ParallelFor on_threads(int threads) {
-    return [threads](int64_t n, const std::function<void(int64_t)>& task) {
-        std::atomic<int64_t> next{0};
-        std::vector<std::thread> pool;
-        for (int t = 0; t < threads; ++t)
-            pool.emplace_back([&] {
-                for (int64_t i = next++; i < n; i = next++)
-                    task(i);
-            });
-        for (auto& thread : pool)
-            thread.join();
-    };
 }
 
 // Planes of one test, the size of the whole image; stale so that missing pixels show.
@@ -113,7 +87,8 @@ TEST_F(Evaluate, ScheduleDoesNotChangeABit) {
 }
 
 TEST_F(Evaluate, WindowsDoNotChangeABit) {
-    const std::pair<int, int> sizes[] = {{kWidth, 1}, {1, kHeight}, {50, 37}, {97, 96}, {142, 108}};
+    const std::pair<int, int> sizes[] = {
+        {kWidth, 9}, {67, kHeight}, {150, 37}, {497, 96}, {700, 140}};
     for (const auto& [w, h] : sizes) {
         SCOPED_TRACE(testing::Message() << w << "x" << h);
         Planes tiled(m_reference, kStops.size());
@@ -220,7 +195,7 @@ TEST_F(Evaluate, IdenticalImagesAreZeroEverywhere) {
 
 TEST_F(Evaluate, OnePixelIsFeltWithinTheReachOnly) {
     HdrImage changed = m_reference;
-    const int cx = 96, cy = 50; // beside a seam of tiles
+    const int cx = kSeamX, cy = kSeamY - 1; // beside two seams of tiles
     changed.plane[1][size_t(cy * kWidth + cx)] += 4.0f;
     const auto error = whole(m_reference, changed, evaluation(), in_order()).error;
     const int far = reach(evaluation().taps);

@@ -43,19 +43,6 @@ Maps run_lanes(const HdrImage& reference, const HdrImage& test, const FlipTaps<d
     return out;
 }
 
-struct Case {
-    const char* curve;
-    double ppd;
-};
-
-std::ostream& operator<<(std::ostream& out, const Case& c) {
-    return out << c.curve << " at " << c.ppd;
-}
-
-std::string name_of(const testing::TestParamInfo<Case>& info) {
-    return std::string(info.param.curve) + "_" + std::to_string(std::lround(info.param.ppd));
-}
-
 class Lanes : public testing::TestWithParam<Case> {
 protected:
     const FlipTaps<double> m_exact = flip::make_taps(GetParam().ppd);

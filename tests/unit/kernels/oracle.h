@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <ostream>
 #include <string>
 #include <vector>
 
@@ -17,6 +18,20 @@ namespace tonetool::kernels {
 inline constexpr double kSmallError = 0.01, kClose = 1e-5, kCloseBelow = 1e-4;
 // Two instruction sets, each within kClose of the twin.
 inline constexpr double kAmongTargets = 2e-5;
+
+/// What tests are repeated for.
+struct Case {
+    const char* curve;
+    double ppd;
+};
+
+inline std::ostream& operator<<(std::ostream& out, const Case& c) {
+    return out << c.curve << " at " << c.ppd;
+}
+
+inline std::string name_of(const testing::TestParamInfo<Case>& info) {
+    return std::string(info.param.curve) + "_" + std::to_string(std::lround(info.param.ppd));
+}
 
 inline ToneCurve curve_of(const std::string& name) {
     return name == "ldr" ? ToneCurve{} : *tonemap::rational_curve(name);
