@@ -1,7 +1,6 @@
 #include "metrics/luminance.h"
 
 #include <cmath>
-#include <limits>
 
 #include "kernels/tone_curve.h"
 #include "metrics/blocks.h"
@@ -10,28 +9,8 @@
 namespace tonetool::metrics {
 namespace {
 
-using kernels::ConstRgb;
 using kernels::kLuminance;
 using kernels::ParallelFor;
-
-// Luminance of every pixel, NaN where it is to be skipped.
-std::vector<float> luminance_plane(const ConstRgb& image, const std::vector<uint8_t>& skip,
-                                   const ParallelFor& parallel) {
-    const auto width = size_t(std::max(image.width, 0));
-    std::vector<float> out(width * size_t(std::max(image.height, 0)));
-    for_each_block(image.width, image.height, parallel, [&](int first, int end) {
-        for (int y = first; y < end; ++y)
-            luminance_row(image.plane[0] + y * image.stride, image.plane[1] + y * image.stride,
-                          image.plane[2] + y * image.stride, out.data() + size_t(y) * width,
-                          image.width);
-        if (skip.empty())
-            return;
-        for (size_t i = size_t(first) * width; i < size_t(end) * width; ++i)
-            if (skip[i])
-                out[i] = std::numeric_limits<float>::quiet_NaN();
-    });
-    return out;
-}
 
 struct Sums {
     double values = 0, logs = 0;
@@ -108,18 +87,6 @@ LuminanceStats luminance(const float* plane, int width, int height, const Parall
     stats.p999 = found[6];
     averages(plane, width, height, order.count(), parallel, stats);
     return stats;
-}
-
-LuminanceStats luminance(const ConstRgb& image, const std::vector<uint8_t>& skip,
-                         const ParallelFor& parallel) {
-    const auto plane = luminance_plane(image, skip, parallel);
-    return luminance(plane.data(), image.width, image.height, parallel);
-}
-
-ExposureStats exposure_statistics(const ConstRgb& image, const std::vector<uint8_t>& skip,
-                                  const ParallelFor& parallel) {
-    const auto plane = luminance_plane(image, skip, parallel);
-    return exposure_statistics(plane.data(), image.width, image.height, parallel);
 }
 
 } // namespace tonetool::metrics

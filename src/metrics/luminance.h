@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <vector>
 
 #include "include/tonetool/numbers.h"
 #include "kernels/views.h"
@@ -26,12 +25,5 @@ ExposureStats exposure_statistics(const float* plane, int width, int height,
 /// non-finite and negative ones, the layer and the space.
 LuminanceStats luminance(const float* plane, int width, int height,
                          const kernels::ParallelFor& parallel);
-
-/// The same of finite, non-negative linear Rec.709, a whole image. `skip`, if not empty, marks
-/// (row by row, without padding) the pixels that are not to be looked at.
-LuminanceStats luminance(const kernels::ConstRgb& image, const std::vector<uint8_t>& skip,
-                         const kernels::ParallelFor& parallel);
-ExposureStats exposure_statistics(const kernels::ConstRgb& image, const std::vector<uint8_t>& skip,
-                                  const kernels::ParallelFor& parallel);
 
 } // namespace tonetool::metrics

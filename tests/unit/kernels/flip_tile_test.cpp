@@ -2,7 +2,6 @@
 #include "kernels/flip_tile.h"
 
 #include <gtest/gtest.h>
-#include <hwy/targets.h>
 
 #include <algorithm>
 #include <cfloat>
@@ -56,15 +55,13 @@ protected:
         const auto expected =
             hdr_flip_twin(reference.view(), test.view(), m_exact, m_curve, m_stops, nullptr);
         std::vector<float> first;
-        for (int64_t id : hwy::SupportedAndGeneratedTargets()) {
-            SCOPED_TRACE(hwy::TargetName(id));
-            const Target target(id);
+        on_every_target([&] {
             const auto ours = run_lanes(reference, test, m_exact, m_curve, m_stops).error;
             expect_close(ours, expected, kClose, kCloseBelow, "twin");
             if (first.empty())
                 first = ours;
             expect_close(ours, first, kAmongTargets, kCloseBelow, "first target");
-        }
+        });
     }
 };
 
@@ -111,16 +108,14 @@ TEST_P(Lanes, MatchTheTwinOnFlatImages) {
 }
 
 TEST_P(Lanes, IdenticalImagesAreExactlyZero) {
-    for (int64_t id : hwy::SupportedAndGeneratedTargets()) {
-        SCOPED_TRACE(hwy::TargetName(id));
-        const Target target(id);
+    on_every_target([&] {
         for (Content content : {Content::Noise, Content::Gradient, Content::Patches}) {
             const HdrImage image = make_image(content, 37, 11, 41);
             const Maps maps = run_lanes(image, image, m_exact, m_curve, m_stops);
             EXPECT_EQ(maps.error, std::vector<float>(image.size(), 0.0f));
             EXPECT_EQ(maps.index, std::vector<float>(image.size(), 0.0f));
         }
-    }
+    });
 }
 
 INSTANTIATE_TEST_SUITE_P(Curves, Lanes,
@@ -218,10 +213,9 @@ TEST(Transpose, TransposesOnEveryTarget) {
 
 TEST(ToneMapPixels, MatchTheTwinForEveryCount) {
     const HdrImage image = make_image(Content::Noise, 40, 1, 61);
-    for (int64_t id : hwy::SupportedAndGeneratedTargets())
+    on_every_target([&] {
         for (const char* name : {"ldr", "aces", "hable", "reinhard"}) {
-            SCOPED_TRACE(std::string(name) + " " + hwy::TargetName(id));
-            const Target target(id);
+            SCOPED_TRACE(name);
             const ToneCurve curve = curve_of(name);
             const TwinImage expected = tone_map_twin(image.view(), curve, 1.25);
             for (int count = 1; count <= 40; ++count) {
@@ -237,6 +231,7 @@ TEST(ToneMapPixels, MatchTheTwinForEveryCount) {
                 }
             }
         }
+    });
 }
 
 TEST(ToneMapPixels, MayWorkInPlace) {
@@ -255,10 +250,9 @@ TEST(HugeValues, SaturateToWhite) {
     HdrImage pixels(3, 1);
     for (auto& p : pixels.plane)
         p = {1e30f, FLT_MAX, 1e6f};
-    for (int64_t id : hwy::SupportedAndGeneratedTargets())
+    on_every_target([&] {
         for (const char* name : {"ldr", "aces", "hable", "reinhard"}) {
-            SCOPED_TRACE(std::string(name) + " " + hwy::TargetName(id));
-            const Target target(id);
+            SCOPED_TRACE(name);
             HdrImage out(3, 1);
             float* to[3] = {out.plane[0].data(), out.plane[1].data(), out.plane[2].data()};
             for (double stops : {-3.0, 0.0, 20.0, 127.0}) {
@@ -269,6 +263,7 @@ TEST(HugeValues, SaturateToWhite) {
                         EXPECT_NEAR(v, 1.0f, 1e-5f) << "at " << stops << " stops";
             }
         }
+    });
 }
 
 TEST(HugeValues, DifferFromBlackAsWhiteDoes) {
@@ -279,14 +274,12 @@ TEST(HugeValues, DifferFromBlackAsWhiteDoes) {
         huge.plane[c].assign(25, FLT_MAX);
         white.plane[c].assign(25, 1e9f);
     }
-    for (int64_t id : hwy::SupportedAndGeneratedTargets()) {
-        SCOPED_TRACE(hwy::TargetName(id));
-        const Target target(id);
+    on_every_target([&] {
         const ToneCurve aces = curve_of("aces");
         const auto of_huge = run_lanes(black, huge, taps, aces, {0, 4}).error;
         EXPECT_EQ(of_huge, run_lanes(black, white, taps, aces, {0, 4}).error);
         EXPECT_NEAR(of_huge[12], 0.9673883, 1e-5); // published: black against white
-    }
+    });
 }
 
 TEST(FlipTile, CompareRaisesTheMaximumStrictly) {
