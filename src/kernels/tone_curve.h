@@ -2,6 +2,8 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
+#include <functional>
 
 namespace tonetool::kernels {
 
@@ -17,6 +19,12 @@ struct ToneCurve {
     ToneKind kind = ToneKind::None;
     std::array<double, 6> k{};
 };
+
+/// Tone maps rows by other means than a ToneCurve: `count` pixels of finite values >= 0 are
+/// multiplied by `scale` and mapped to linear Rec.709 display light in [0,1]. In and out do not
+/// overlap. Called by several threads at a time.
+using ToneRows = std::function<void(const float* const in[3], float* const out[3], ptrdiff_t count,
+                                    float scale)>;
 
 /// Luminance weights of the exposures and of Reinhard's curve (Rec.709, as published).
 inline constexpr double kLuminance[3] = {0.2126, 0.7152, 0.0722};

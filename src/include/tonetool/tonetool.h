@@ -6,4 +6,5 @@
 #include "tonetool/flip.h"
 #include "tonetool/luminance.h"
 #include "tonetool/pixels.h"
+#include "tonetool/tonemap.h"
 #include "tonetool/write.h"

@@ -1,0 +1,155 @@
+// Showing HDR images: tone curves, calibration, and the views of OpenColorIO configurations.
+//
+// M. Pettineo, "A Closer Look at Tone Mapping" (2010), the sources that ToneAlgo::tone_curves()
+// names for each curve, and OpenColorIO 2.
+#pragma once
+
+#include <OpenImageIO/imagebuf.h>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "tonetool/export.h"
+#include "tonetool/pixels.h"
+
+namespace tonetool {
+
+/// A tone curve of the registry, or six coefficients.
+struct CurveOptions {
+    std::string name = "aces"; ///< see ToneAlgo::tone_curves()
+    /// Parameters of the curve by name; the others have their defaults.
+    std::map<std::string, double> parameters;
+    /// y = (k0 x^2 + k1 x + k2) / (k3 x^2 + k4 x + k5) (HDR-FLIP paper, Eq. 1) instead of the name.
+    std::vector<double> coeffs;
+    /// "rgb": on each channel; "luminance": T(L) (C/L)^saturation; empty: as the curve is meant.
+    /// Curves that mix the channels (agx, neutral, aces-hill) have no choice.
+    std::string on;
+    double saturation = 1; ///< of curves on luminance, 0 to 4
+};
+
+/// A display and view of an OpenColorIO configuration.
+struct ViewOptions {
+    std::string config;  ///< file of the configuration; empty: the environment variable OCIO
+    std::string display; ///< empty: the configuration's default
+    std::string view;    ///< empty: the display's default
+    std::string looks;   ///< instead of the view's own; empty: the view's own
+    /// Context variables and their values, in place of the environment's.
+    std::vector<std::pair<std::string, std::string>> context;
+};
+
+/// How the exposure of an image is found.
+enum class CalibrationMethod {
+    Manual,  ///< 2^stops
+    Mean,    ///< key / geometric mean of the luminance, times 2^stops
+    AutoKey, ///< the same, the key from the mean (Krawczyk et al. 2005): 1.03 - 2 / (2 + log10(1 +
+             ///< mean))
+};
+
+struct CalibrationOptions {
+    CalibrationMethod method = CalibrationMethod::Manual;
+    double stops = 0;  ///< -126 to 126
+    double key = 0.18; ///< what the mean becomes, with Mean; 1e-4 to 100
+    /// Local means: 2^level x 2^level cells over the image, interpolated bilinearly between their
+    /// middles (the article's MIP levels, counted from the top). 0: one mean for the image. Not
+    /// beyond the level at which a cell would be narrower than a pixel.
+    int level = 0;
+    double epsilon = 1e-6;         ///< added to each luminance before its logarithm, > 0
+    bool skip_black = false;       ///< pixels of luminance 0 are not in the statistics
+    bool skip_transparent = false; ///< pixels of alpha 0 are not in the statistics
+    /// The curve's parameter `white` from this percentile of the calibrated luminance; 100 is the
+    /// maximum. Above 0 up to 100.
+    std::optional<double> white_percentile;
+};
+
+/// What was measured and chosen.
+struct CalibrationSummary {
+    double mean = 0;     ///< geometric mean of the luminance; 0 where none was needed
+    double key = 0;      ///< that was used; 0 where none was
+    double exposure = 0; ///< stops that brought it there: of the whole image
+    double white = 0;    ///< 0 where none was asked for
+    int64_t pixels = 0;  ///< that the statistics are of
+};
+
+struct TonemapOptions {
+    PixelOptions pixels; ///< layer and colour space
+    CurveOptions curve;
+    std::optional<ViewOptions> view; ///< instead of the curve
+    CalibrationOptions calibration;
+    /// Primaries that a curve works in and that the result has: "rec709" or "image", those of the
+    /// image, whose luminance weights are then used. Views take the image's own.
+    std::string primaries = "rec709";
+    /// Of the result of a curve: none (linear), srgb, gamma2.2, rec1886 (2.4), gamma2.6.
+    std::string encode = "none";
+    bool clamp = true;      ///< the result of a curve to [0,1]
+    bool unpremult = false; ///< divide colour by alpha before and multiply after
+};
+
+struct TonemapSummary {
+    std::string layer, space;
+    std::string curve; ///< name, "coeffs", or "display/view"
+    std::map<std::string, double> parameters;
+    std::string on; ///< "rgb", "luminance", "color"
+    CalibrationSummary calibration;
+    int64_t nonfinite = 0; ///< pixels with NaN or Inf in R, G or B
+    int64_t negative = 0;  ///< pixels with a negative component where the curve works
+    std::vector<std::string> warnings;
+};
+
+/// A row of the registry, for people and for programs that show a menu.
+struct ToneCurveParameter {
+    std::string name, help;
+    double value = 0, low = 0, high = 0;
+};
+struct ToneCurveInfo {
+    std::string name, title, source, formula, note;
+    std::string domain;   ///< "rgb", "luminance" or "color"
+    bool encoded = false; ///< the published formula's display-encoded result is decoded
+    std::vector<ToneCurveParameter> parameters;
+    std::vector<double> coefficients; ///< with its default parameters; empty where it has none
+};
+
+namespace ToneAlgo {
+
+/// Tone map the colour of an image, by a curve or by a view.
+///
+/// Colour: R, G, B of the layer that options choose; every other channel is carried unchanged. For
+///   a curve they are brought to linear light in `primaries`, multiplied by the calibrated
+///   exposure, mapped, clamped and encoded; negative components become 0 and are counted. For a
+///   view the configuration does it all, from the colour space options.pixels.from names there
+///   (else from the image's own) to the display's encoding; nothing is clamped.
+/// NaN and -Inf become 0, +Inf the largest value; they are counted and warned about.
+/// Alpha: associated colour is mapped as it is stored, as OpenColorIO's tools do; with unpremult
+///   it is divided by alpha first where alpha is not 0.
+/// Statistics skip non-finite pixels, and are of the whole data window whatever the ROI.
+/// The result is float and tagged with its colour space. Errors: no colour, deep images, unknown
+/// names and values out of range, each with what would be valid.
+TONETOOL_API bool tonemap(OIIO::ImageBuf& dst, const OIIO::ImageBuf& src,
+                          const TonemapOptions& options = {}, TonemapSummary* summary = nullptr,
+                          OIIO::ROI roi = {}, int nthreads = 0);
+TONETOOL_API OIIO::ImageBuf tonemap(const OIIO::ImageBuf& src, const TonemapOptions& options = {},
+                                    TonemapSummary* summary = nullptr, OIIO::ROI roi = {},
+                                    int nthreads = 0);
+
+/// Only the calibration: multiply the colour by the exposure that is found. The image must be
+/// linear. Non-finite pixels stay as they are.
+TONETOOL_API bool calibrate(OIIO::ImageBuf& dst, const OIIO::ImageBuf& src,
+                            const CalibrationOptions& calibration = {},
+                            const PixelOptions& options = {}, CalibrationSummary* summary = nullptr,
+                            OIIO::ROI roi = {}, int nthreads = 0);
+
+/// The registry of tone curves.
+TONETOOL_API std::vector<ToneCurveInfo> tone_curves();
+TONETOOL_API std::vector<std::string> tone_curve_names();
+
+/// Display light of a grey of each of these exposed values, as the curve gives it, unclamped.
+TONETOOL_API bool tone_curve_response(std::vector<double>& response, const CurveOptions& curve,
+                                      const std::vector<double>& values, std::string& error);
+
+/// Encodings of `TonemapOptions::encode`.
+TONETOOL_API std::vector<std::string> display_encodings();
+
+} // namespace ToneAlgo
+} // namespace tonetool

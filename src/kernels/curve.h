@@ -1,0 +1,38 @@
+// Tone curves as plain numbers: scene light, exposed, to display light.
+#pragma once
+
+#include <array>
+#include <cstddef>
+
+namespace tonetool::kernels {
+
+/// The formulas. What the numbers of each one are is said where they are made, in
+/// tonemap/curves_*.cpp, and used, in curve_twin.cpp.
+enum class CurveKind {
+    Rational,    ///< (k0 x^2 + k1 x + k2) / (k3 x^2 + k4 x + k5)
+    Logarithmic, ///< log(1 + x) / log(1 + white)
+    Exponential, ///< 1 - exp(-x / white)
+    Drago,       ///< adaptive logarithm (Drago et al. 2003)
+    FilmicAlu,   ///< Hejl and Burgess-Dawson, decoded from its gamma of 2.2
+    AcesHill,    ///< matrix, rational, matrix
+    Lottes,      ///< x^a / (b x^(a d) + c)
+    Uchimura,    ///< toe, straight line, shoulder
+    Agx,         ///< matrix, polynomial on log2, matrix, decoded from 2.2
+    Neutral,     ///< Khronos PBR neutral
+};
+
+/// One curve with its parameters folded in.
+struct CurveNumbers {
+    CurveKind kind = CurveKind::Rational;
+    std::array<double, 12> p{0, 1, 0, 0, 0, 1};
+};
+
+/// How a curve is applied to a pixel.
+struct CurveUse {
+    bool on_luminance = false; ///< T(L) (C/L)^saturation instead of T(C)
+    std::array<double, 3> weights{0.2126, 0.7152, 0.0722}; ///< of luminance
+    double saturation = 1;
+    bool clamp = true; ///< the result to [0,1]
+};
+
+} // namespace tonetool::kernels

@@ -1,0 +1,67 @@
+// The registry of tone curves: one row each. Options, help, tests, look-up tables and figures are
+// all read from these rows.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "kernels/curve.h"
+
+namespace tonetool::tonemap {
+
+struct CurveParameter {
+    const char* name; ///< "white"
+    double value;     ///< default
+    double low, high; ///< closed range of valid values
+    const char* help;
+    /// Default in HDR-FLIP where its paper has another one.
+    std::optional<double> flip_value{};
+};
+
+enum class CurveDomain {
+    Channel,   ///< on each channel, unless asked otherwise
+    Luminance, ///< on luminance, unless asked otherwise
+    Color,     ///< mixes the channels: neither can be chosen
+};
+
+/// Values of the parameters, in the order of the row.
+using CurveValues = std::vector<double>;
+
+struct Curve {
+    const char* name;    ///< "aces"
+    const char* title;   ///< "ACES, Narkowicz's fit"
+    const char* source;  ///< whom and what it is from
+    const char* formula; ///< as one line of text
+    CurveDomain domain;
+    bool encoded;  ///< the published formula gives display-encoded values, decoded here
+    bool monotone; ///< where the result, clamped to [0,1], never decreases with a grey's value
+    std::vector<CurveParameter> parameters;
+    kernels::CurveNumbers (*make)(const CurveValues&);
+    const char* note = ""; ///< what a user must know: "clamped where it exceeds 1"
+};
+
+const std::vector<Curve>& all_curves();
+const Curve* find_curve(std::string_view name);
+std::vector<std::string> curve_names();
+/// Every parameter name of any curve, once, in the order of first appearance.
+std::vector<std::string> curve_parameter_names();
+
+/// Those of `names` that a person could have meant, nearest first; "" or "did you mean a, b?".
+std::string did_you_mean(std::string_view word, const std::vector<std::string>& names);
+
+/// Defaults, with those of `given` in their place. An unknown name or a value out of range is an
+/// error that says what would be valid. `flip`: HDR-FLIP's defaults.
+bool curve_values(const Curve& curve, const std::map<std::string, double>& given, bool flip,
+                  CurveValues& values, std::string& error);
+
+/// Six coefficients as a curve. Not finite, or a denominator that is 0 everywhere, is an error.
+bool coefficient_curve(const std::vector<double>& k, kernels::CurveNumbers& curve,
+                       std::string& error);
+
+/// The largest x >= 0 up to 2^64 with curve(x) = y for a grey; nullopt where there is none.
+std::optional<double> inverse(const kernels::CurveNumbers& curve, double y);
+
+} // namespace tonetool::tonemap
