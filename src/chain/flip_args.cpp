@@ -112,11 +112,11 @@ void read_flip_options(const Call& call, bool screen, FlipOptions& options) {
 
 void read_hdr_options(const Call& call, HdrFlipOptions& options) {
     auto curve = call.choice("tonemapper", ToneAlgo::flip_tonemappers());
-    options.coeffs = call.numbers("coeffs", 6);
-    if (curve && !options.coeffs.empty()) {
+    options.curve.coeffs = call.numbers("coeffs", 6);
+    if (curve && !options.curve.coeffs.empty()) {
         throw CommandError("tonemapper= and coeffs= exclude each other (valid: one of them)");
     }
-    options.tonemapper = curve.value_or(options.tonemapper);
+    options.curve.name = curve.value_or(options.curve.name);
     read_exposures(call, options);
     options.num_exposures = call.integer("numExposures", {1, 1024});
     options.max_luminance = call.number("maxluminance", luminance_range);
@@ -157,8 +157,8 @@ HdrFlipOptions flipdiff_options(const Call& call) {
     HdrFlipOptions options;
     options.pixels = pixel_options(call);
     options.ppd = call.number("ppd", {1, 1000}).value_or(67.02);
-    options.tonemapper =
-        call.choice("tonemapper", ToneAlgo::flip_tonemappers()).value_or(options.tonemapper);
+    options.curve.name =
+        call.choice("tonemapper", ToneAlgo::flip_tonemappers()).value_or(options.curve.name);
     read_exposures(call, options);
     int count = call.integer("numExposures", {0, 1024}).value_or(0);
     options.num_exposures = count > 0 ? std::optional<int>(count) : std::nullopt;

@@ -40,6 +40,13 @@ void add_hdr(Lines& lines, const FlipSummary& summary) {
         }
         lines.add("coeffs", join(numbers, ","));
     }
+    for (const auto& [name, value] : summary.parameters) {
+        lines.add("curve-" + name, value);
+    }
+    if (summary.baked) {
+        lines.add("bake-error", "max " + format_number(summary.bake_error_max) + " mean " +
+                                    format_number(summary.bake_error_mean));
+    }
     if (!summary.exposures.empty()) {
         lines.add("exposures", "start " + format_number(summary.exposures.front()) + " stop " +
                                    format_number(summary.exposures.back()) + " count " +

@@ -91,7 +91,7 @@ private:
             tests.push_back(&m_tests[t]);
         space.load(tile, m_reference, tests);
         for (size_t n = 0; n < m_what.stops.size(); ++n) {
-            space.expose(m_what.curve, float(std::exp2(m_what.stops[n])), float(n));
+            space.expose(m_what.curve, float(std::exp2(m_what.stops[n])), float(n), m_what.rows);
             for (size_t i = 0; i < differing.size(); ++i)
                 if (const Output& output = m_outputs[differing[i]]; !output.per_exposure.empty())
                     store(space, i, FlipTile::kLastError, tile, output.per_exposure[n], output);

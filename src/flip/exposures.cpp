@@ -23,11 +23,11 @@ bool in_range(double stops, const char* name, std::string& error) {
 }
 
 // One end of the range from a luminance.
-bool measure(const std::array<double, 6>& curve, double luminance, const char* name, double& stops,
+bool measure(std::optional<double> bright, double luminance, const char* name, double& stops,
              std::string& error) {
-    const auto x = bright_point(curve);
-    if (!x) {
-        error = text("the tone curve never reaches %g, so there is no automatic exposure: pass "
+    if (!bright) {
+        error = text("what the image is shown through never reaches %g, so there is no automatic "
+                     "exposure: pass "
                      "startExposure and stopExposure",
                      kBright);
         return false;
@@ -40,7 +40,7 @@ bool measure(const std::array<double, 6>& curve, double luminance, const char* n
                 name + "Exposure";
         return false;
     }
-    stops = std::log2(*x / luminance);
+    stops = std::log2(*bright / luminance);
     return true;
 }
 
@@ -60,15 +60,38 @@ std::optional<double> bright_point(const std::array<double, 6>& k) {
     return x;
 }
 
-bool make_exposures(const std::array<double, 6>& curve, const ExposureRequest& request,
+std::optional<double> bright_point(const GreyResponse& response) {
+    constexpr double first = -64, last = 64;
+    constexpr int steps_per_stop = 32;
+    double low = first, high = last;
+    int steps = int(last - first) * steps_per_stop;
+    // The uppermost step between two values on both sides of kBright, in ever finer steps.
+    for (constexpr int finer = 64; (high - low) / steps > 1e-14; steps = finer) {
+        std::vector<double> values;
+        for (int i = 0; i <= steps; ++i)
+            values.push_back(std::exp2(low + (high - low) * i / steps));
+        const std::vector<double> shown = response(values);
+        int i = steps - 1;
+        while (i >= 0 && (shown[size_t(i)] >= kBright) == (shown[size_t(i + 1)] >= kBright))
+            --i;
+        if (i < 0)
+            return std::nullopt;
+        const double step = (high - low) / steps;
+        high = low + step * (i + 1);
+        low += step * i;
+    }
+    return std::exp2(0.5 * (low + high));
+}
+
+bool make_exposures(std::optional<double> bright, const ExposureRequest& request,
                     std::vector<double>& stops, std::string& error) {
     double start = request.start.value_or(0), stop = request.stop.value_or(0);
     const bool single = request.count == 1;
-    if (!request.start && !measure(curve, request.max_luminance, "start", start, error))
+    if (!request.start && !measure(bright, request.max_luminance, "start", start, error))
         return false;
     if (single && !request.stop)
         stop = start;
-    else if (!request.stop && !measure(curve, request.median_luminance, "stop", stop, error))
+    else if (!request.stop && !measure(bright, request.median_luminance, "stop", stop, error))
         return false;
     if (!in_range(start, "start", error) || !in_range(stop, "stop", error))
         return false;

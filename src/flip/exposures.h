@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -19,6 +20,13 @@ inline constexpr double kMinStops = -126.0, kMaxStops = 127.0;
 /// never gets there at a positive x.
 std::optional<double> bright_point(const std::array<double, 6>& k);
 
+/// Display values of greys of these scene values.
+using GreyResponse = std::function<std::vector<double>(const std::vector<double>&)>;
+
+/// The same for any continuous curve, solved numerically between 2^-64 and 2^64. Two solutions
+/// less than 1/32 stop apart may be missed.
+std::optional<double> bright_point(const GreyResponse& response);
+
 struct ExposureRequest {
     std::optional<double> start, stop;
     std::optional<int> count;
@@ -26,9 +34,10 @@ struct ExposureRequest {
 };
 
 /// The exposures in stops, ascending. Eq. 2 and 3: start = log2(x / max), stop = log2(x / median),
-/// N = max(2, ceil(stop - start)). One exposure means the start. On failure `error` says which
-/// number is out of range and what would be valid.
-bool make_exposures(const std::array<double, 6>& curve, const ExposureRequest& request,
+/// N = max(2, ceil(stop - start)). `bright` is x, the bright point of the curve, if it has one. One
+/// exposure means the start. On failure `error` says which number is out of range and what would be
+/// valid.
+bool make_exposures(std::optional<double> bright, const ExposureRequest& request,
                     std::vector<double>& stops, std::string& error);
 
 } // namespace tonetool::flip

@@ -49,7 +49,19 @@ void annotate_side(ImageSpec& spec, const std::string& who, const FlipSide& side
 
 void annotate_exposures(ImageSpec& spec, const FlipSummary& summary) {
     text(spec, "tonemapper", summary.tonemapper);
-    text(spec, "coefficients", join(summary.coeffs, " "));
+    if (!summary.coeffs.empty())
+        text(spec, "coefficients", join(summary.coeffs, " "));
+    std::vector<std::string> parameters;
+    for (const auto& [name, value] : summary.parameters)
+        parameters.push_back(OIIO::Strutil::fmt::format("{}={}", name, value));
+    if (!parameters.empty())
+        text(spec, "parameters", join(parameters, " "));
+    if (!summary.on.empty())
+        text(spec, "on", summary.on);
+    if (summary.baked) {
+        number(spec, "bakeErrorMax", summary.bake_error_max);
+        number(spec, "bakeErrorMean", summary.bake_error_mean);
+    }
     number(spec, "startExposure", summary.exposures.front());
     number(spec, "stopExposure", summary.exposures.back());
     count(spec, "numExposures", int64_t(summary.exposures.size()));

@@ -6,7 +6,7 @@
 
 #include "imagebuf/flip_run.h"
 #include "imagebuf/guard.h"
-#include "tonemap/rational.h"
+#include "tonemap/curves.h"
 
 namespace tonetool {
 namespace {
@@ -121,7 +121,7 @@ bool hdr_flip(std::vector<ImageBuf>& dst, const ImageBuf& reference,
 }
 
 std::vector<std::string> flip_tonemappers() {
-    return tonemap::rational_curve_names();
+    return tonemap::curve_names();
 }
 
 namespace {

@@ -181,8 +181,11 @@ void FlipMaps::tone_map_row(int y, double stops, const ColorPlanes& planes, Imag
     const float* in[3];
     float* const out[3] = {mapped.data(), mapped.data() + width, mapped.data() + 2 * width};
     planes.row(m_roi.xbegin, y, in);
-    kernels::tone_map_pixels(in, out, ptrdiff_t(width), m_plan.evaluation.curve,
-                             float(std::exp2(stops)));
+    const auto scale = float(std::exp2(stops));
+    if (m_plan.evaluation.rows)
+        m_plan.evaluation.rows(in, out, ptrdiff_t(width), scale);
+    else
+        kernels::tone_map_pixels(in, out, ptrdiff_t(width), m_plan.evaluation.curve, scale);
     float* pixels = row(image, y);
     for (size_t x = 0; x < width; ++x)
         for (size_t p = 0; p < 3; ++p)
@@ -213,7 +216,13 @@ FlipSummary FlipMaps::summarize(const Sides& sides, int64_t both,
     s.warnings = notes;
     if (m_plan.hdr) {
         s.tonemapper = m_plan.tonemapper;
-        s.coeffs.assign(m_plan.evaluation.curve.k.begin(), m_plan.evaluation.curve.k.end());
+        s.parameters = m_plan.curve.parameters;
+        s.on = m_plan.curve.on;
+        s.coeffs = m_plan.curve.coeffs();
+        s.bright = m_plan.bright.value_or(0);
+        s.baked = m_plan.baked();
+        s.bake_error_max = m_exposures.bake.max;
+        s.bake_error_mean = m_exposures.bake.mean();
         s.exposures = m_exposures.stops;
         s.max_luminance = m_exposures.max_luminance;
         s.median_luminance = m_exposures.median_luminance;

@@ -6,6 +6,8 @@
 #include "flip/exposures.h"
 #include "flip/filters.h"
 #include "imagebuf/flip_plan.h"
+#include "kernels/curve_rows.h"
+#include "kernels/curve_twin.h"
 #include "tonemap/rational.h"
 
 namespace tonetool {
@@ -51,34 +53,56 @@ std::array<double, 6> scaled(const std::vector<double>& coeffs) {
     return k;
 }
 
-bool plan_curve(const HdrFlipOptions& options, FlipPlan& plan, std::string& error) {
-    if (options.coeffs.empty()) {
-        const auto curve = tonemap::rational_curve(options.tonemapper);
-        if (!curve) {
-            error = "unknown tone mapper \"" + options.tonemapper +
-                    "\"; valid: " + OIIO::Strutil::join(tonemap::rational_curve_names(), ", ");
-            return false;
-        }
-        plan.tonemapper = options.tonemapper;
-        plan.evaluation.curve = *curve;
-        return true;
+// x / (1 + x) on luminance, which the kernels of HDR-FLIP know.
+bool is_reinhard(const CurvePlan& curve) {
+    return curve.coeffs() == std::vector<double>{0, 1, 0, 0, 1, 1} && curve.on == "luminance" &&
+           curve.use.saturation == 1;
+}
+
+// Few curves are run by the kernels themselves; the others come to them as rows.
+void show_through(const CurvePlan& curve, FlipPlan& plan) {
+    flip::Evaluation& evaluation = plan.evaluation;
+    const auto coeffs = curve.coeffs();
+    if (coeffs.empty()) {
+        plan.bright = flip::bright_point([&](const std::vector<double>& values) {
+            std::vector<double> shown;
+            for (double x : values)
+                shown.push_back(kernels::curve_twin(curve.numbers, x));
+            return shown;
+        });
+    } else {
+        evaluation.curve = {kernels::ToneKind::Rational, scaled(coeffs)};
+        plan.bright = flip::bright_point(evaluation.curve.k);
     }
-    if (options.coeffs.size() != 6) {
-        error = format("coeffs has {} number(s): must be the six k0,k1,k2,k3,k4,k5",
-                       options.coeffs.size());
+    if (is_reinhard(curve))
+        evaluation.curve.kind = kernels::ToneKind::ReinhardLuminance;
+    else if (coeffs.empty() || curve.on != "rgb")
+        evaluation.rows = [numbers = curve.numbers, use = curve.use](
+                              const float* const in[3], float* const out[3], ptrdiff_t count,
+                              float scale) { curve_rows(numbers, use, in, out, count, scale); };
+}
+
+bool show_through_view(const HdrFlipOptions& options, FlipPlan& plan, std::string& error) {
+    if (!plan.light.open({*options.view, options.encoding, options.peak}, error))
+        return false;
+    plan.tonemapper = plan.light.name();
+    plan.evaluation.rows = options.exact ? plan.light.exact() : plan.light.baked();
+    plan.bright = flip::bright_point(
+        [&](const std::vector<double>& values) { return plan.light.greys(values); });
+    return true;
+}
+
+bool plan_tone(const HdrFlipOptions& options, FlipPlan& plan, std::string& error) {
+    if (options.view)
+        return show_through_view(options, plan, error);
+    if (!options.encoding.empty() || options.peak || options.exact) {
+        error = "encoding, peak and exact are of views: they need a display and a view";
         return false;
     }
-    const bool usable = std::all_of(options.coeffs.begin(), options.coeffs.end(),
-                                    [](double v) { return std::isfinite(v); }) &&
-                        std::any_of(options.coeffs.begin() + 3, options.coeffs.end(),
-                                    [](double v) { return v != 0; });
-    if (!usable) {
-        error = "coeffs are " + OIIO::Strutil::join(options.coeffs, ",") +
-                ": must be finite, and k3, k4, k5 not all 0";
+    if (!plan_curve(options.curve, true, plan.curve, error))
         return false;
-    }
-    plan.tonemapper = "coeffs";
-    plan.evaluation.curve = {kernels::ToneKind::Rational, scaled(options.coeffs)};
+    plan.tonemapper = plan.curve.name;
+    show_through(plan.curve, plan);
     return true;
 }
 
@@ -122,7 +146,7 @@ bool plan_ldr(const FlipOptions& options, FlipPlan& plan, std::string& error) {
 bool plan_hdr(const HdrFlipOptions& options, FlipPlan& plan, std::string& error) {
     plan.hdr = true;
     plan.hdr_options = options;
-    return plan_common(options, plan, error) && plan_curve(options, plan, error) &&
+    return plan_common(options, plan, error) && plan_tone(options, plan, error) &&
            check_exposures(options, error);
 }
 
@@ -155,21 +179,21 @@ bool choose_exposures(const FlipPlan& plan, const metrics::ExposureStats& stats,
     exposures.max_luminance = need_max ? maximum : 0;
     exposures.median_luminance = need_median ? median : 0;
     return flip::make_exposures(
-        plan.evaluation.curve.k,
-        {o.start_exposure, o.stop_exposure, o.num_exposures, maximum, median}, exposures.stops,
-        error);
+        plan.bright, {o.start_exposure, o.stop_exposure, o.num_exposures, maximum, median},
+        exposures.stops, error);
 }
 
 bool check_curve(const FlipPlan& plan, const Exposures& exposures, double largest,
                  std::string& error) {
-    if (!plan.hdr || plan.hdr_options.coeffs.empty())
+    const std::vector<double>& coeffs = plan.hdr_options.curve.coeffs;
+    if (!plan.hdr || plan.hdr_options.view || coeffs.empty())
         return true;
     const double exposed =
         std::min(largest * std::exp2(exposures.stops.back()), double(kernels::kLargestExposed));
     const std::string fault = tonemap::curve_fault(plan.evaluation.curve.k, exposed);
     if (fault.empty())
         return true;
-    error = "coeffs " + OIIO::Strutil::join(plan.hdr_options.coeffs, ",") + ": " + fault;
+    error = "coeffs " + OIIO::Strutil::join(coeffs, ",") + ": " + fault;
     return false;
 }
 

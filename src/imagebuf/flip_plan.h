@@ -1,11 +1,15 @@
 // Options of LDR-FLIP and HDR-FLIP as the numbers the algorithm runs on.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "flip/evaluate.h"
+#include "imagebuf/bake_error.h"
+#include "imagebuf/curve_plan.h"
 #include "imagebuf/planes.h"
+#include "imagebuf/view.h"
 #include "include/tonetool/flip.h"
 #include "metrics/luminance.h"
 
@@ -17,10 +21,14 @@ struct FlipPlan {
     HdrFlipOptions hdr_options; ///< only meaningful when hdr
     bool hdr = false;
     double ppd = 0;
-    std::string tonemapper;
-    int band_rows = 0;           ///< as in MemoryNeeds
-    flip::Evaluation evaluation; ///< the stops of HDR-FLIP follow once the reference is read
+    std::string tonemapper;       ///< "aces", ..., "coeffs", or "display/view"
+    CurvePlan curve;              ///< unless there is a view,
+    DisplayLight light;           ///< which is this
+    std::optional<double> bright; ///< scene value of a grey that is shown bright
+    int band_rows = 0;            ///< as in MemoryNeeds
+    flip::Evaluation evaluation;  ///< the stops of HDR-FLIP follow once the reference is read
 
+    bool baked() const { return hdr_options.view && !hdr_options.exact; }
     bool alpha() const { return common.alpha == AlphaPolicy::Error; }
 };
 
@@ -32,6 +40,7 @@ struct Exposures {
     std::vector<double> stops;
     double max_luminance = 0, median_luminance = 0; ///< 0 where not used
     bool median_of_lit = false;
+    BakeError bake; ///< of the table that a view is shown through
 };
 
 /// Whether the reference must be measured before its exposures are known.

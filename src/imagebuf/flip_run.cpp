@@ -222,6 +222,7 @@ private:
         for (size_t t = 0; t < m_tests.size(); t += step) {
             for (size_t i = t; i < t + step; ++i)
                 mend(i, fresh);
+            measure_bakes(t, step, fresh);
             evaluate(t, step, std::max(begin, m_roi.ybegin), std::min(end, m_roi.yend), maps);
             if (m_tests.size() > 1)
                 unmend(m_reference.planes);
@@ -233,6 +234,20 @@ private:
         ColorPlanes &r = m_reference.planes, &t = m_tests[test].planes;
         mend_nonfinite(r, t, r.begin, fresh);
         m_both[test] += mend_nonfinite(r, t, fresh, r.end);
+    }
+
+    // How far a baked view is off, on the rows that were just read.
+    void measure_bakes(size_t from, size_t count, int fresh) {
+        if (!m_plan.baked())
+            return;
+        const auto measure = [&](const ColorPlanes& planes) {
+            m_exposures.bake.add(
+                measure_bake(m_plan.light, planes, fresh, planes.end, m_exposures.stops));
+        };
+        if (from == 0)
+            measure(m_reference.planes);
+        for (size_t t = from; t < from + count; ++t)
+            measure(m_tests[t].planes);
     }
 
     // Everything has been read: whether there was something to compare.

@@ -69,6 +69,7 @@ FlipTile::FlipTile(const FlipRows& functions, const TileShape& shape, const Lane
       m_slots(2 * shape.strips.halo + kRowBlock),
       m_tests(tests),
       m_row(1, shape.strips.columns(), 1),
+      m_toned(kColors, shape.strips.pitch(), 1),
       m_columns(kColumnPlanes, shape.strips.wide_pitch(), kRowBlock),
       m_steps(1, shape.strips.wide_pitch(), 1),
       m_work(kWorkPlanes, shape.strips.columns(), 1),
@@ -93,7 +94,8 @@ size_t FlipTile::bytes(const TileShape& shape, size_t tests, bool keep_each) {
     const size_t result = columns * rows * size_t(keep_each ? kResultPlanes : kLastError);
     const size_t row = columns * (1 + kWorkPlanes + kFeaturePlanes * (kRowBlock + 1));
     const size_t block = wide * (kColumnPlanes * kRowBlock + 1);
-    return sizeof(float) * (side * (1 + tests) + result * tests + row + block);
+    const size_t toned = pitch * kColors;
+    return sizeof(float) * (side * (1 + tests) + result * tests + row + toned + block);
 }
 
 void FlipTile::make(Side& side) const {
@@ -166,7 +168,7 @@ bool FlipTile::same_behind_curve(const Test& test) const {
     return std::count(test.shows.begin(), test.shows.end(), 0) == m_slots;
 }
 
-void FlipTile::show_row(Side& side, int y, const ToneCurve& curve, float scale) const {
+void FlipTile::show_row(Side& side, int y, const Exposure& exposure) {
     // The first row has no row above, and its steps are not looked at.
     const int slot = y % m_slots, above = (y + m_slots - 1) % m_slots;
     const float* rgb[kColors];
@@ -175,15 +177,26 @@ void FlipTile::show_row(Side& side, int y, const ToneCurve& curve, float scale) 
         rgb[c] = side.rgb.row(c, y);
         out[c] = side.ring.row(kY + c, slot);
     }
+    ToneCurve curve = exposure.curve;
+    float scale = exposure.scale;
+    if (exposure.rows) {
+        float* toned[kColors];
+        for (int c = 0; c < kColors; ++c)
+            toned[c] = m_toned[c];
+        exposure.rows(rgb, toned, m_shape.strips.pitch(), scale);
+        std::copy_n(toned, kColors, rgb);
+        curve = {};
+        scale = 1;
+    }
     m_functions.to_opponent(rgb, m_shape.strips.pitch(), curve, scale, out,
                             side.ring.row(kY, above), side.ring.row(kStepY, above));
     side.next_row = y + 1;
 }
 
 // All rows that the block at `y` depends on; most are there from the block before.
-void FlipTile::show_rows(int y, const ToneCurve& curve, float scale) {
+void FlipTile::show_rows(int y, const Exposure& exposure) {
     for (int row = first_missing(m_reference, y); row < y + m_slots; ++row)
-        show_row(m_reference, row, curve, scale);
+        show_row(m_reference, row, exposure);
 }
 
 // Rows are shown from top to bottom: the first one that the block at `y` lacks.
@@ -191,10 +204,10 @@ int FlipTile::first_missing(const Side& side, int y) {
     return std::max(y, side.next_row);
 }
 
-void FlipTile::show_rows(Test& test, int y, const ToneCurve& curve, float scale) const {
+void FlipTile::show_rows(Test& test, int y, const Exposure& exposure) {
     for (int row = first_missing(test, y); row < y + m_slots; ++row) {
         const int slot = row % m_slots;
-        show_row(test, row, curve, scale);
+        show_row(test, row, exposure);
         bool same = true;
         for (int p = kY; p <= kYz; ++p)
             same = same && same_floats(test.ring.row(p, slot), m_reference.ring.row(p, slot),
@@ -205,11 +218,11 @@ void FlipTile::show_rows(Test& test, int y, const ToneCurve& curve, float scale)
 
 // Whether anything that the block at `y` depends on differs at this exposure. Where nothing does
 // (the pixels are the same, or all that differ are clamped) the error is exactly 0.
-bool FlipTile::differs(Test& test, int y, const ToneCurve& curve, float scale) {
+bool FlipTile::differs(Test& test, int y, const Exposure& exposure) {
     if (same_window(test, y))
         return false;
-    show_rows(y, curve, scale);
-    show_rows(test, y, curve, scale);
+    show_rows(y, exposure);
+    show_rows(test, y, exposure);
     return !same_behind_curve(test);
 }
 
@@ -277,7 +290,8 @@ void FlipTile::compare_block(Test& test, int y, float n) {
     }
 }
 
-void FlipTile::expose(const ToneCurve& curve, float scale, float n) {
+void FlipTile::expose(const ToneCurve& curve, float scale, float n, const ToneRows& rows) {
+    const Exposure exposure{curve, scale, rows};
     m_reference.next_row = 0;
     for (Test& test : m_tests)
         test.next_row = 0;
@@ -285,7 +299,7 @@ void FlipTile::expose(const ToneCurve& curve, float scale, float n) {
         bool reference_filtered = false;
         for (size_t t = 0; t < m_active; ++t) {
             Test& test = m_tests[t];
-            if (!differs(test, y, curve, scale)) {
+            if (!differs(test, y, exposure)) {
                 if (m_keep_each)
                     std::fill_n(test.result.row(kLastError, y),
                                 kRowBlock * m_shape.strips.columns(), 0.0f);

@@ -57,9 +57,10 @@ public:
     void load(const Window& tile, const ConstRgb& reference,
               const std::vector<const ConstRgb*>& tests);
 
-    /// One exposure of the reference and of all tests: raises the error of each where this one is
-    /// larger, and writes the number `n` of the exposure there.
-    void expose(const ToneCurve& curve, float scale, float n);
+    /// One exposure of the reference and of all tests, by `rows` if given, else by the curve:
+    /// raises the error of each where this one is larger, and writes the number `n` of the exposure
+    /// there.
+    void expose(const ToneCurve& curve, float scale, float n, const ToneRows& rows = {});
 
     enum ResultPlane { kError, kIndex, kLastError, kResultPlanes };
     /// One plane of the result of a test, `stride` floats between rows.
@@ -79,6 +80,12 @@ private:
         Planes result;
     };
 
+    struct Exposure {
+        const ToneCurve& curve;
+        float scale;
+        const ToneRows& rows;
+    };
+
     void make(Side& side) const;
     void load(Side& side, const ConstRgb& image);
     void pack_row(const float* in, int width, float* out);
@@ -86,10 +93,10 @@ private:
     bool same_window(const Test& test, int y) const;
     bool same_behind_curve(const Test& test) const;
     static int first_missing(const Side& side, int y);
-    void show_row(Side& side, int y, const ToneCurve& curve, float scale) const;
-    void show_rows(int y, const ToneCurve& curve, float scale);
-    void show_rows(Test& test, int y, const ToneCurve& curve, float scale) const;
-    bool differs(Test& test, int y, const ToneCurve& curve, float scale);
+    void show_row(Side& side, int y, const Exposure& exposure);
+    void show_rows(int y, const Exposure& exposure);
+    void show_rows(Test& test, int y, const Exposure& exposure);
+    bool differs(Test& test, int y, const Exposure& exposure);
     void filter_columns(Side& side, int y);
     void filter_row(int row, Planes& features, int to_row);
     void filter_reference(int y);
@@ -104,7 +111,7 @@ private:
     size_t m_active = 0; // tests of this tile
     Side m_reference;
     std::vector<Test> m_tests;
-    Planes m_row, m_columns, m_steps, m_work, m_reference_features, m_test_features;
+    Planes m_row, m_toned, m_columns, m_steps, m_work, m_reference_features, m_test_features;
 };
 
 } // namespace tonetool::kernels

@@ -15,6 +15,7 @@
 #include "tonetool/export.h"
 #include "tonetool/numbers.h"
 #include "tonetool/pixels.h"
+#include "tonetool/tonemap.h"
 
 namespace tonetool {
 
@@ -37,11 +38,21 @@ struct FlipOptions {
 
 /// HDR-FLIP: the exposures and the tone curve.
 struct HdrFlipOptions : FlipOptions {
-    std::string tonemapper = "aces"; ///< aces, hable, reinhard; ignored when coeffs are given
-    /// Six coefficients of y = (k0 x^2 + k1 x + k2) / (k3 x^2 + k4 x + k5) (paper Eq. 1),
-    /// applied per channel. Empty: the named curve. Refused where the curve has a pole or does
-    /// not increase between 0 and the largest exposed value of either image.
-    std::vector<double> coeffs;
+    /// The curve; its defaults are the paper's (aces with a prescale of 0.6). Six coefficients are
+    /// applied per channel unless `on` says otherwise, and refused where the curve has a pole or
+    /// does not increase between 0 and the largest exposed value of either image.
+    CurveOptions curve;
+    /// Instead of the curve: what a viewer would see on this display. The view gets linear Rec.709
+    /// and its result is brought to linear display light by the display's own colour space.
+    std::optional<ViewOptions> view;
+    /// How the view's result is encoded, where the display has no colour space that says so: srgb,
+    /// gamma2.2, rec1886, gamma2.6, linear.
+    std::string encoding;
+    /// Light in cd/m2 that counts as the display's white. HDR displays are refused without it.
+    std::optional<double> peak;
+    /// The view by OpenColorIO itself. Else by a table baked from it, whose error on these images
+    /// is measured; see FlipSummary.
+    bool exact = false;
     std::optional<double> start_exposure;   ///< stops; unset: paper Eq. 2
     std::optional<double> stop_exposure;    ///< stops; unset: paper Eq. 3
     std::optional<int> num_exposures;       ///< 1 to 1024; unset: max(2, ceil(stop - start))
@@ -67,9 +78,16 @@ struct FlipSummary {
     int64_t nonfinite_both = 0; ///< pixels that are non-finite in both images: error 0
     double ppd = 0;
     bool hdr = false;
-    std::string tonemapper;        ///< "aces", ..., or "coeffs"
-    std::vector<double> coeffs;    ///< the six coefficients of the curve, as used for exposures
-    std::vector<double> exposures; ///< stops, ascending; empty for LDR-FLIP
+    std::string tonemapper;                   ///< "aces", ..., "coeffs", or "display/view"
+    std::map<std::string, double> parameters; ///< of the curve
+    std::string on;             ///< "rgb", "luminance" or "color", what the curve is applied to
+    std::vector<double> coeffs; ///< the six coefficients of the curve; empty where it has none
+    double bright = 0;          ///< scene value of a grey that is shown at 0.85; 0: there is none
+    bool baked = false;         ///< the view was shown through a table,
+    /// whose |difference| to OpenColorIO was this, in display light, over an evenly spaced sample
+    /// of the exposed pixels of all images.
+    double bake_error_max = 0, bake_error_mean = 0;
+    std::vector<double> exposures;                  ///< stops, ascending; empty for LDR-FLIP
     double max_luminance = 0, median_luminance = 0; ///< that gave the exposures, 0 if not used
     bool median_of_lit = false; ///< more than half the reference is black: median of the rest
     OIIO::ROI region;           ///< pixels compared
@@ -132,11 +150,12 @@ TONETOOL_API OIIO::ImageBuf ldr_flip(const OIIO::ImageBuf& reference, const OIIO
 ///
 /// As ldr_flip in all that is said there, but nothing is clamped before the tone map except
 /// negative values, which become 0 and are counted. Exposures come from the compared region of the
-/// reference (whatever the ROI), its finite pixels: start so that its maximum luminance, stop so
-/// that its median luminance is tone mapped to 0.85 (Eqs. 2, 3); luminance is 0.2126 R + 0.7152 G +
-/// 0.0722 B. When more than half of the reference is black the median of the lit pixels is taken
-/// and the summary says so; an all-black reference needs explicit exposures.
-/// Where the error is 0 the exposure map holds the start exposure (index 0).
+/// reference (whatever the ROI), its finite pixels: start so that a grey of its maximum luminance,
+/// stop so that one of its median luminance is shown at 0.85 (Eqs. 2, 3; the largest solution,
+/// found numerically where the curve is not one of six coefficients); luminance is 0.2126 R +
+/// 0.7152 G + 0.0722 B. When more than half of the reference is black the median of the lit pixels
+/// is taken and the summary says so; an all-black reference needs explicit exposures. Where the
+/// error is 0 the exposure map holds the start exposure (index 0).
 TONETOOL_API bool hdr_flip(OIIO::ImageBuf& dst, const OIIO::ImageBuf& reference,
                            const OIIO::ImageBuf& test, const HdrFlipOptions& options = {},
                            FlipResult* result = nullptr, OIIO::ROI roi = {}, int nthreads = 0);
@@ -154,7 +173,7 @@ TONETOOL_API bool hdr_flip(std::vector<OIIO::ImageBuf>& dst, const OIIO::ImageBu
                            std::vector<FlipResult>* results = nullptr, OIIO::ROI roi = {},
                            int nthreads = 0);
 
-/// Names of the built-in tone curves of HDR-FLIP.
+/// Names of the tone curves of HDR-FLIP: the registry's.
 TONETOOL_API std::vector<std::string> flip_tonemappers();
 
 /// A quantity of the summary by name: mean, weighted-median, weighted-q1, weighted-q3, p50, p95,

@@ -46,6 +46,48 @@ TEST(BrightPoint, IsNothingWhereTheCurveStaysBelow) {
     EXPECT_FALSE(bright_point({0.8, 0, 0, 1, 0, 1}).has_value());
 }
 
+double rational(const std::array<double, 6>& k, double x) {
+    return ((k[0] * x + k[1]) * x + k[2]) / ((k[3] * x + k[4]) * x + k[5]);
+}
+
+std::optional<double> solved(const std::function<double(double)>& shown) {
+    return bright_point([&](const std::vector<double>& values) {
+        std::vector<double> out;
+        for (double x : values)
+            out.push_back(shown(x));
+        return out;
+    });
+}
+
+TEST(BrightPoint, IsTheSameSolvedNumerically) {
+    for (const char* name : {"reinhard", "aces", "hable"}) {
+        const auto k = curve(name);
+        const auto x = solved([&](double v) { return rational(k, v); });
+        ASSERT_TRUE(x.has_value()) << name;
+        // A step of 1e-14 stops, less what the curve's own rounding hides.
+        EXPECT_NEAR(*x, *bright_point(k), 1e-12 * *x) << name;
+    }
+}
+
+TEST(BrightPoint, IsTheLargestSolution) {
+    // Rises through kBright at 1, falls through it at 4, rises for good at 16.
+    const auto x = solved([](double v) {
+        const double s = std::log2(v);
+        return kBright + 0.01 * s * (s - 2) * (s - 4);
+    });
+    ASSERT_TRUE(x.has_value());
+    EXPECT_NEAR(*x, 16, 1e-10);
+    // A curve that ends below it was there last on its way down.
+    const auto down = solved([](double v) { return v / (1 + 0.01 * v * v); });
+    ASSERT_TRUE(down.has_value());
+    EXPECT_GT(*down, 10);
+}
+
+TEST(BrightPoint, IsNothingWhereTheResponseStaysOnOneSide) {
+    EXPECT_FALSE(solved([](double v) { return 0.84 * v / (1 + v); }).has_value());
+    EXPECT_FALSE(solved([](double) { return 0.9; }).has_value());
+}
+
 ExposureRequest request(std::optional<double> start, std::optional<double> stop,
                         std::optional<int> count, double max = 0, double median = 0) {
     return {start, stop, count, max, median};
@@ -54,7 +96,7 @@ ExposureRequest request(std::optional<double> start, std::optional<double> stop,
 std::vector<double> exposures(const ExposureRequest& r) {
     std::vector<double> stops;
     std::string error;
-    EXPECT_TRUE(make_exposures(curve("aces"), r, stops, error)) << error;
+    EXPECT_TRUE(make_exposures(bright_point(curve("aces")), r, stops, error)) << error;
     return stops;
 }
 
@@ -122,7 +164,7 @@ TEST(MakeExposures, SayWhatIsWrong) {
     for (const auto& c : cases) {
         std::vector<double> stops;
         std::string error;
-        EXPECT_FALSE(make_exposures(curve("aces"), c.asked, stops, error));
+        EXPECT_FALSE(make_exposures(bright_point(curve("aces")), c.asked, stops, error));
         for (const char* word : c.words)
             EXPECT_THAT(error, HasSubstr(word));
     }
@@ -132,9 +174,9 @@ TEST(MakeExposures, ACurveThatStaysDarkNeedsThemGiven) {
     const std::array<double, 6> dark = {0, 0.8, 0, 0, 1, 1};
     std::vector<double> stops;
     std::string error;
-    EXPECT_FALSE(make_exposures(dark, request({}, {}, {}, 1, 1), stops, error));
+    EXPECT_FALSE(make_exposures(bright_point(dark), request({}, {}, {}, 1, 1), stops, error));
     EXPECT_THAT(error, HasSubstr("never reaches 0.85"));
-    EXPECT_TRUE(make_exposures(dark, request(0, 1, {}), stops, error));
+    EXPECT_TRUE(make_exposures(bright_point(dark), request(0, 1, {}), stops, error));
 }
 
 } // namespace

@@ -247,7 +247,7 @@ TEST(Bands, DoNotChangeWhatIsRefused) {
     const auto fine = picture(20), black = scaled(fine, 0);
     const auto holes = constant(kWidth, kHeight, {1, kNan, 1});
     HdrFlipOptions pole;
-    pole.coeffs = {0, 1, 0, 0, -1, 1};
+    pole.curve.coeffs = {0, 1, 0, 0, -1, 1};
     const struct {
         const ImageBuf &reference, &test;
         HdrFlipOptions options;

@@ -52,15 +52,15 @@ TEST(FlipOptions, AreRefusedWithTheirValue) {
         {options([](O& o) { o.width = -1; }), {"width is -1"}},
         {options([](O& o) { o.pixels_across = 0; }), {"pixels is 0"}},
         {options([](O& o) { o.distance = 1e3; }), {"ppd is 95743.7", "1 to 1000"}},
-        {options([](O& o) { o.tonemapper = "agx"; }), {"\"agx\"", "aces, hable, reinhard"}},
-        {options([](O& o) { o.tonemapper = "ACES"; }), {"\"ACES\""}},
+        {options([](O& o) { o.curve.name = "agx"; }), {"\"agx\"", "aces, hable, reinhard"}},
+        {options([](O& o) { o.curve.name = "ACES"; }), {"\"ACES\""}},
         {options([](O& o) {
-             o.coeffs = {1, 2, 3};
+             o.curve.coeffs = {1, 2, 3};
          }),
          {"coeffs has 3 number", "six"}},
-        {options([](O& o) { o.coeffs = {1, 2, 3, 4, 5, 6, 7}; }), {"coeffs has 7"}},
-        {options([](O& o) { o.coeffs = {0, 1, 0, 0, 1, kNan}; }), {"coeffs", "nan", "finite"}},
-        {options([](O& o) { o.coeffs = {0, 1, 0, 0, 0, 0}; }), {"not all 0"}},
+        {options([](O& o) { o.curve.coeffs = {1, 2, 3, 4, 5, 6, 7}; }), {"coeffs has 7"}},
+        {options([](O& o) { o.curve.coeffs = {0, 1, 0, 0, 1, kNan}; }), {"coeffs", "nan", "finite"}},
+        {options([](O& o) { o.curve.coeffs = {0, 1, 0, 0, 0, 0}; }), {"not all 0"}},
         {options([](O& o) { o.num_exposures = 0; }), {"numExposures is 0", "1 to 1024"}},
         {options([](O& o) { o.num_exposures = 1025; }), {"numExposures is 1025"}},
         {options([](O& o) { o.start_exposure = -127; }), {"startExposure is -127", "-126"}},
@@ -197,7 +197,7 @@ TEST(Coeffs, AreRefusedWhereTheCurveBreaks) {
                  {{0, -1, 1, 0, 0, 1}, 0, {"does not increase above x = 0"}}};
     for (const auto& c : cases) {
         const auto o = options([&](O& out) {
-            out.coeffs = c.coeffs, out.start_exposure = -1, out.stop_exposure = c.stop;
+            out.curve.coeffs = c.coeffs, out.start_exposure = -1, out.stop_exposure = c.stop;
         });
         ImageBuf dst;
         EXPECT_FALSE(hdr_flip(dst, image, image, o));
@@ -207,7 +207,7 @@ TEST(Coeffs, AreRefusedWhereTheCurveBreaks) {
     }
     // The same pole beyond the exposed values of both images does not matter; of one image it does.
     const auto safe = options(
-        [](O& o) { o.coeffs = {0, 1, 0, 0, -1, 2}, o.start_exposure = -1, o.stop_exposure = 0.5; });
+        [](O& o) { o.curve.coeffs = {0, 1, 0, 0, -1, 2}, o.start_exposure = -1, o.stop_exposure = 0.5; });
     run(image, image, safe);
     ImageBuf dst;
     EXPECT_FALSE(hdr_flip(dst, image, scaled(image, 2), safe));
@@ -216,7 +216,7 @@ TEST(Coeffs, AreRefusedWhereTheCurveBreaks) {
 
 TEST(Coeffs, ACurveThatStaysDarkNeedsExposures) {
     const auto image = noise(4, 4, 1);
-    const auto dark = options([](O& o) { o.coeffs = {0, 0.5, 0, 0, 1, 1}; });
+    const auto dark = options([](O& o) { o.curve.coeffs = {0, 0.5, 0, 0, 1, 1}; });
     ImageBuf dst;
     EXPECT_FALSE(hdr_flip(dst, image, image, dark));
     EXPECT_THAT(dst.geterror(), HasSubstr("never reaches 0.85"));

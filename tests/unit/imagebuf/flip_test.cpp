@@ -32,7 +32,7 @@ TEST(Flip, IdenticalImagesAreExactlyZero) {
     const auto image = noise(50, 40, 1);
     for (const char* name : {"aces", "hable", "reinhard"}) {
         HdrFlipOptions options;
-        options.tonemapper = name;
+        options.curve.name = name;
         options.want_exposure_map = true;
         const Outcome r = run(image, image, options);
         EXPECT_THAT(values(r.map), Each(0.0f));
@@ -80,7 +80,7 @@ TEST(Flip, ScaleByAPowerOfTwoShiftsTheExposures) {
     const auto reference = noise(40, 30, 5), test = disturbed(reference, 0.5, 6);
     for (const char* name : {"aces", "hable", "reinhard"}) {
         HdrFlipOptions options;
-        options.tonemapper = name;
+        options.curve.name = name;
         const Outcome plain = run(reference, test, options);
         const auto& stops = plain.result.summary.exposures;
         for (int k = -20; k <= 20; ++k) {

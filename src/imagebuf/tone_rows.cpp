@@ -1,0 +1,100 @@
+#include "imagebuf/tone_rows.h"
+
+#include <cmath>
+
+#include "include/tonetool/tonemap.h"
+
+namespace tonetool {
+namespace {
+
+struct NamedEncoding {
+    const char* name;
+    Encoding encode;
+};
+
+const NamedEncoding kEncodings[] = {
+    {"none", [](float v) { return v; }},
+    {"srgb", [](float v) { return float(linear_to_srgb(double(v))); }},
+    {"gamma2.2", [](float v) { return std::pow(v, 1.0f / 2.2f); }},
+    {"rec1886", [](float v) { return std::pow(v, 1.0f / 2.4f); }},
+    {"gamma2.6", [](float v) { return std::pow(v, 1.0f / 2.6f); }}};
+
+float alpha_of(const float* pixel, const ToneChannels& which) {
+    const float alpha = which.alpha < 0 ? 1.0f : pixel[which.alpha];
+    return std::isfinite(alpha) && alpha > 0 ? alpha : 1.0f;
+}
+
+float finite(float v) {
+    if (std::isfinite(v))
+        return v;
+    return v > 0 ? kInfinityStandsFor : 0.0f;
+}
+
+} // namespace
+
+ToneRow::ToneRow(size_t width) : factor(width, 1.0f) {
+    for (int c = 0; c < 3; ++c) {
+        plane[c].resize(width);
+        rgb[c] = plane[c].data();
+    }
+}
+
+void take_row(const float* pixels, int channels, const ToneChannels& which, ToneRow& row,
+              size_t count, ToneCounts& counts) {
+    for (size_t x = 0; x < count; ++x, pixels += channels) {
+        const float alpha = alpha_of(pixels, which);
+        bool good = true;
+        for (int c = 0; c < 3; ++c) {
+            const float v = pixels[which.rgb[c]];
+            good = good && std::isfinite(v);
+            row.rgb[c][x] = finite(finite(v) / alpha);
+        }
+        counts.nonfinite += !good;
+    }
+}
+
+void put_row(const ToneRow& row, size_t count, const ToneChannels& which, float* pixels,
+             int channels) {
+    for (size_t x = 0; x < count; ++x, pixels += channels) {
+        const float alpha = alpha_of(pixels, which);
+        for (int c = 0; c < 3; ++c)
+            pixels[which.rgb[c]] = finite(row.rgb[c][x]) * alpha;
+    }
+}
+
+void linearize_row(const ColorSpace& space, bool rec709, ToneRow& row, size_t count,
+                   ToneCounts& counts) {
+    const bool convert = rec709 && !space.is_rec709;
+    for (size_t x = 0; x < count; ++x) {
+        double v[3];
+        for (int c = 0; c < 3; ++c) {
+            v[c] = double(row.rgb[c][x]);
+            if (space.srgb_encoded)
+                v[c] = srgb_to_linear(v[c]);
+        }
+        bool negative = false;
+        for (size_t c = 0; c < 3; ++c) {
+            const auto& m = space.to_rec709[c];
+            const double sum = convert ? m[0] * v[0] + m[1] * v[1] + m[2] * v[2] : v[c];
+            negative = negative || sum < 0;
+            row.rgb[c][x] = float(sum > 0 ? sum : 0.0);
+        }
+        counts.negative += negative;
+    }
+}
+
+Encoding find_encoding(const std::string& name) {
+    for (const NamedEncoding& entry : kEncodings)
+        if (name == entry.name)
+            return entry.encode;
+    return nullptr;
+}
+
+std::vector<std::string> ToneAlgo::display_encodings() {
+    std::vector<std::string> names;
+    for (const NamedEncoding& entry : kEncodings)
+        names.emplace_back(entry.name);
+    return names;
+}
+
+} // namespace tonetool
