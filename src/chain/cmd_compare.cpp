@@ -105,7 +105,7 @@ void save_exposures(Session& session, const Call& call, const FlipResult& result
 void run_hdrflip(Session& session, const Call& call) {
     HdrFlipOptions options;
     read_flip_options(call, true, options);
-    read_hdr_options(call, options);
+    read_hdr_options(session, call, options);
     options.memory = session.memory;
     Thresholds thresholds = thresholds_of(call);
     (void)call.flag("print", true);
@@ -182,7 +182,7 @@ void run_flipdiff(Session& session, const Call& call) {
 void run_filmstrip(Session& session, const Call& call) {
     HdrFlipOptions options;
     read_flip_options(call, false, options);
-    read_hdr_options(call, options);
+    read_hdr_options(session, call, options);
     options.memory = session.memory;
     Thresholds thresholds = thresholds_of(call);
     (void)call.flag("print", true);

@@ -1,6 +1,7 @@
 #include "chain/flip_args.h"
 
 #include "chain/error.h"
+#include "chain/tone_args.h"
 
 namespace tonetool::chain {
 
@@ -71,13 +72,19 @@ std::vector<Modifier> viewing_modifiers() {
 }
 
 std::vector<Modifier> hdr_modifiers() {
-    return {{"tonemapper", choices(ToneAlgo::flip_tonemappers()), "tone curve (aces)"},
-            {"coeffs", "K0,K1,K2,K3,K4,K5", "curve (k0 x2 + k1 x + k2) / (k3 x2 + k4 x + k5)"},
-            {"startExposure", "STOPS", "first exposure (from the reference)"},
-            {"stopExposure", "STOPS", "last exposure (from the reference)"},
-            {"numExposures", "N", "number of exposures (from their range)"},
-            {"maxluminance", "X", "instead of the reference's maximum luminance"},
-            {"medianluminance", "X", "instead of the reference's median luminance"}};
+    return concatenated(
+        {{{"tonemapper", choices(ToneAlgo::flip_tonemappers()), "tone curve (aces)"}},
+         curve_modifiers(false),
+         view_modifiers(),
+         {{"encoding", "srgb|gamma2.2|rec1886|gamma2.6|linear",
+           "of the view's result (its display's)"},
+          {"peak", "X", "light in cd/m2 that counts as white, for HDR displays"},
+          {"exact", "0|1", "the view by OpenColorIO itself instead of a table made from it (0)"},
+          {"startExposure", "STOPS", "first exposure (from the reference)"},
+          {"stopExposure", "STOPS", "last exposure (from the reference)"},
+          {"numExposures", "N", "number of exposures (from their range)"},
+          {"maxluminance", "X", "instead of the reference's maximum luminance"},
+          {"medianluminance", "X", "instead of the reference's median luminance"}}});
 }
 
 std::vector<Modifier> threshold_modifiers() {
@@ -110,13 +117,17 @@ void read_flip_options(const Call& call, bool screen, FlipOptions& options) {
     }
 }
 
-void read_hdr_options(const Call& call, HdrFlipOptions& options) {
-    auto curve = call.choice("tonemapper", ToneAlgo::flip_tonemappers());
-    options.curve.coeffs = call.numbers("coeffs", 6);
-    if (curve && !options.curve.coeffs.empty()) {
-        throw CommandError("tonemapper= and coeffs= exclude each other (valid: one of them)");
+void read_hdr_options(const Session& session, const Call& call, HdrFlipOptions& options) {
+    check_one_way(call, "tonemapper");
+    options.view = view_options(session, call);
+    options.curve = curve_options(call, "tonemapper");
+    options.encoding =
+        call.choice("encoding", {"srgb", "gamma2.2", "rec1886", "gamma2.6", "linear"}).value_or("");
+    options.peak = call.number("peak", {1, 10000});
+    options.exact = call.flag("exact", false);
+    if (!options.view && (call.has("encoding") || call.has("peak") || call.has("exact"))) {
+        throw CommandError("encoding=, peak= and exact= need display= or view=");
     }
-    options.curve.name = curve.value_or(options.curve.name);
     read_exposures(call, options);
     options.num_exposures = call.integer("numExposures", {1, 1024});
     options.max_luminance = call.number("maxluminance", luminance_range);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "chain/call.h"
+#include "chain/session.h"
 #include "include/tonetool/tonetool.h"
 
 namespace tonetool::chain {
@@ -27,7 +28,7 @@ std::vector<Modifier> concatenated(const std::vector<std::vector<Modifier>>& lis
 PixelOptions pixel_options(const Call& call);
 /// `screen`: distance, width and pixels describe the screen; else only ppd does.
 void read_flip_options(const Call& call, bool screen, FlipOptions& options);
-void read_hdr_options(const Call& call, HdrFlipOptions& options);
+void read_hdr_options(const Session& session, const Call& call, HdrFlipOptions& options);
 Thresholds thresholds_of(const Call& call);
 
 /// OpenImageIO 3.2's names and defaults.

@@ -58,5 +58,6 @@ std::vector<Command> compare_commands();
 std::vector<Command> color_commands();
 std::vector<Command> channel_commands();
 std::vector<Command> stack_commands();
+std::vector<Command> tone_commands();
 
 } // namespace tonetool::chain

@@ -43,7 +43,8 @@ struct Session {
     bool verbose = false, quiet = false, warnings_exit = false;
     bool info = false, info_verbose = false, stats = false;
 
-    uint64_t memory = 0; ///< bound of the comparisons in bytes; 0: none was given
+    std::string color_config; ///< file of the OpenColorIO configuration; empty: $OCIO
+    uint64_t memory = 0;      ///< bound of the comparisons in bytes; 0: none was given
 
     // What the exit status is made from.
     bool produced = false; ///< something was written, printed or measured

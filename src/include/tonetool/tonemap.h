@@ -82,7 +82,7 @@ struct TonemapOptions {
     /// image, whose luminance weights are then used. Views take the image's own.
     std::string primaries = "rec709";
     /// Of the result of a curve: none (linear), srgb, gamma2.2, rec1886 (2.4), gamma2.6.
-    std::string encode = "none";
+    std::string encode = "srgb";
     bool clamp = true;      ///< the result of a curve to [0,1]
     bool unpremult = false; ///< divide colour by alpha before and multiply after
 };
