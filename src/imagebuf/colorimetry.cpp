@@ -13,12 +13,19 @@ using OIIO::Strutil::lower;
 
 constexpr double kD65[2] = {0.3127, 0.3290};
 
-// Spaces by name, with the spellings of OpenImageIO, the ACES configs and ASWF's interop IDs.
+// Spaces by name, with the spellings of the ACES configs and ASWF's interop IDs; and with what
+// headers call them, but configurations of OpenColorIO may call others.
 struct Known {
     const char* name;
     bool srgb_encoded;
     Chromaticities primaries;
-    std::vector<const char*> aliases;
+    std::vector<const char*> aliases, in_headers;
+
+    bool is_called(const std::string& n) const {
+        const auto same = [&](const char* alias) { return n == alias; };
+        return n == name || std::any_of(aliases.begin(), aliases.end(), same) ||
+               std::any_of(in_headers.begin(), in_headers.end(), same);
+    }
 };
 
 const std::vector<Known>& known_spaces() {
@@ -28,38 +35,42 @@ const std::vector<Known>& known_spaces() {
         {"rec709",
          false,
          rec709,
-         {"rec.709", "linear", "scene_linear", "lin_rec709", "lin_rec709_scene", "lin_srgb",
-          "linear rec.709 (srgb)", "utility - linear - srgb", "utility - linear - rec.709"}},
+         {"lin_rec709", "lin_rec709_scene", "lin_srgb", "linear rec.709 (srgb)",
+          "utility - linear - srgb", "utility - linear - rec.709"},
+         {"rec.709", "linear", "scene_linear"}},
         {"acescg",
          false,
          {{0.713, 0.293}, {0.165, 0.830}, {0.128, 0.044}, {0.32168, 0.33767}},
-         {"lin_ap1", "lin_ap1_scene", "aces - acescg"}},
+         {"acescg", "lin_ap1", "lin_ap1_scene", "aces - acescg"},
+         {}},
         {"aces2065-1",
          false,
          {{0.7347, 0.2653}, {0.0, 1.0}, {0.0001, -0.077}, {0.32168, 0.33767}},
-         {"lin_ap0", "lin_ap0_scene", "aces", "aces - aces2065-1"}},
+         {"aces2065-1", "lin_ap0", "lin_ap0_scene", "aces - aces2065-1"},
+         {"aces"}},
         {"rec2020",
          false,
          {{0.708, 0.292}, {0.170, 0.797}, {0.131, 0.046}, {0.3127, 0.3290}},
-         {"rec.2020", "lin_rec2020", "lin_rec2020_scene", "linear rec.2020",
-          "utility - linear - rec.2020"}},
+         {"lin_rec2020", "lin_rec2020_scene", "linear rec.2020", "utility - linear - rec.2020"},
+         {"rec.2020"}},
         {"p3-d65",
          false,
          {{0.680, 0.320}, {0.265, 0.690}, {0.150, 0.060}, {0.3127, 0.3290}},
-         {"p3d65", "lin_p3d65", "lin_p3d65_scene", "linear p3-d65", "utility - linear - p3-d65"}},
+         {"lin_p3d65", "lin_p3d65_scene", "linear p3-d65", "utility - linear - p3-d65"},
+         {"p3d65"}},
         {"srgb",
          true,
          rec709,
-         {"srgb_tx", "srgb_texture", "srgb texture", "srgb_rec709_scene", "srgb_rec709_display",
-          "srgb - texture", "utility - srgb - texture", "output - srgb", "srgb - display"}}};
+         {"srgb_tx", "srgb_texture", "srgb texture", "srgb_rec709_scene", "srgb - texture",
+          "utility - srgb - texture", "srgb"},
+         {"srgb_rec709_display", "output - srgb", "srgb - display"}}};
     return spaces;
 }
 
 const Known* find_known(const std::string& name) {
     const std::string n = lower(name);
     for (const Known& space : known_spaces())
-        if (n == space.name || std::any_of(space.aliases.begin(), space.aliases.end(),
-                                           [&](const char* alias) { return n == alias; }))
+        if (space.is_called(n))
             return &space;
     return nullptr;
 }
@@ -184,11 +195,6 @@ bool from_chromaticities(const Chromaticities& c, ColorSpace& space, std::string
     return false;
 }
 
-// Readers tag with these where the file says no more than "not encoded".
-bool says_only_linear(const std::string& tag) {
-    return tag.empty() || lower(tag) == "linear" || lower(tag) == "scene_linear";
-}
-
 bool from_tags(const OIIO::ImageSpec& spec, ColorSpace& space, std::string& error) {
     const std::string tag = spec.get_string_attribute("oiio:ColorSpace");
     const auto chromaticities = read_chromaticities(spec);
@@ -220,6 +226,29 @@ bool from_tags(const OIIO::ImageSpec& spec, ColorSpace& space, std::string& erro
 }
 
 } // namespace
+
+// Readers tag with these where the file says no more.
+bool says_only_linear(const std::string& tag) {
+    return tag.empty() || lower(tag) == "linear" || lower(tag) == "scene_linear";
+}
+
+std::vector<std::string> interchange_names(const std::string& name) {
+    for (const Known& space : known_spaces())
+        if (name == space.name)
+            return {space.aliases.begin(), space.aliases.end()};
+    return {};
+}
+
+Matrix3 known_to_rec709(const std::string& name) {
+    ColorSpace space;
+    if (const Known* known = find_known(name))
+        from_known(*known, space);
+    return space.to_rec709;
+}
+
+Matrix3 xyz_to_rec709() {
+    return *inverse(*rgb_to_xyz(known_spaces()[0].primaries));
+}
 
 bool matrix_to_rec709(const Chromaticities& primaries, Matrix3& matrix) {
     const auto source = rgb_to_xyz(primaries);

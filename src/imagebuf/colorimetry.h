@@ -4,6 +4,7 @@
 #include <OpenImageIO/imageio.h>
 #include <array>
 #include <string>
+#include <vector>
 
 namespace tonetool {
 
@@ -26,6 +27,18 @@ struct ColorSpace {
 /// chromaticities and tags that contradict each other are errors.
 bool find_space(const OIIO::ImageSpec& spec, const std::string& from, ColorSpace& space,
                 std::string& error);
+
+/// Whether a tag of `oiio:ColorSpace` says no more than "not encoded".
+bool says_only_linear(const std::string& tag);
+
+/// Names and aliases under which configurations of OpenColorIO have the space that find_space()
+/// calls `name`, likeliest first; none that another space bears in some of them.
+std::vector<std::string> interchange_names(const std::string& name);
+
+/// The matrix of a space that find_space() knows by this name.
+Matrix3 known_to_rec709(const std::string& name);
+/// CIE XYZ, D65 white, to linear Rec.709.
+Matrix3 xyz_to_rec709();
 
 /// Linear RGB of these primaries to linear Rec.709; a white other than D65 is adapted (Bradford).
 /// False if the primaries do not span a colour space.

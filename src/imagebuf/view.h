@@ -19,7 +19,9 @@ namespace tonetool {
 class ViewTransform {
 public:
     /// Chosen and checked; `error` lists what would be valid. `from` names a colour space (or alias
-    /// or role) of the configuration; empty: that of the image with this header.
+    /// or role) of the configuration; empty: that which `oiio:ColorSpace` names there, else the
+    /// image's own under one of its known names. Chromaticities are believed over a tag that says
+    /// only "Linear"; stock oiiotool 2.4.7 looks that word up in the configuration.
     bool open(const ViewOptions& options, const std::string& from, const OIIO::ImageSpec& header,
               std::string& error);
 
