@@ -17,9 +17,10 @@ def read(name):
 
 
 def color(name):
-    """R, G, B as double."""
+    """R, G, B (plain, or of the beauty of Blender's files) as double."""
     pixels, spec = read(name)
-    return pixels[..., [spec.channelnames.index(c) for c in "RGB"]].astype(np.float64)
+    layer = "" if "R" in spec.channelnames else "ViewLayer.Combined."
+    return pixels[..., [spec.channelnames.index(layer + c) for c in "RGB"]].astype(np.float64)
 
 
 def luminance(rgb):
@@ -52,11 +53,31 @@ def test_the_result_is_srgb_unless_asked_otherwise(tonetool, tmp_path):
     tonetool(CORNELL, "--tonemap", "-d", "float", "-o", "srgb.exr")
     tonetool(CORNELL, "--tonemap:encode=none", "-d", "float", "-o", "linear.exr")
     assert np.abs(color(tmp_path / "srgb.exr") - srgb(color(tmp_path / "linear.exr"))).max() < 1e-6
-    assert read(tmp_path / "srgb.exr")[1].get_string_attribute("oiio:ColorSpace") == "sRGB"
     for encode, exponent in (("gamma2.2", 2.2), ("rec1886", 2.4), ("gamma2.6", 2.6)):
         tonetool(CORNELL, f"--tonemap:encode={encode}", "-d", "float", "-o", "out.exr")
         back = color(tmp_path / "out.exr") ** exponent
         assert np.abs(back - color(tmp_path / "linear.exr")).max() < 2e-6, encode
+
+
+def test_a_file_says_how_it_is_encoded(tonetool, tmp_path):
+    ran = tonetool(CORNELL, "--tonemap", "-o", "out.png")
+    assert read(tmp_path / "out.png")[1].get_string_attribute("oiio:ColorSpace") == "sRGB"
+    # The picture is the layer that was mapped, not the first channels.
+    assert "ViewLayer.Combined.R" in ran.err
+    # Readers of OpenEXR take every file for linear light.
+    assert "display-encoded" in tonetool(CORNELL, "--tonemap", "-o", "out.exr").err
+    assert not tonetool(CORNELL, "--tonemap:encode=none", "-o", "out.exr").err
+
+
+def test_the_mapped_layer_is_what_a_png_gets(tonetool, make_image, tmp_path):
+    pixels = np.zeros((4, 4, 7), np.float32)
+    pixels[..., 3:6] = [0.1, 0.2, 0.4]
+    names = ("Z", "N.X", "N.Y", "C.R", "C.G", "C.B", "N.Z")
+    source = make_image("in.exr", 4, 4, names, pixels=pixels)
+    tonetool(source, "--tonemap:curve=linear", "-o", "out.png")
+    out = read(tmp_path / "out.png")[0]
+    assert out.shape == (4, 4, 3)
+    assert np.abs(out[0, 0] - srgb(np.array([0.1, 0.2, 0.4]))).max() < 0.003
 
 
 def test_every_curve_of_the_list(tonetool, tmp_path):
@@ -191,7 +212,7 @@ def test_white_from_the_image(tonetool, tmp_path):
     lum = luminance(color(CORNELL))
     mean = geometric(lum)
     ran = tonetool(CORNELL, "--tonemap:curve=reinhard-extended:method=mean:key=0.5:white=max"
-                   ":encode=none", "-d", "float", "-o", "out.exr")
+                   ":encode=none:clamp=0", "-d", "float", "-o", "out.exr")
     white = lum.max() * 0.5 / mean
     facts = [line for line in ran.out.splitlines() if line.startswith("tonemap: white ")]
     assert [float(line.split()[-1]) for line in facts] == [pytest.approx(white, rel=1e-5)] * 2
