@@ -75,7 +75,7 @@ std::vector<Curve> basic_curves() {
          {white_parameter(5, "the value that becomes 1: largest over adapted luminance"),
           {"bias", 0.85, 0.01, 1, "below 1 darkens highlights less and shadows more"}},
          make_drago,
-         "values above white exceed 1"},
+         "values above white count as white: the formula may fall there"},
         {"reinhard",
          "Reinhard",
          "E. Reinhard et al., Photographic Tone Reproduction, 2002, Eq. 3",
