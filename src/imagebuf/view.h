@@ -48,12 +48,16 @@ struct DisplayLightOptions {
     std::optional<double> peak;
 };
 
+/// Turns scene light into display light: packed RGB in place, nothing clamped.
+using LightSource = std::function<void(float* rgb, ptrdiff_t count)>;
+
 /// A view from linear Rec.709 scene light to linear Rec.709 display light, 1 the display's white.
 class DisplayLight {
 public:
     bool open(const DisplayLightOptions& options, std::string& error);
 
     std::string name() const; ///< "display/view"
+    LightSource source() const;
     /// Through OpenColorIO's processor.
     kernels::ToneRows exact() const;
     /// Through a baked table, which is made by the first call: a log2 shaper and a cube, read

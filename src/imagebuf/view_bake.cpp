@@ -6,13 +6,12 @@
 namespace tonetool {
 namespace {
 
-// From 12 stops below 1 to 12 above, in half stops.
-constexpr kernels::CubeRange kRange = {49, -12, 12};
+constexpr kernels::CubeShape kRange;
 
 } // namespace
 
 std::unique_ptr<kernels::LightCube> bake(const LightSource& source,
-                                         const kernels::CubeRange& range) {
+                                         const kernels::CubeShape& range) {
     auto cube = std::make_unique<kernels::LightCube>(range);
     std::vector<float> levels(size_t(range.size)), row(3 * size_t(range.size));
     for (int i = 0; i < range.size; ++i)

@@ -24,11 +24,8 @@ struct DisplayLight::State {
     const kernels::LightCube& cube() const;
 };
 
-/// Turns scene light into display light: packed RGB in place.
-using LightSource = std::function<void(float* rgb, ptrdiff_t count)>;
-
 /// The source's light at the vertices.
 std::unique_ptr<kernels::LightCube> bake(const LightSource& source,
-                                         const kernels::CubeRange& range);
+                                         const kernels::CubeShape& shape);
 
 } // namespace tonetool
