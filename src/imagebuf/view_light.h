@@ -20,11 +20,9 @@ struct DisplayLight::State {
 
     // Packed RGB in place, nothing clamped.
     void light(float* rgb, ptrdiff_t count) const;
-    // Made by the first call.
-    const kernels::LightCube& cube() const;
 };
 
-/// The source's light at the vertices.
+/// The source's light at the vertices, on two threads.
 std::unique_ptr<kernels::LightCube> bake(const LightSource& source,
                                          const kernels::CubeShape& shape);
 

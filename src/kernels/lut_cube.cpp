@@ -17,7 +17,7 @@ double lab_f(double t) {
 } // namespace
 
 double encode_light(double light) {
-    const double cut = std::isnan(light) ? 0 : std::clamp(light, kDarkest, kBrightest);
+    const double cut = std::isnan(light) ? 0.0 : std::clamp(light, kDarkest, kBrightest);
     return cut < 0 ? 2 * kLabOffset - lab_f(-cut) : lab_f(cut);
 }
 
