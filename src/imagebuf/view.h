@@ -48,16 +48,20 @@ struct DisplayLightOptions {
     std::optional<double> peak;
 };
 
+/// Turns scene light into display light: packed RGB in place, nothing clamped.
+using LightSource = std::function<void(float* rgb, ptrdiff_t count)>;
+
 /// A view from linear Rec.709 scene light to linear Rec.709 display light, 1 the display's white.
 class DisplayLight {
 public:
     bool open(const DisplayLightOptions& options, std::string& error);
 
     std::string name() const; ///< "display/view"
+    LightSource source() const;
     /// Through OpenColorIO's processor.
     kernels::ToneRows exact() const;
-    /// Through a baked table, which is made by the first call: a log2 shaper and a cube, read
-    /// tetrahedrally.
+    /// Through a baked table, which is made by the first call (0.1 s): a cube behind a shaper,
+    /// read tetrahedrally.
     kernels::ToneRows baked() const;
     /// Luminance of the display light of greys, unclamped.
     std::vector<double> greys(const std::vector<double>& values) const;
@@ -66,5 +70,15 @@ private:
     struct State;
     std::shared_ptr<const State> m_state;
 };
+
+/// How far the table of a view is from the view, in display light of the three channels.
+struct BakeError {
+    double max = 0, mean = 0;
+    int64_t samples = 0; ///< pixels, each counted in each exposure
+};
+
+/// On evenly spaced pixels (at most 2^16 pixel-exposures) of three planes of values >= 0.
+BakeError measure_bake(const DisplayLight& light, const float* const planes[3], int64_t pixels,
+                       const std::vector<double>& stops);
 
 } // namespace tonetool

@@ -190,6 +190,10 @@ std::string DisplayLight::name() const {
     return m_state->name;
 }
 
+LightSource DisplayLight::source() const {
+    return [state = m_state](float* rgb, ptrdiff_t count) { state->light(rgb, count); };
+}
+
 kernels::ToneRows DisplayLight::exact() const {
     return [state = m_state](const float* const in[3], float* const out[3], ptrdiff_t count,
                              float scale) {

@@ -20,15 +20,10 @@ struct DisplayLight::State {
 
     // Packed RGB in place, nothing clamped.
     void light(float* rgb, ptrdiff_t count) const;
-    // Made by the first call.
-    const kernels::LightCube& cube() const;
 };
 
-/// Turns scene light into display light: packed RGB in place.
-using LightSource = std::function<void(float* rgb, ptrdiff_t count)>;
-
-/// The source's light at the vertices.
+/// The source's light at the vertices, on two threads.
 std::unique_ptr<kernels::LightCube> bake(const LightSource& source,
-                                         const kernels::CubeRange& range);
+                                         const kernels::CubeShape& shape);
 
 } // namespace tonetool

@@ -24,19 +24,17 @@ constexpr I di{};
 
 struct CubeLookup {
     const float* table;
-    float offset, darkest, cells_per_stop, last_place, last_cell;
-    int32_t size; // of the steps between vertices, in floats: 4 along blue
-    float scale;
+    int size;
+    float scale, pivot, cells, last_place, last_cell;
 
     CubeLookup(const LightCube& cube, float by)
         : table(cube.vertex(0, 0, 0)),
-          offset(float(std::exp2(cube.range().darkest))),
-          darkest(float(cube.range().darkest)),
-          cells_per_stop(float(cube.range().cells_per_stop())),
-          last_place(float(cube.range().size - 1)),
-          last_cell(float(cube.range().size - 2)),
-          size(cube.range().size),
-          scale(by) {}
+          size(cube.shape().size),
+          scale(by),
+          pivot(float(std::pow(cube.shape().pivot, cube.shape().steep ? 0.75 : 0.5))),
+          cells(float((size - 1) / cube.share(cube.shape().brightest))),
+          last_place(float(size - 1)),
+          last_cell(float(size - 2)) {}
 };
 
 // Where the vertices of a tetrahedron are, and their weights.
@@ -46,11 +44,14 @@ struct Corners {
     alignas(64) float weight[4][HWY_MAX_BYTES / 4];
 };
 
+template <bool kSteep>
 HWY_INLINE V Place(const CubeLookup& cube, V x) {
     const V light = hn::Min(hn::Mul(x, hn::Set(d, cube.scale)), hn::Set(d, kLargestExposed));
-    const V stops =
-        hn::Sub(Log2(d, hn::Add(light, hn::Set(d, cube.offset))), hn::Set(d, cube.darkest));
-    const V place = hn::Mul(stops, hn::Set(d, cube.cells_per_stop));
+    V power = hn::Sqrt(light);
+    if constexpr (kSteep)
+        power = hn::Sqrt(hn::Mul(light, power));
+    const V share = hn::Div(power, hn::Add(power, hn::Set(d, cube.pivot)));
+    const V place = hn::Mul(share, hn::Set(d, cube.cells));
     // NaN is 0 too, lest it be an address.
     return hn::IfThenElseZero(hn::Gt(place, hn::Zero(d)),
                               hn::Min(place, hn::Set(d, cube.last_place)));
@@ -129,20 +130,29 @@ HWY_INLINE Color Interpolate(const CubeLookup& cube, const Corners& corners, ptr
 }
 #endif
 
-void MapRows(const LightCube& table, const float* const in[3], float* const out[3], ptrdiff_t count,
-             float scale) {
-    const CubeLookup cube(table, scale);
+template <bool kSteep>
+void MapPixels(const CubeLookup& cube, const float* const in[3], float* const out[3],
+               ptrdiff_t count) {
     const ptrdiff_t last = 4 * (ptrdiff_t(cube.size) * cube.size + cube.size + 1);
     Corners corners;
     for (ptrdiff_t i = 0; i < count; i += ptrdiff_t(hn::Lanes(d))) {
-        FindCorners(cube, Place(cube, hn::LoadU(d, in[0] + i)),
-                    Place(cube, hn::LoadU(d, in[1] + i)), Place(cube, hn::LoadU(d, in[2] + i)),
-                    corners);
+        FindCorners(cube, Place<kSteep>(cube, hn::LoadU(d, in[0] + i)),
+                    Place<kSteep>(cube, hn::LoadU(d, in[1] + i)),
+                    Place<kSteep>(cube, hn::LoadU(d, in[2] + i)), corners);
         const Color color = Interpolate(cube, corners, last);
         hn::StoreU(Decode(color.c0), d, out[0] + i);
         hn::StoreU(Decode(color.c1), d, out[1] + i);
         hn::StoreU(Decode(color.c2), d, out[2] + i);
     }
+}
+
+void MapRows(const LightCube& table, const float* const in[3], float* const out[3], ptrdiff_t count,
+             float scale) {
+    const CubeLookup cube(table, scale);
+    if (table.shape().steep)
+        MapPixels<true>(cube, in, out, count);
+    else
+        MapPixels<false>(cube, in, out, count);
 }
 
 ptrdiff_t LanesHere() {

@@ -7,29 +7,32 @@
 
 namespace tonetool::kernels {
 
-/// The range of a cube's input. A channel x is at log2(x + offset), so that 0 has a place of its
-/// own, the darkest values a straight line, and the others equal cells in each stop.
-struct CubeRange {
-    int size = 0;      ///< vertices along an edge
-    int darkest = 0;   ///< log2 of the offset
-    int brightest = 0; ///< log2 of the last vertex, behind which nothing changes
-
-    double cells_per_stop() const { return double(size - 1) / (brightest - darkest); }
+/// Where a channel x is along an edge of a cube: x^p / (x^p + pivot^p), as eyes and film respond
+/// to light (Naka and Rushton 1966). 0 is the first vertex, most cells are within a few stops of
+/// the pivot, and both ends run out into the dark and the bright. Roots and a quotient, so that
+/// every instruction set gets the same bits.
+struct CubeShape {
+    int size = 65;              ///< vertices along an edge, 2 to 128
+    double pivot = 0.5;         ///< in the middle of the edge
+    bool steep = true;          ///< p is 3/4, else 1/2
+    double brightest = 32768.0; ///< the last vertex, behind which nothing changes
 };
 
-/// Vertices hold f(light), with which a straight line between two of them is one to the eye.
-/// f is CIELAB's, continued beyond both ends of [0,1], so that an edge where light is cut off runs
-/// through the middle of a cell as it should. Values below 0 are made small by the cube root of
-/// what is above 0, mirrored.
+/// Vertices hold f(light), with which a straight line between two of them is one to the eye. f is
+/// CIELAB's, continued beyond 1, and mirrored below 0: the edge where light is cut off runs through
+/// the middle of a cell as it should. Cut off far outside.
 double encode_light(double light);
 double decode_light(double code); ///< clamped to [0,1]
 
 class LightCube {
 public:
-    explicit LightCube(const CubeRange& range);
+    explicit LightCube(const CubeShape& shape);
 
-    const CubeRange& range() const { return m_range; }
-    /// Input that the vertices of plane i stand for.
+    const CubeShape& shape() const { return m_shape; }
+    /// x^p / (x^p + pivot^p).
+    double share(double x) const;
+    /// Where an input is, in cells; and what the vertices of plane i stand for.
+    double place(double x) const;
     double level(int i) const;
     /// Encoded R, G, B and a 0, of a multiple of 16 bytes.
     float* vertex(int r, int g, int b) { return m_data.get() + 4 * index(r, g, b); }
@@ -39,10 +42,10 @@ public:
 
 private:
     ptrdiff_t index(int r, int g, int b) const {
-        return (ptrdiff_t(r) * m_range.size + g) * m_range.size + b;
+        return (ptrdiff_t(r) * m_shape.size + g) * m_shape.size + b;
     }
 
-    CubeRange m_range;
+    CubeShape m_shape;
     hwy::AlignedFreeUniquePtr<float[]> m_data;
 };
 
