@@ -71,14 +71,4 @@ private:
     std::shared_ptr<const State> m_state;
 };
 
-/// How far the table of a view is from the view, in display light of the three channels.
-struct BakeError {
-    double max = 0, mean = 0;
-    int64_t samples = 0; ///< pixels, each counted in each exposure
-};
-
-/// On evenly spaced pixels (at most 2^16 pixel-exposures) of three planes of values >= 0.
-BakeError measure_bake(const DisplayLight& light, const float* const planes[3], int64_t pixels,
-                       const std::vector<double>& stops);
-
 } // namespace tonetool

@@ -14,7 +14,6 @@ namespace {
 constexpr int kSize = 81;
 constexpr double kBrightestOfPivot = 65536;
 constexpr unsigned kBakingThreads = 2;
-constexpr int64_t kMostSamples = 1 << 16;
 
 // The first of these rising values whose grey shines with at least this light.
 double value_with(double light, const std::vector<double>& values,
@@ -88,44 +87,6 @@ kernels::ToneRows DisplayLight::baked() const {
                              float scale) {
         kernels::light_cube_rows(*state->baked, in, out, count, scale);
     };
-}
-
-BakeError measure_bake(const DisplayLight& light, const float* const planes[3], int64_t pixels,
-                       const std::vector<double>& stops) {
-    BakeError error;
-    const int64_t all = pixels * int64_t(stops.size());
-    if (all <= 0)
-        return error;
-    const int64_t samples = std::min(all, kMostSamples);
-    const int64_t per_exposure = std::max<int64_t>(samples / int64_t(stops.size()), 1);
-    const kernels::ToneRows exact = light.exact(), baked = light.baked();
-    std::vector<float> in[3], a[3], b[3];
-    for (auto* rgb : {in, a, b})
-        for (int c = 0; c < 3; ++c)
-            rgb[c].resize(size_t(per_exposure));
-    for (int64_t i = 0; i < per_exposure; ++i)
-        for (int c = 0; c < 3; ++c)
-            in[c][size_t(i)] = planes[c][i * pixels / per_exposure];
-    const float* const from[3] = {in[0].data(), in[1].data(), in[2].data()};
-    float* const to_exact[3] = {a[0].data(), a[1].data(), a[2].data()};
-    float* const to_baked[3] = {b[0].data(), b[1].data(), b[2].data()};
-    double sum = 0;
-    for (double stop : stops) {
-        if (error.samples == kMostSamples)
-            break;
-        const auto scale = float(std::exp2(stop));
-        exact(from, to_exact, per_exposure, scale);
-        baked(from, to_baked, per_exposure, scale);
-        for (int c = 0; c < 3; ++c)
-            for (size_t i = 0; i < in[c].size(); ++i) {
-                const double apart = std::abs(double(a[c][i]) - double(b[c][i]));
-                error.max = std::max(error.max, apart);
-                sum += apart;
-            }
-        error.samples += per_exposure;
-    }
-    error.mean = sum / (3 * double(error.samples));
-    return error;
 }
 
 } // namespace tonetool
