@@ -30,8 +30,8 @@ kernels::CubeShape choose_shape(const DisplayLight& light) {
     kernels::CubeShape shape;
     shape.size = kSize;
     std::vector<double> values;
-    for (double stops = -16; stops <= 16; stops += 0.125)
-        values.push_back(std::exp2(stops));
+    for (int eighth = -128; eighth <= 128; ++eighth)
+        values.push_back(std::exp2(eighth / 8.0));
     const std::vector<double> greys = light.greys(values);
     const double bright = value_with(0.3, values, greys), dark = value_with(0.003, values, greys);
     if (bright > dark && dark > values[0]) {

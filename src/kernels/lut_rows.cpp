@@ -13,7 +13,6 @@
 #include <hwy/highway.h>
 
 #include "kernels/color-inl.h"
-#include "kernels/fast_math-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace tonetool::kernels::HWY_NAMESPACE {
