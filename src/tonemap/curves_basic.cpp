@@ -73,7 +73,7 @@ std::vector<Curve> basic_curves() {
          false,
          true,
          {white_parameter(5, "the value that becomes 1: largest over adapted luminance"),
-          {"bias", 0.85, 0.01, 1, "below 1 darkens highlights less and shadows more"}},
+          {"bias", 0.85, 0.01, 1, "1: a plain logarithm; less: brighter below white"}},
          make_drago,
          "values above white count as white: the formula may fall there"},
         {"reinhard",

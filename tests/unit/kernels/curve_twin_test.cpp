@@ -58,6 +58,7 @@ TEST(CurveTwin, DragoMakesWhiteOneForEveryBias) {
         }
     // The formula itself falls above white here, to 0.63 at 1e6 times white.
     EXPECT_NEAR(at(1e10, "drago", {{"white", 1e4}, {"bias", 0.7}}), 1, 1e-12);
+    EXPECT_GT(at(1, "drago", {{"bias", 0.7}}), at(1, "drago", {{"bias", 0.85}}));
     // Bias 1 is a plain logarithm.
     EXPECT_NEAR(at(3, "drago", {{"white", 10}, {"bias", 1}}), std::log(4) / std::log(11), kExact);
 }
