@@ -27,7 +27,7 @@ struct Samples {
 Samples sample(const ColorPlanes& planes, int begin, int end, size_t exposures) {
     const int64_t width = planes.width();
     const int64_t wanted = std::max(kSamples / int64_t(exposures), kFewestPixels);
-    const int64_t step = (width * planes.region.height() / wanted) | 1;
+    const int64_t step = ((width * planes.region.height() + wanted - 1) / wanted) | 1;
     const int64_t first = (begin - planes.region.ybegin) * width;
     const int64_t last = (end - planes.region.ybegin) * width;
     Samples samples(0);

@@ -17,7 +17,7 @@ struct BakeError {
     void add(const BakeError& other);
 };
 
-/// Over the rows [begin, end) of an image at these exposures: evenly spaced pixels, about 2^16 of
+/// Over the rows [begin, end) of an image at these exposures: evenly spaced pixels, at most 2^16 of
 /// the whole image and all exposures, so that bands add up to the same figures as the whole.
 BakeError measure_bake(const DisplayLight& light, const ColorPlanes& planes, int begin, int end,
                        const std::vector<double>& stops);

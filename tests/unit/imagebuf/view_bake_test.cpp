@@ -163,7 +163,7 @@ TEST_F(ViewBakeTest, ErrorIsMeasuredOnABoundedSample) {
     EXPECT_LT(error.max, 0.03);
     EXPECT_GT(error.mean(), 0);
     EXPECT_LT(error.mean(), 2e-4);
-    EXPECT_LE(error.samples, 3 * 70000);
+    EXPECT_LE(error.samples, 3 * 65536);
     EXPECT_GT(error.samples, 3 * 30000);
     // Bands of any height add up to it.
     BakeError bands;
@@ -173,7 +173,7 @@ TEST_F(ViewBakeTest, ErrorIsMeasuredOnABoundedSample) {
     EXPECT_EQ(bands.samples, error.samples);
     EXPECT_NEAR(bands.sum, error.sum, 1e-9 * error.sum); // another order
     const BakeError many = measure_bake(light, planes, 0, 300, std::vector<double>(1000));
-    EXPECT_LE(many.samples, 3 * 70000);
+    EXPECT_LE(many.samples, 3 * 65536);
 }
 
 std::vector<float> ldr_flip(const Planes3& a, const Planes3& b, int width, int height) {
