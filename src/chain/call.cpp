@@ -3,13 +3,14 @@
 #include <algorithm>
 
 #include "chain/error.h"
+#include "text/nearest_names.h"
 
 namespace tonetool::chain {
 
 namespace {
 
 std::string meant(const std::string& word, const Strings& names) {
-    Strings near = nearest_names(word, names, 1);
+    Strings near = text::nearest_names(word, names, 1);
     return near.empty() ? "" : ", did you mean \"" + near.front() + "\"?";
 }
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <iterator>
 
+#include "text/nearest_names.h"
+
 namespace tonetool::chain {
 
 namespace {
@@ -57,7 +59,7 @@ std::string suggest_command(const std::string& name) {
     for (const Command& row : all_commands()) {
         names.insert(names.end(), row.names.begin(), row.names.end());
     }
-    Strings near = nearest_names(name, names);
+    Strings near = text::nearest_names(name, names);
     if (near.empty()) {
         return "--help lists all commands";
     }

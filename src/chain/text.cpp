@@ -1,11 +1,9 @@
 #include "chain/text.h"
 
-#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <limits>
 #include <locale>
-#include <numeric>
 #include <sstream>
 
 namespace tonetool::chain {
@@ -46,21 +44,6 @@ bool is_decimal(const std::string& text) {
         return at > begin && at == text.size();
     }
     return at == text.size();
-}
-
-size_t edit_distance(const std::string& a, const std::string& b) {
-    std::vector<size_t> row(b.size() + 1);
-    std::iota(row.begin(), row.end(), size_t{0});
-    for (size_t i = 0; i < a.size(); ++i) {
-        size_t diagonal = row[0];
-        row[0] = i + 1;
-        for (size_t j = 0; j < b.size(); ++j) {
-            size_t change = diagonal + (a[i] == b[j] ? 0 : 1);
-            diagonal = row[j + 1];
-            row[j + 1] = std::min({change, row[j] + 1, row[j + 1] + 1});
-        }
-    }
-    return row.back();
 }
 
 std::string printed(const char* format, double value) {
@@ -142,24 +125,6 @@ std::string join(const Strings& words, const std::string& separator) {
         all += (all.empty() ? "" : separator) + word;
     }
     return all;
-}
-
-Strings nearest_names(const std::string& word, const Strings& names, size_t limit) {
-    std::vector<std::pair<size_t, std::string>> ranked;
-    for (const std::string& name : names) {
-        bool prefix = word.size() >= 2 && name.compare(0, word.size(), word) == 0;
-        size_t distance = prefix ? 1 : edit_distance(word, name);
-        if (prefix || distance <= std::max<size_t>(1, word.size() / 3)) {
-            ranked.emplace_back(distance, name);
-        }
-    }
-    std::stable_sort(ranked.begin(), ranked.end(),
-                     [](const auto& a, const auto& b) { return a.first < b.first; });
-    Strings nearest;
-    for (size_t i = 0; i < std::min(limit, ranked.size()); ++i) {
-        nearest.push_back(ranked[i].second);
-    }
-    return nearest;
 }
 
 std::string shell_quoted(const std::string& argument) {

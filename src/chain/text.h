@@ -1,4 +1,4 @@
-// Strict numbers, near names, and other small pure pieces of text.
+// Strict numbers and other small pure pieces of text.
 #pragma once
 
 #include <cstdint>
@@ -29,9 +29,6 @@ std::string format_apart(double value, double other);
 
 Strings split(const std::string& text, char separator);
 std::string join(const Strings& words, const std::string& separator);
-
-/// Those of `names` that a person could have meant by `word`, nearest first, at most `limit`.
-Strings nearest_names(const std::string& word, const Strings& names, size_t limit = 3);
 
 /// The argument as one would type it in a shell.
 std::string shell_quoted(const std::string& argument);

@@ -21,6 +21,11 @@ enum class CurveKind {
     Neutral,     ///< Khronos PBR neutral
 };
 
+/// Those see a pixel as a whole: they cannot be run on luminance.
+constexpr bool mixes_channels(CurveKind kind) {
+    return kind == CurveKind::AcesHill || kind == CurveKind::Agx || kind == CurveKind::Neutral;
+}
+
 /// One curve with its parameters folded in.
 struct CurveNumbers {
     CurveKind kind = CurveKind::Rational;
@@ -29,7 +34,7 @@ struct CurveNumbers {
 
 /// How a curve is applied to a pixel.
 struct CurveUse {
-    bool on_luminance = false; ///< T(L) (C/L)^saturation instead of T(C)
+    bool on_luminance = false; ///< T(L) (C/L)^saturation instead of T(C); not where channels mix
     std::array<double, 3> weights{0.2126, 0.7152, 0.0722}; ///< of luminance
     double saturation = 1;
     bool clamp = true; ///< the result to [0,1]

@@ -8,7 +8,8 @@
 
 namespace tonetool::kernels {
 
-/// A grey of this (exposed) value, unclamped.
+/// A grey of this (exposed) value, unclamped; where channels mix, the luminance (Rec.709) of what
+/// becomes of it, since their matrices leave greys not quite grey.
 double curve_twin(const CurveNumbers& curve, double x);
 
 /// A pixel, as curve_rows does it.

@@ -137,22 +137,52 @@ HWY_INLINE V Log2(D tag, V x) {
     return hn::MulAdd(p, s, hn::ConvertTo(tag, exponent));
 }
 
-/// 2^x for x in [-126, 127]; relative error below 3e-7. Taylor series of e^(f ln 2), |f| <= 1/2.
+/// log2(1 + x) for x >= 0; relative error below 5e-7, also where 1 + x rounds to 1: what the sum
+/// lost is added to its logarithm.
 template <class D, class V = hn::Vec<D>>
-HWY_INLINE V Exp2(D tag, V x) {
-    const hn::RebindToSigned<D> di;
-    const V whole = hn::Round(x);
-    const V f = hn::Sub(x, whole);
+HWY_INLINE V Log2OfOnePlus(D tag, V x) {
+    const V one = hn::Set(tag, 1.0f);
+    const V sum = hn::Add(one, x);
+    const V lost = hn::Sub(hn::Min(one, x), hn::Sub(sum, hn::Max(one, x)));
+    return hn::MulAdd(hn::Div(lost, sum), hn::Set(tag, 1.4426950408889634f), Log2(tag, sum));
+}
+
+/// (2^f - 1) / f for |f| <= 1/2: Taylor series of e^(f ln 2).
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE V Exp2Series(D tag, V f) {
     V p = hn::Set(tag, 1.525273380405984e-5f);
     p = hn::MulAdd(p, f, hn::Set(tag, 1.540353039338161e-4f));
     p = hn::MulAdd(p, f, hn::Set(tag, 1.333355814642844e-3f));
     p = hn::MulAdd(p, f, hn::Set(tag, 9.618129107628477e-3f));
     p = hn::MulAdd(p, f, hn::Set(tag, 5.550410866482158e-2f));
     p = hn::MulAdd(p, f, hn::Set(tag, 2.402265069591007e-1f));
-    p = hn::MulAdd(p, f, hn::Set(tag, 6.931471805599453e-1f));
-    p = hn::MulAdd(p, f, hn::Set(tag, 1.0f));
+    return hn::MulAdd(p, f, hn::Set(tag, 6.931471805599453e-1f));
+}
+
+/// 2^whole for whole numbers in [-126, 127].
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE V Exp2OfWhole(D tag, V whole) {
+    const hn::RebindToSigned<D> di;
     const auto bits = hn::Add(hn::ConvertTo(di, whole), hn::Set(di, 127));
-    return hn::Mul(p, hn::BitCast(tag, hn::ShiftLeft<23>(bits)));
+    return hn::BitCast(tag, hn::ShiftLeft<23>(bits));
+}
+
+/// 2^x for x in [-126, 127]; relative error below 3e-7.
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE V Exp2(D tag, V x) {
+    const V whole = hn::Round(x);
+    const V f = hn::Sub(x, whole);
+    const V p = hn::MulAdd(Exp2Series(tag, f), f, hn::Set(tag, 1.0f));
+    return hn::Mul(p, Exp2OfWhole(tag, whole));
+}
+
+/// 2^x - 1 for x in [-126, 127]; relative error below 5e-7, also near 0.
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE V Exp2LessOne(D tag, V x) {
+    const V whole = hn::Round(x);
+    const V f = hn::Sub(x, whole);
+    const V power = Exp2OfWhole(tag, whole);
+    return hn::MulAdd(hn::Mul(Exp2Series(tag, f), f), power, hn::Sub(power, hn::Set(tag, 1.0f)));
 }
 
 } // namespace tonetool::kernels::HWY_NAMESPACE

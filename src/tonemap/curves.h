@@ -37,7 +37,7 @@ struct Curve {
     const char* formula; ///< as one line of text
     CurveDomain domain;
     bool encoded;  ///< the published formula gives display-encoded values, decoded here
-    bool monotone; ///< where the result, clamped to [0,1], never decreases with a grey's value
+    bool monotone; ///< a brighter grey never becomes darker; clamped to [0,1] this holds for all
     std::vector<CurveParameter> parameters;
     kernels::CurveNumbers (*make)(const CurveValues&);
     const char* note = ""; ///< what a user must know: "clamped where it exceeds 1"
@@ -53,7 +53,8 @@ std::vector<std::string> curve_parameter_names();
 std::string did_you_mean(std::string_view word, const std::vector<std::string>& names);
 
 /// Defaults, with those of `given` in their place. An unknown name or a value out of range is an
-/// error that says what would be valid. `flip`: HDR-FLIP's defaults.
+/// error that says what would be valid; so are values that together make a curve that falls or has
+/// a pole. `flip`: HDR-FLIP's defaults.
 bool curve_values(const Curve& curve, const std::map<std::string, double>& given, bool flip,
                   CurveValues& values, std::string& error);
 
@@ -61,7 +62,8 @@ bool curve_values(const Curve& curve, const std::map<std::string, double>& given
 bool coefficient_curve(const std::vector<double>& k, kernels::CurveNumbers& curve,
                        std::string& error);
 
-/// The largest x >= 0 up to 2^64 with curve(x) = y for a grey; nullopt where there is none.
+/// The largest x >= 0 up to 2^64 with curve(x) = y for a grey; nullopt where there is none. Where
+/// the curve stays at y from somewhere on, as agx does, it is the smallest of those x.
 std::optional<double> inverse(const kernels::CurveNumbers& curve, double y);
 
 } // namespace tonetool::tonemap

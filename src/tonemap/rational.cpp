@@ -3,25 +3,32 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <iterator>
+
+#include "tonemap/curves.h"
 
 namespace tonetool::tonemap {
 namespace {
 
-struct Named {
-    const char* name;
-    kernels::ToneCurve curve;
-};
+// The curves of the HDR-FLIP paper; their numbers are those of the registry.
+constexpr const char* kNames[] = {"aces", "hable", "reinhard"};
 
-// aces: K. Narkowicz's fit with the exposure factor 0.6 of HDR-FLIP folded in. hable: J. Hable's
-// filmic curve, white scale folded in. reinhard: x / (1 + x), run on luminance.
-constexpr Named kCurves[] = {
-    {"aces",
-     {kernels::ToneKind::Rational,
-      {0.6 * 0.6 * 2.51, 0.6 * 0.03, 0.0, 0.6 * 0.6 * 2.43, 0.6 * 0.59, 0.14}}},
-    {"hable", {kernels::ToneKind::Rational, {0.231683, 0.013791, 0.0, 0.18, 0.3, 0.018}}},
-    {"reinhard", {kernels::ToneKind::ReinhardLuminance, {0.0, 1.0, 0.0, 0.0, 1.0, 1.0}}}};
+std::string coefficient_fault(const double* k) {
+    if (!std::all_of(k, k + 6, [](double v) { return std::isfinite(v); }))
+        return "a coefficient is not finite";
+    if (k[3] == 0 && k[4] == 0 && k[5] == 0)
+        return "the denominator is 0 everywhere (k3 = k4 = k5 = 0)";
+    return {};
+}
 
-// Roots of a x^2 + b x + c in [0, largest], ascending.
+std::string at(const char* format, double x, double largest) {
+    char buffer[256];
+    std::snprintf(buffer, sizeof buffer, format, x, largest);
+    return buffer;
+}
+
+} // namespace
+
 std::vector<double> roots_within(double a, double b, double c, double largest) {
     std::vector<double> roots;
     if (a == 0) {
@@ -41,33 +48,40 @@ std::vector<double> roots_within(double a, double b, double c, double largest) {
     return roots;
 }
 
-std::string at(const char* format, double x, double largest) {
-    char buffer[256];
-    std::snprintf(buffer, sizeof buffer, format, x, largest);
-    return buffer;
-}
-
-} // namespace
-
 std::optional<kernels::ToneCurve> rational_curve(std::string_view name) {
-    for (const Named& entry : kCurves)
-        if (name == entry.name)
-            return entry.curve;
-    return std::nullopt;
+    if (std::find(std::begin(kNames), std::end(kNames), name) == std::end(kNames))
+        return std::nullopt;
+    const Curve& row = *find_curve(name);
+    CurveValues values;
+    std::string error;
+    curve_values(row, {}, true, values, error);
+    const auto numbers = row.make(values);
+    kernels::ToneCurve curve{row.domain == CurveDomain::Luminance
+                                 ? kernels::ToneKind::ReinhardLuminance
+                                 : kernels::ToneKind::Rational,
+                             {}};
+    std::copy_n(numbers.p.begin(), curve.k.size(), curve.k.begin());
+    return curve;
 }
 
 std::vector<std::string> rational_curve_names() {
-    std::vector<std::string> names;
-    for (const Named& entry : kCurves)
-        names.emplace_back(entry.name);
-    return names;
+    return {std::begin(kNames), std::end(kNames)};
+}
+
+bool coefficient_curve(const std::vector<double>& k, kernels::CurveNumbers& curve,
+                       std::string& error) {
+    error = k.size() == 6 ? coefficient_fault(k.data())
+                          : "a curve has 6 coefficients, not " + std::to_string(k.size());
+    if (!error.empty())
+        return false;
+    curve = {};
+    std::copy(k.begin(), k.end(), curve.p.begin());
+    return true;
 }
 
 std::string curve_fault(const std::array<double, 6>& k, double largest) {
-    if (!std::all_of(k.begin(), k.end(), [](double v) { return std::isfinite(v); }))
-        return "a coefficient is not finite";
-    if (k[3] == 0 && k[4] == 0 && k[5] == 0)
-        return "the denominator is 0 everywhere (k3 = k4 = k5 = 0)";
+    if (std::string fault = coefficient_fault(k.data()); !fault.empty())
+        return fault;
     const auto poles = roots_within(k[3], k[4], k[5], largest);
     if (!poles.empty())
         return at("the curve has a pole at x = %g, within the exposed values 0 to %g", poles[0],

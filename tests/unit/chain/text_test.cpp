@@ -6,7 +6,6 @@ namespace tonetool::chain {
 namespace {
 
 using testing::ElementsAre;
-using testing::IsEmpty;
 
 TEST(ParseSize, TakesWholeNumbersWithAUnit) {
     EXPECT_EQ(parse_size("1"), 1u);
@@ -54,13 +53,6 @@ TEST(FormatApart, NeverShowsDifferentNumbersAlike) {
     EXPECT_NE(format_apart(0.05000001, 0.05), format_apart(0.05, 0.05000001));
     EXPECT_NE(format_apart(0.050000000000001, 0.05), format_apart(0.05, 0.050000000000001));
     EXPECT_EQ(format_apart(0.05, 0.05), "0.05");
-}
-
-TEST(NearestNames, FindsMisspeltOnes) {
-    const Strings names = {"hdrflip", "ldrflip", "flipdiff", "label", "o"};
-    EXPECT_THAT(nearest_names("hdrflp", names), ElementsAre("hdrflip", "ldrflip"));
-    EXPECT_THAT(nearest_names("flip", names), ElementsAre("flipdiff"));
-    EXPECT_THAT(nearest_names("zzzzzzzz", names), IsEmpty());
 }
 
 TEST(Split, KeepsEmptyWords) {

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <hwy/targets.h>
 
+#include "kernels/curve_rows.h"
 #include "kernels/flip_rows.h"
 
 namespace tonetool::kernels {
@@ -15,6 +16,7 @@ public:
         hwy::SetSupportedTargetsForTest(target);
         hwy::GetChosenTarget().Update(target);
         EXPECT_STREQ(flip_rows().name, hwy::TargetName(target));
+        EXPECT_STREQ(curve_target(), hwy::TargetName(target));
     }
     Target(const Target&) = delete;
     Target& operator=(const Target&) = delete;

@@ -1,0 +1,135 @@
+#include "tonemap/curves.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "kernels/curve_twin.h"
+#include "text/nearest_names.h"
+#include "tonemap/curve_families.h"
+
+namespace tonetool::tonemap {
+namespace {
+
+std::vector<Curve> collect() {
+    std::vector<Curve> all = basic_curves();
+    for (auto family : {filmic_curves, modern_curves})
+        for (Curve& row : family())
+            all.push_back(std::move(row));
+    return all;
+}
+
+std::string number(double value) {
+    char buffer[32];
+    std::snprintf(buffer, sizeof buffer, "%.6g", value);
+    return buffer;
+}
+
+std::string joined(const std::vector<std::string>& words) {
+    std::string all;
+    for (const std::string& word : words)
+        all += (all.empty() ? "" : ", ") + word;
+    return all;
+}
+
+std::string of_curve(const Curve& curve) {
+    return std::string("curve \"") + curve.name + "\"";
+}
+
+std::vector<std::string> parameter_names(const Curve& curve) {
+    std::vector<std::string> names;
+    for (const CurveParameter& parameter : curve.parameters)
+        names.emplace_back(parameter.name);
+    return names;
+}
+
+std::string unknown_parameter(const Curve& curve, const std::string& name) {
+    const auto names = parameter_names(curve);
+    const std::string hint = did_you_mean(name, names);
+    return of_curve(curve) + " has no parameter \"" + name + "\"" +
+           (hint.empty() ? "" : ", " + hint) +
+           (names.empty() ? " (it has none)" : " (it has " + joined(names) + ")");
+}
+
+// Values that are each valid may not go together: a pole, a toe above the line. Where the curve,
+// clamped, falls or is no number, on 2^-32 to 2^64; empty if nowhere.
+std::string fault(const Curve& curve, const CurveValues& values) {
+    constexpr int steps = 8; // to an octave
+    const kernels::CurveNumbers numbers = curve.make(values);
+    double before = 0;
+    for (int i = -32 * steps; i <= 64 * steps; ++i) {
+        const double x = std::exp2(double(i) / steps), y = kernels::curve_twin(numbers, x);
+        if (!std::isfinite(y))
+            return of_curve(curve) + " with these values has no result at x = " + number(x);
+        const double clamped = std::clamp(y, 0.0, 1.0);
+        if (clamped < before - 1e-9)
+            return of_curve(curve) + " with these values falls at x = " + number(x);
+        before = clamped;
+    }
+    return {};
+}
+
+} // namespace
+
+const std::vector<Curve>& all_curves() {
+    static const std::vector<Curve> all = collect();
+    return all;
+}
+
+const Curve* find_curve(std::string_view name) {
+    for (const Curve& row : all_curves())
+        if (row.name == name)
+            return &row;
+    return nullptr;
+}
+
+std::vector<std::string> curve_names() {
+    std::vector<std::string> names;
+    for (const Curve& row : all_curves())
+        names.emplace_back(row.name);
+    return names;
+}
+
+std::vector<std::string> curve_parameter_names() {
+    std::vector<std::string> names;
+    for (const Curve& row : all_curves())
+        for (const std::string& name : parameter_names(row))
+            if (std::find(names.begin(), names.end(), name) == names.end())
+                names.push_back(name);
+    return names;
+}
+
+std::string did_you_mean(std::string_view word, const std::vector<std::string>& names) {
+    const auto nearest = text::nearest_names(std::string(word), names);
+    return nearest.empty() ? "" : "did you mean " + joined(nearest) + "?";
+}
+
+bool curve_values(const Curve& curve, const std::map<std::string, double>& given, bool flip,
+                  CurveValues& values, std::string& error) {
+    CurveValues all;
+    for (const CurveParameter& parameter : curve.parameters)
+        all.push_back(flip ? parameter.flip_value.value_or(parameter.value) : parameter.value);
+    for (const auto& [name, value] : given) {
+        size_t i = 0;
+        while (i < all.size() && curve.parameters[i].name != name)
+            ++i;
+        if (i == all.size()) {
+            error = unknown_parameter(curve, name);
+            return false;
+        }
+        const CurveParameter& parameter = curve.parameters[i];
+        if (!(value >= parameter.low && value <= parameter.high)) {
+            error = "\"" + name + "\" of " + of_curve(curve) + " cannot be " + number(value) +
+                    "; valid: " + number(parameter.low) + " to " + number(parameter.high);
+            return false;
+        }
+        all[i] = value;
+    }
+    error = given.empty() ? "" : fault(curve, all);
+    if (!error.empty())
+        return false;
+    values = std::move(all);
+    return true;
+}
+
+} // namespace tonetool::tonemap

@@ -1,0 +1,58 @@
+#include <algorithm>
+#include <cmath>
+
+#include "kernels/curve_twin.h"
+#include "tonemap/curves.h"
+#include "tonemap/rational.h"
+
+namespace tonetool::tonemap {
+namespace {
+
+using kernels::curve_twin;
+using kernels::CurveKind;
+using kernels::CurveNumbers;
+
+constexpr double kLargest = 0x1p64;
+
+// Exact: near an asymptote the curve itself no longer tells its values apart.
+std::optional<double> rational_inverse(const CurveNumbers& curve, double y) {
+    const auto& k = curve.p;
+    auto roots = roots_within(k[0] - y * k[3], k[1] - y * k[4], k[2] - y * k[5], kLargest);
+    while (!roots.empty() && !std::isfinite(curve_twin(curve, roots.back())))
+        roots.pop_back();
+    return roots.empty() ? std::nullopt : std::optional(roots.back());
+}
+
+int sign(double v) {
+    return (v > 0) - (v < 0);
+}
+
+// Where the sign of curve - y at `high` ends, seen from there; at `low` it is another one.
+double boundary(const CurveNumbers& curve, double y, double low, double high) {
+    const int beyond = sign(curve_twin(curve, high) - y);
+    for (;;) {
+        const double middle = low + (high - low) / 2;
+        if (!(middle > low && middle < high))
+            return beyond == 0 ? high : low;
+        (sign(curve_twin(curve, middle) - y) == beyond ? high : low) = middle;
+    }
+}
+
+} // namespace
+
+// From above, in sixteenths of an octave: no curve of the registry but the rational ones turns.
+std::optional<double> inverse(const CurveNumbers& curve, double y) {
+    if (curve.kind == CurveKind::Rational)
+        return rational_inverse(curve, y);
+    const int beyond = sign(curve_twin(curve, kLargest) - y);
+    double high = kLargest;
+    for (int i = 1; i <= 128 * 16; ++i) {
+        const double low = i < 128 * 16 ? std::exp2(64 - i / 16.0) : 0;
+        if (sign(curve_twin(curve, low) - y) != beyond)
+            return boundary(curve, y, low, high);
+        high = low;
+    }
+    return beyond == 0 ? std::optional(0.0) : std::nullopt;
+}
+
+} // namespace tonetool::tonemap
