@@ -135,6 +135,52 @@ void run_tonecurves(Session& session, const Call& call) {
     session.produced = true;
 }
 
+LutOptions lut_options(const Session& session, const Call& call) {
+    LutOptions options;
+    check_one_way(call, "curve");
+    options.curve = curve_options(call, "curve");
+    options.view = view_options(session, call);
+    options.from = call.text("from").value_or("");
+    if (options.view && call.has("encode")) {
+        throw CommandError("encode= is of tone curves: a view has its own");
+    }
+    options.encode = call.choice("encode", ToneAlgo::display_encodings()).value_or(options.encode);
+    options.shaper = call.choice("shaper", ToneAlgo::lut_shapers()).value_or(options.shaper);
+    options.min = call.number("min", {-24, 0}).value_or(options.min);
+    options.max = call.number("max", {1, 16}).value_or(options.max);
+    options.size = call.integer("size", {2, 65536}).value_or(0);
+    return options;
+}
+
+void run_exportlut(Session& session, const Call& call) {
+    LutSummary made;
+    std::string why;
+    if (!ToneAlgo::export_lut(call.argument(0), lut_options(session, call), &made, why)) {
+        throw CommandError(why);
+    }
+    const std::string label = call.row().label() + ": ";
+    session.report(label + "file " + call.argument(0) + ", " + made.structure);
+    session.report(label + "input " + made.input);
+    session.report(label + "range " + format_number(made.low) + " to " + format_number(made.high));
+    session.report(label + "error max " + format_number(made.max_error) + " mean " +
+                   format_number(made.mean_error));
+    session.report(label + "grey-error max " + format_number(made.grey_max_error));
+    session.produced = true;
+}
+
+std::vector<Modifier> exportlut_modifiers() {
+    return concatenated(
+        {{{"curve", join(ToneAlgo::tone_curve_names(), "|"), "tone curve (aces)"}},
+         curve_modifiers(false),
+         view_modifiers(),
+         {{"from", "SPACE", "colour space that a view starts from (linear Rec.709)"},
+          {"encode", join(ToneAlgo::display_encodings(), "|"), "of a curve's result (srgb)"},
+          {"shaper", join(ToneAlgo::lut_shapers(), "|"), "of scene light to 0 to 1 (log2)"},
+          {"min", "X", "stops of log2's low end, -24 to 0 (-12)"},
+          {"max", "X", "stops of its high end, 1 to 16 (10)"},
+          {"size", "N", "entries (4096), or nodes along a cube's edge (33)"}}});
+}
+
 std::vector<Modifier> method_modifier(const std::string& otherwise) {
     return {{"method", "manual|mean|auto",
              "exposure: stops alone, from the geometric mean, with a key from the mean (" +
@@ -183,6 +229,14 @@ std::vector<Command> tone_commands() {
          "HDR to a display, by a tone curve or an OpenColorIO view",
          Group::Color,
          run_tonemap},
+        {{"exportlut"},
+         {"FILE"},
+         0,
+         0,
+         exportlut_modifiers(),
+         "Write a tone curve or a view as ." + join(ToneAlgo::lut_formats(), ", ."),
+         Group::Write,
+         run_exportlut},
         {{"tonecurves"},
          {},
          0,

@@ -1,4 +1,5 @@
-// Displays and views of OpenColorIO configurations. Nothing but view*.cpp knows OpenColorIO.
+// Displays and views of OpenColorIO configurations. Nothing but view*.cpp
+// and lut*.cpp knows OpenColorIO.
 #pragma once
 
 #include <OpenImageIO/imageio.h>

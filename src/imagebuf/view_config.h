@@ -1,4 +1,5 @@
-// A view of an OpenColorIO configuration, chosen and checked. Only view*.cpp include this.
+// A view of an OpenColorIO configuration, chosen and checked. Only view*.cpp and
+// lut*.cpp include this.
 #pragma once
 
 #include <OpenColorIO/OpenColorIO.h>

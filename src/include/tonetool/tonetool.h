@@ -5,6 +5,7 @@
 #include "tonetool/export.h"
 #include "tonetool/flip.h"
 #include "tonetool/luminance.h"
+#include "tonetool/lut.h"
 #include "tonetool/pixels.h"
 #include "tonetool/tonemap.h"
 #include "tonetool/write.h"
