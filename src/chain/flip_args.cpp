@@ -49,10 +49,9 @@ void read_exposures(const Call& call, HdrFlipOptions& options) {
 } // namespace
 
 std::vector<Modifier> pixel_modifiers() {
-    return {{"layer", "NAME", "layer whose R,G,B are used, \"ViewLayer.Combined\""},
-            {"from", "SPACE",
-             "colour space of the pixels: rec709, acescg, aces2065-1, rec2020, "
-             "p3-d65, srgb"}};
+    return {
+        {"layer", "NAME", "layer whose R,G,B are used, \"ViewLayer.Combined\""},
+        {"from", "SPACE", "colour space of the pixels: " + join(ToneAlgo::color_spaces(), ", ")}};
 }
 
 std::vector<Modifier> pair_modifiers() {

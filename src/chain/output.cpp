@@ -13,6 +13,8 @@ namespace tonetool::chain {
 
 namespace {
 
+using namespace std::string_literals;
+
 struct TypeRow {
     const char* name;
     OIIO::TypeDesc type;
@@ -79,12 +81,16 @@ void fit_channels(Session& session, const std::string& where, Outgoing& image,
     if (fits) {
         return;
     }
-    int kept = alpha ? 4 : 3;
+    // What was tone mapped is what is to be seen.
+    std::string layer = spec.get_string_attribute("tonemap:layer");
+    layer += layer.empty() ? "" : ".";
+    bool opaque = !layer.empty() && channel_index(spec, layer + "A") < 0;
+    int kept = alpha && !opaque ? 4 : 3;
     std::vector<int> chosen;
     Strings names;
     for (int i = 0; i < kept; ++i) {
         static const char* const usual[] = {"R", "G", "B", "A"};
-        chosen.push_back(channel_index(spec, usual[i]));
+        chosen.push_back(channel_index(spec, layer + usual[i]));
     }
     if (std::find(chosen.begin(), chosen.end(), -1) != chosen.end()) {
         chosen = kept == 4 ? std::vector<int>{0, 1, 2, 3} : std::vector<int>{0, 1, 2};
@@ -147,6 +153,16 @@ OIIO::ImageSpec output_spec(const Outgoing& image, const Session& session,
         spec.channelformats = image.format.of_channel;
     }
     return spec;
+}
+
+void warn_of_encoding(Session& session, const std::string& where, const OIIO::ImageSpec& spec,
+                      const OIIO::ImageOutput& writer) {
+    std::string space = spec.get_string_attribute("oiio:ColorSpace");
+    bool linear = space == "lin_rec709" || spec.find_attribute("chromaticities");
+    if (spec.find_attribute("tonemap:curve") && !linear && writer.format_name() == "openexr"s) {
+        session.warning(where, "the tone mapped values are display-encoded (" + space +
+                                   "), but OpenEXR is read as linear light (encode=none)");
+    }
 }
 
 size_t parts_to_write(Session& session, const std::string& where, const Image& image,
@@ -213,6 +229,7 @@ void write_output(Session& session, const std::string& where, const Image& image
         fit_channels(session, where, parts[i], *writer);
         choose_format(parts[i], settings, session.output);
         ready.push_back({parts[i].pixels, output_spec(parts[i], session, settings)});
+        warn_of_encoding(session, where, ready.back().spec, *writer);
         if (part.mip_levels() > 1) {
             session.warning(where, "only the largest of " + std::to_string(part.mip_levels()) +
                                        " MIP levels of " + image.name() + " is written");

@@ -17,7 +17,7 @@ struct Evaluation {
     /// Instruction set to run on; null: the best of this machine.
     const kernels::FlipRows* functions = nullptr;
     int most_tile_rows = 0; ///< to take less memory; 0: as many as is fast
-    kernels::ToneRows rows; ///< instead of the curve
+    kernels::ToneRows rows = nullptr; ///< instead of the curve
 };
 
 /// Where the results of one test go: planes of the window's size, row stride `stride` floats.

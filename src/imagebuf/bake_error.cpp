@@ -6,7 +6,7 @@
 namespace tonetool {
 namespace {
 
-constexpr int64_t kPixels = 4096;
+constexpr int64_t kSamples = 1 << 16, kFewestPixels = 64;
 
 struct Samples {
     std::vector<float> plane[3];
@@ -24,9 +24,10 @@ struct Samples {
 
 // Pixels number 0, step, 2 step, ... of the region. The step is odd, so that it does not stay in
 // the columns of a power of two.
-Samples sample(const ColorPlanes& planes, int begin, int end) {
+Samples sample(const ColorPlanes& planes, int begin, int end, size_t exposures) {
     const int64_t width = planes.width();
-    const int64_t step = std::max<int64_t>(1, width * planes.region.height() / kPixels) | 1;
+    const int64_t wanted = std::max(kSamples / int64_t(exposures), kFewestPixels);
+    const int64_t step = ((width * planes.region.height() + wanted - 1) / wanted) | 1;
     const int64_t first = (begin - planes.region.ybegin) * width;
     const int64_t last = (end - planes.region.ybegin) * width;
     Samples samples(0);
@@ -48,7 +49,7 @@ void BakeError::add(const BakeError& other) {
 
 BakeError measure_bake(const DisplayLight& light, const ColorPlanes& planes, int begin, int end,
                        const std::vector<double>& stops) {
-    const Samples samples = sample(planes, begin, end);
+    const Samples samples = sample(planes, begin, end, stops.size());
     const auto exact = light.exact(), baked = light.baked();
     Samples truth(samples.count()), table(samples.count());
     BakeError error;

@@ -17,8 +17,8 @@ struct BakeError {
     void add(const BakeError& other);
 };
 
-/// Over the rows [begin, end) of an image at these exposures: about 4096 pixels of the whole image,
-/// evenly spaced, so that bands add up to the same figures as the whole.
+/// Over the rows [begin, end) of an image at these exposures: evenly spaced pixels, at most 2^16 of
+/// the whole image and all exposures, so that bands add up to the same figures as the whole.
 BakeError measure_bake(const DisplayLight& light, const ColorPlanes& planes, int begin, int end,
                        const std::vector<double>& stops);
 

@@ -6,6 +6,8 @@
 #include <optional>
 #include <vector>
 
+#include "include/tonetool/pixels.h"
+
 namespace tonetool {
 namespace {
 
@@ -76,10 +78,7 @@ const Known* find_known(const std::string& name) {
 }
 
 std::string known_names() {
-    std::vector<std::string> names;
-    for (const Known& space : known_spaces())
-        names.emplace_back(space.name);
-    return OIIO::Strutil::join(names, ", ");
+    return OIIO::Strutil::join(ToneAlgo::color_spaces(), ", ");
 }
 
 Matrix3 multiply(const Matrix3& a, const Matrix3& b) {
@@ -275,6 +274,13 @@ double srgb_to_linear(double v) {
 
 double linear_to_srgb(double v) {
     return v <= 0.0031308 ? v * 12.92 : 1.055 * std::pow(v, 1.0 / 2.4) - 0.055;
+}
+
+std::vector<std::string> ToneAlgo::color_spaces() {
+    std::vector<std::string> names;
+    for (const Known& space : known_spaces())
+        names.emplace_back(space.name);
+    return names;
 }
 
 } // namespace tonetool

@@ -46,8 +46,11 @@ bool plan_coefficients(const CurveOptions& options, CurvePlan& plan, std::string
         error = options.parameters.begin()->first + "= does not go with coeffs=";
         return false;
     }
-    return tonemap::coefficient_curve(options.coeffs, plan.numbers, error) &&
-           plan_domain(options, CurveDomain::Channel, plan, error);
+    if (!tonemap::coefficient_curve(options.coeffs, plan.numbers, error)) {
+        error = "coeffs are " + OIIO::Strutil::join(options.coeffs, ",") + ": " + error;
+        return false;
+    }
+    return plan_domain(options, CurveDomain::Channel, plan, error);
 }
 
 bool plan_named(const CurveOptions& options, bool flip, CurvePlan& plan, std::string& error) {

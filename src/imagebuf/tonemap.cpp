@@ -206,6 +206,7 @@ private:
         if (m_options.view || rec709())
             spec.erase_attribute("chromaticities");
         spec.attribute("oiio:ColorSpace", space);
+        spec.attribute("tonemap:layer", summary.layer);
         spec.attribute("tonemap:curve", summary.curve);
         std::vector<std::string> parameters;
         for (const auto& [name, value] : summary.parameters)

@@ -1,5 +1,7 @@
 #include "imagebuf/view.h"
 
+#include <algorithm>
+
 #include "imagebuf/colorimetry.h"
 #include "imagebuf/guard.h"
 #include "imagebuf/view_config.h"
@@ -28,7 +30,8 @@ bool space_of_image(const ChosenView& chosen, const OIIO::ImageSpec& header, std
     ColorSpace space;
     if (!find_space(header, "", space, error)) {
         // Its own names are not those of the configuration.
-        error = error.substr(0, error.find("; pass from=")) + valid_sources(chosen);
+        error.resize(std::min(error.size(), error.find("; pass from=")));
+        error += valid_sources(chosen);
         return false;
     }
     const std::vector<std::string> names = interchange_names(space.name);

@@ -49,16 +49,20 @@ struct DisplayLightOptions {
     std::optional<double> peak;
 };
 
+/// Turns scene light into display light: packed RGB in place, nothing clamped.
+using LightSource = std::function<void(float* rgb, ptrdiff_t count)>;
+
 /// A view from linear Rec.709 scene light to linear Rec.709 display light, 1 the display's white.
 class DisplayLight {
 public:
     bool open(const DisplayLightOptions& options, std::string& error);
 
     std::string name() const; ///< "display/view"
+    LightSource source() const;
     /// Through OpenColorIO's processor.
     kernels::ToneRows exact() const;
-    /// Through a baked table, which is made by the first call: a log2 shaper and a cube, read
-    /// tetrahedrally.
+    /// Through a baked table, which is made by the first call (0.1 s): a cube behind a shaper,
+    /// read tetrahedrally.
     kernels::ToneRows baked() const;
     /// Luminance of the display light of greys, unclamped.
     std::vector<double> greys(const std::vector<double>& values) const;

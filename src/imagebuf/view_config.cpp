@@ -54,7 +54,7 @@ std::string version_remark(const std::string& file) {
 
 // Without the words that the message around it says already.
 std::string loading_error(const std::string& file, const char* what) {
-    const std::string remark = version_remark(file);
+    std::string remark = version_remark(file);
     if (!remark.empty())
         return remark;
     const std::string text = one_line(what);

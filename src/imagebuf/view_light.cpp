@@ -32,7 +32,7 @@ ocio::MatrixTransformRcPtr matrix_transform(const Matrix3& m, double scale) {
         for (size_t j = 0; j < 3; ++j)
             values[4 * i + j] = m[i][j] * scale;
     values[15] = 1;
-    const auto transform = ocio::MatrixTransform::Create();
+    auto transform = ocio::MatrixTransform::Create();
     transform->setMatrix(values);
     return transform;
 }
@@ -188,6 +188,10 @@ bool DisplayLight::open(const DisplayLightOptions& options, std::string& error) 
 
 std::string DisplayLight::name() const {
     return m_state->name;
+}
+
+LightSource DisplayLight::source() const {
+    return [state = m_state](float* rgb, ptrdiff_t count) { state->light(rgb, count); };
 }
 
 kernels::ToneRows DisplayLight::exact() const {

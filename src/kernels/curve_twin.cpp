@@ -27,8 +27,11 @@ double exponential(const P& p, double x) {
     return -std::expm1(-x / p[0]);
 }
 
-// Drago et al. 2003, Eq. 4, for a display whose white is 1. p: white, bias.
+// Drago et al. 2003, Eq. 4, for a display whose white is 1. p: white, bias. Above white the formula
+// can fall, towards log 10 / (log(1 + white) bias exponent): for bias 0.7 where white exceeds 268.
+// It was meant for values up to white; those above count as white.
 double drago(const P& p, double x) {
+    x = std::min(x, p[0]);
     const double bias = std::pow(x / p[0], std::log(p[1]) / std::log(0.5));
     return std::log1p(x) / (std::log10(1 + p[0]) * std::log(2 + 8 * bias));
 }

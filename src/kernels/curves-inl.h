@@ -69,12 +69,14 @@ struct ExponentialLanes {
 };
 
 struct DragoLanes {
-    float scale, share, exponent;
+    float scale, white, share, exponent;
     explicit DragoLanes(const CurveNumbers& curve)
         : scale(float(std::log(10.0) / std::log1p(curve.p[0]))),
+          white(float(curve.p[0])),
           share(float(1 / curve.p[0])),
           exponent(float(std::log(curve.p[1]) / std::log(0.5))) {}
     HWY_INLINE V operator()(V x) const {
+        x = hn::Min(x, Number(white));
         const V log_share = Log2Within(hn::Mul(x, Number(share)));
         const V bias = Exp2Within(hn::Mul(Number(exponent), log_share));
         const V down = Log2(d, hn::MulAdd(Number(8.0f), bias, Number(2.0f)));

@@ -68,7 +68,8 @@ struct CubeRootTable {
                                 : exact < 1   ? 0.5
                                               : 1) /
                                128;
-            const double rounded = double(int(exact / ulp + 0.5)) * ulp;
+            const int nearest = (int(2 * exact / ulp) + 1) / 2;
+            const double rounded = nearest * ulp;
             root[i] = float(rounded);
             cube[i] = float(rounded * rounded * rounded);
             inverse[i] = float(1 / (rounded * rounded * rounded));

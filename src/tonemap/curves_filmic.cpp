@@ -144,7 +144,7 @@ std::vector<Curve> fitted_curves() {
          CurveDomain::Channel,
          false,
          true,
-         {white_parameter(5, "the value that becomes 1")},
+         {{"white", 5, 0.1, 1e9, "the value that becomes 1"}},
          make_hejl2015,
          "slightly below 0 where x < 0.0046; values above white exceed 1"},
     };

@@ -23,18 +23,21 @@ std::optional<double> rational_inverse(const CurveNumbers& curve, double y) {
     return roots.empty() ? std::nullopt : std::optional(roots.back());
 }
 
-int sign(double v) {
-    return (v > 0) - (v < 0);
+// -1, 0, 1: the curve is below y, there, above. A few ulp are rounding: a curve must be found to
+// reach its white.
+int side(const CurveNumbers& curve, double x, double y) {
+    const double off = curve_twin(curve, x) - y, rounding = 1e-15 * std::abs(y);
+    return (off > rounding) - (off < -rounding);
 }
 
-// Where the sign of curve - y at `high` ends, seen from there; at `low` it is another one.
+// Where the side that `high` is on ends, seen from there; `low` is on another one.
 double boundary(const CurveNumbers& curve, double y, double low, double high) {
-    const int beyond = sign(curve_twin(curve, high) - y);
+    const int beyond = side(curve, high, y);
     for (;;) {
         const double middle = low + (high - low) / 2;
         if (!(middle > low && middle < high))
             return beyond == 0 ? high : low;
-        (sign(curve_twin(curve, middle) - y) == beyond ? high : low) = middle;
+        (side(curve, middle, y) == beyond ? high : low) = middle;
     }
 }
 
@@ -44,11 +47,11 @@ double boundary(const CurveNumbers& curve, double y, double low, double high) {
 std::optional<double> inverse(const CurveNumbers& curve, double y) {
     if (curve.kind == CurveKind::Rational)
         return rational_inverse(curve, y);
-    const int beyond = sign(curve_twin(curve, kLargest) - y);
+    const int beyond = side(curve, kLargest, y);
     double high = kLargest;
     for (int i = 1; i <= 128 * 16; ++i) {
         const double low = i < 128 * 16 ? std::exp2(64 - i / 16.0) : 0;
-        if (sign(curve_twin(curve, low) - y) != beyond)
+        if (side(curve, low, y) != beyond)
             return boundary(curve, y, low, high);
         high = low;
     }

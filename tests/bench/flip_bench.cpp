@@ -20,6 +20,7 @@
 #include "imagebuf/parallel.h"
 #include "kernels/flip_rows.h"
 #include "kernels/flip_twin.h"
+#include "kernels/lut_rows.h"
 #include "metrics/luminance.h"
 #include "stages.h"
 #include "tonemap/rational.h"
@@ -213,6 +214,55 @@ void measure_exposures(benchmark::State& state) {
     state.counters["wall_ms"] = fastest.wall * 1e-6;
 }
 
+enum ToneBy { kCurve, kTable };
+
+kernels::LightCube make_table() {
+    kernels::CubeShape shape;
+    shape.size = 81;
+    kernels::LightCube cube(shape);
+    std::vector<float> row(3 * size_t(shape.size));
+    for (int r = 0; r < shape.size; ++r)
+        for (int g = 0; g < shape.size; ++g) {
+            for (int b = 0; b < shape.size; ++b) {
+                const double x[3] = {cube.level(r), cube.level(g), cube.level(b)};
+                for (size_t c = 0; c < 3; ++c)
+                    row[3 * size_t(b) + c] = float(x[c] / (x[c] + 0.9 * x[1] + 0.1));
+            }
+            cube.set_row(r, g, row.data());
+        }
+    return cube;
+}
+
+// The rows of one picture, smooth or with noise, by the ACES curve or by a view's table. Figures
+// per pixel of one picture: HDR-FLIP shows two.
+void tone_rows(benchmark::State& state) {
+    const auto by = ToneBy(state.range(0));
+    const int width = 1920, height = 1080;
+    const PicturePair pair = make_pair(width, height);
+    const Picture& picture = state.range(1) ? pair.test : pair.reference;
+    const kernels::LightCube table = make_table();
+    const kernels::ToneCurve curve = *tonemap::rational_curve("aces");
+    std::vector<float> out[3];
+    for (auto& plane : out)
+        plane.resize(size_t(width));
+    float* const to[3] = {out[0].data(), out[1].data(), out[2].data()};
+    Fastest fastest;
+    fastest.run(state, [&] {
+        for (int y = 0; y < height; ++y) {
+            const float* in[3];
+            for (size_t c = 0; c < 3; ++c)
+                in[c] = picture.plane[c].data() + size_t(y) * size_t(width);
+            if (by == kTable)
+                kernels::light_cube_rows(table, in, to, width, 0.5f);
+            else
+                kernels::tone_map_pixels(in, to, width, curve, 0.5f);
+            benchmark::DoNotOptimize(out[0].data());
+        }
+    });
+    fastest.report(state, double(width) * height);
+    state.SetLabel(std::string(kernels::flip_rows().name) + (by == kTable ? " table" : " curve"));
+}
+
 constexpr int kAll = 0;
 
 BENCHMARK(evaluate)
@@ -236,6 +286,13 @@ BENCHMARK(evaluate_corner)
 BENCHMARK(evaluate_stages)
     ->ArgNames({"width", "height", "exposures", "threads", "tests"})
     ->Args({1920, 1080, 9, 1, 1})
+    ->Unit(benchmark::kMillisecond)
+    ->UseRealTime();
+BENCHMARK(tone_rows)
+    ->ArgNames({"table", "noise"})
+    ->Args({kCurve, 1})
+    ->Args({kTable, 0})
+    ->Args({kTable, 1})
     ->Unit(benchmark::kMillisecond)
     ->UseRealTime();
 BENCHMARK(measure_exposures)

@@ -27,8 +27,9 @@ struct PixelOptions {
     /// Layer whose R, G, B are used ("ViewLayer.Combined"; the part before ".R").
     /// Empty: plain R,G,B; else the one obvious beauty layer; else an error that lists the layers.
     std::string layer;
-    /// Colour space of the stored values: rec709, acescg, aces2065-1, rec2020, p3-d65 (all
-    /// linear, with their usual aliases) or srgb (display-encoded, decoded first).
+    /// Colour space of the stored values, one of color_spaces(): rec709, acescg, aces2065-1,
+    /// rec2020, p3-d65 (all linear, with their usual aliases) or srgb (display-encoded, decoded
+    /// first).
     /// Empty: the `chromaticities` attribute, else `oiio:ColorSpace`, else sRGB for integer
     /// files and linear Rec.709 for floating-point ones.
     std::string from;
@@ -53,6 +54,9 @@ TONETOOL_API bool find_color(const OIIO::ImageSpec& spec, const PixelOptions& op
 
 /// Names of all layers that have R, G and B; the plain R,G,B is listed as "R,G,B".
 TONETOOL_API std::vector<std::string> color_layers(const OIIO::ImageSpec& spec);
+
+/// Names of the colour spaces that PixelOptions::from takes; each has aliases.
+TONETOOL_API std::vector<std::string> color_spaces();
 
 } // namespace ToneAlgo
 } // namespace tonetool

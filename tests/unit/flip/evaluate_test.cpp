@@ -81,6 +81,18 @@ TEST_F(Evaluate, MatchesTheTwinAcrossTiles) {
         ASSERT_NEAR(m_whole.error[i], expected[i], expected[i] >= 0.01 ? 1e-5 : 1e-4) << i;
 }
 
+// A curve that comes from outside, by rows, is the curve that the kernels have: its rows are as
+// long as the kernels' are, and each pixel's value depends on nothing else.
+TEST_F(Evaluate, RowsInsteadOfTheCurveDoNotChangeABit) {
+    Evaluation by_rows = evaluation();
+    by_rows.rows = [curve = by_rows.curve](const float* const in[3], float* const out[3],
+                                           ptrdiff_t count, float scale) {
+        kernels::tone_map_pixels(in, out, count, curve, scale);
+    };
+    by_rows.curve = *tonemap::rational_curve("hable"); // is not looked at
+    expect_same(m_whole, whole(m_reference, m_test, by_rows, on_threads(3), kStops.size()));
+}
+
 TEST_F(Evaluate, ScheduleDoesNotChangeABit) {
     for (const ParallelFor& parallel : {backwards(), on_threads(2), on_threads(7)})
         expect_same(m_whole, whole(m_reference, m_test, evaluation(), parallel, kStops.size()));

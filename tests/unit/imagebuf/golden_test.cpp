@@ -55,7 +55,7 @@ tonetool::HdrFlipOptions parse(const std::string& options) {
     std::istringstream words(options);
     for (std::string key, value; words >> key && key != "--ldr" && words >> value;) {
         if (key == "--tm")
-            out.tonemapper = value;
+            out.curve.name = value;
         else if (key == "--n")
             out.num_exposures = std::stoi(value);
         else if (key == "--cstart")

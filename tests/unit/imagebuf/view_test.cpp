@@ -306,7 +306,9 @@ ImageBuf colors(int width) {
 // Largest difference to stock oiiotool, which is to run quietly.
 double difference_to_oiiotool(const Folder& folder, const ViewOptions& options,
                               const std::string& input, const std::string& from) {
-    const std::string output = folder / "stock.exr";
+    // Its own name each time: OpenImageIO remembers files.
+    static int calls = 0;
+    const std::string output = folder / ("stock" + std::to_string(calls++) + ".exr");
     const std::string command = "oiiotool --colorconfig '" + options.config + "' '" + input +
                                 "' --ch 0,1,2 '--ociodisplay:from=" + from + "' '" +
                                 options.display + "' '" + options.view + "' -d float -o '" +
@@ -314,10 +316,11 @@ double difference_to_oiiotool(const Folder& folder, const ViewOptions& options,
     EXPECT_EQ(std::system(command.c_str()), 0) << command;
     const ImageBuf stock = read_whole(output);
     const ImageBuf ours = OIIO::ImageBufAlgo::channels(read_whole(input), 3, {});
+    EXPECT_EQ(stock.roi(), ours.roi());
     const size_t pixels = size_t(ours.spec().image_pixels());
     std::vector<float> a(3 * pixels), b(3 * pixels);
     EXPECT_TRUE(ours.get_pixels(ours.roi(), OIIO::TypeFloat, a.data()));
-    EXPECT_TRUE(stock.get_pixels(stock.roi(), OIIO::TypeFloat, b.data()));
+    EXPECT_TRUE(stock.get_pixels(ours.roi(), OIIO::TypeFloat, b.data()));
     ViewTransform transform;
     std::string error;
     EXPECT_TRUE(transform.open(options, from, ours.spec(), error)) << error;

@@ -98,24 +98,120 @@ double expect_close(const CurveCase& one, const CurveUse& use, const Planes& in)
     return worst;
 }
 
+double worst_of_all(const tonemap::Curve& curve, bool clamp) {
+    double worst = 0;
+    for (const CurveCase& one : cases_of(curve))
+        for (const CurveUse& use : uses(clamp))
+            for (const Planes& in : {greys(), colors()})
+                worst = std::max(worst, expect_close(one, use, in));
+    return worst;
+}
+
 class CurveRows : public testing::TestWithParam<const tonemap::Curve*> {};
 
 TEST_P(CurveRows, AreCloseToTheTwin) {
-    double worst = 0;
-    for (const CurveCase& one : cases_of(*GetParam()))
-        for (const CurveUse& use : uses(true))
-            for (const Planes& in : {greys(), colors()})
-                worst = std::max(worst, expect_close(one, use, in));
-    std::printf("  worst %.3g\n", worst);
+    std::printf("  worst %.3g\n", worst_of_all(*GetParam(), true));
 }
 
 TEST_P(CurveRows, AreCloseToTheTwinUnclamped) {
-    double worst = 0;
-    for (const CurveCase& one : cases_of(*GetParam()))
+    std::printf("  worst %.3g\n", worst_of_all(*GetParam(), false));
+}
+
+// Any count, at any place, in place or not: the same bits, and nothing beyond them touched.
+TEST_P(CurveRows, KeepToTheirPixels) {
+    const auto numbers = cases_of(*GetParam()).front().numbers;
+    const Planes in = colors();
+    constexpr size_t most = 67, before = 3;
+    for (const CurveUse& use : uses(true))
+        on_every_target([&] {
+            const Planes all = rows_of(numbers, use, in);
+            for (size_t count = 0; count <= most; ++count) {
+                Planes out;
+                for (auto& plane : out)
+                    plane.assign(before + most + 1, -7.0f);
+                const float* const from[3] = {&in[0][5], &in[1][5], &in[2][5]};
+                float* const to[3] = {&out[0][before], &out[1][before], &out[2][before]};
+                curve_rows(numbers, use, from, to, ptrdiff_t(count), 1);
+                for (size_t c = 0; c < 3; ++c)
+                    for (size_t i = 0; i < out[c].size(); ++i)
+                        ASSERT_EQ(out[c][i], i >= before && i < before + count
+                                                 ? all[c][5 + i - before]
+                                                 : -7.0f)
+                            << name_of(use) << ", " << count << " pixels, " << i;
+            }
+        });
+}
+
+TEST_P(CurveRows, ExposeFirst) {
+    const auto numbers = cases_of(*GetParam()).front().numbers;
+    Planes exposed = colors();
+    for (auto& plane : exposed)
+        for (float& x : plane)
+            x *= 4;
+    for (const CurveUse& use : uses(true))
+        on_every_target(
+            [&] { EXPECT_EQ(rows_of(numbers, use, colors(), 4), rows_of(numbers, use, exposed)); });
+}
+
+// Black, denormals, the largest floats, and one channel alone.
+TEST_P(CurveRows, EndsOfTheRangeAreFinite) {
+    const float tiny = std::numeric_limits<float>::denorm_min();
+    const float least = std::numeric_limits<float>::min();
+    const float most = std::numeric_limits<float>::max();
+    const float ends[] = {0, tiny, 100 * tiny, least, 4 * least, 1e-30f, 1, 1e10f, 1e30f, most};
+    Planes in;
+    for (float r : ends)
+        for (float g : ends)
+            for (float b : ends) {
+                in[0].push_back(r);
+                in[1].push_back(g);
+                in[2].push_back(b);
+            }
+    for (const CurveCase& one : cases_of(*GetParam())) {
+        // On luminance, ratios of 1e-45 lose their digits.
+        expect_close(one, uses(true).front(), in);
         for (const CurveUse& use : uses(false))
-            for (const Planes& in : {greys(), colors()})
-                worst = std::max(worst, expect_close(one, use, in));
-    std::printf("  worst %.3g\n", worst);
+            on_every_target([&] {
+                for (const auto& plane : rows_of(one.numbers, use, in))
+                    for (float y : plane)
+                        ASSERT_TRUE(std::isfinite(y)) << one.what << " " << name_of(use);
+            });
+    }
+}
+
+TEST_P(CurveRows, NoLuminanceIsBlack) {
+    if (GetParam()->domain == tonemap::CurveDomain::Color)
+        return; // never on luminance
+    const auto numbers = cases_of(*GetParam()).front().numbers;
+    const float tiny = std::numeric_limits<float>::denorm_min();
+    const Planes in = {
+        {{0, tiny, 1000 * tiny, 0, 0}, {0, tiny, 0, 0, tiny}, {0, tiny, 0, tiny, 0}}};
+    for (CurveUse use : uses(false)) {
+        if (!use.on_luminance)
+            continue;
+        on_every_target([&] {
+            for (const auto& plane : rows_of(numbers, use, in))
+                for (float y : plane)
+                    EXPECT_EQ(y, 0) << name_of(use);
+        });
+    }
+}
+
+TEST(CurveRowsWeights, MayBeZero) {
+    CurveUse use;
+    use.on_luminance = true;
+    use.weights = {1, 0, 0};
+    const CurveNumbers linear{};
+    const Planes in = {{{2e-38f, 0, 0.25f}, {1, 1, 0.5f}, {1e10f, 0, 0}}};
+    for (double saturation : {1.0, 2.0, 0.5}) {
+        use.saturation = saturation;
+        on_every_target([&] {
+            const Planes out = rows_of(linear, use, in);
+            EXPECT_TRUE(std::isfinite(out[2][0]));
+            EXPECT_EQ(out[1][1], 0) << "luminance is 0";
+            EXPECT_NEAR(out[1][2], 0.25 * std::pow(2, saturation), 1e-6);
+        });
+    }
 }
 
 INSTANTIATE_TEST_SUITE_P(Registry, CurveRows, testing::ValuesIn([] {

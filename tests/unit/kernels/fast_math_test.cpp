@@ -39,22 +39,30 @@ void CubeRootsOfShares(const float* in, size_t count, double* out) {
     StoreRoots(in, count, out, [](auto x) HWY_ATTR { return CubeRootOfShare(d, x); });
 }
 
-void Logs(const float* in, size_t count, double* out) {
+template <class Function>
+void Store(const float* in, size_t count, double* out, const Function& function) {
     float values[64];
     for (size_t i = 0; i < count; i += hn::Lanes(d)) {
-        hn::StoreU(Log2(d, hn::LoadU(d, in + i)), d, values);
+        hn::StoreU(function(hn::LoadU(d, in + i)), d, values);
         for (size_t j = 0; j < hn::Lanes(d); ++j)
             out[i + j] = double(values[j]);
     }
 }
 
+void Logs(const float* in, size_t count, double* out) {
+    Store(in, count, out, [](auto x) HWY_ATTR { return Log2(d, x); });
+}
+
+void LogsOfOnePlus(const float* in, size_t count, double* out) {
+    Store(in, count, out, [](auto x) HWY_ATTR { return Log2OfOnePlus(d, x); });
+}
+
 void Powers(const float* in, size_t count, double* out) {
-    float values[64];
-    for (size_t i = 0; i < count; i += hn::Lanes(d)) {
-        hn::StoreU(Exp2(d, hn::LoadU(d, in + i)), d, values);
-        for (size_t j = 0; j < hn::Lanes(d); ++j)
-            out[i + j] = double(values[j]);
-    }
+    Store(in, count, out, [](auto x) HWY_ATTR { return Exp2(d, x); });
+}
+
+void PowersLessOne(const float* in, size_t count, double* out) {
+    Store(in, count, out, [](auto x) HWY_ATTR { return Exp2LessOne(d, x); });
 }
 
 int64_t Target() {
@@ -70,7 +78,9 @@ namespace tonetool::kernels {
 HWY_EXPORT(CubeRoots);
 HWY_EXPORT(CubeRootsOfShares);
 HWY_EXPORT(Logs);
+HWY_EXPORT(LogsOfOnePlus);
 HWY_EXPORT(Powers);
+HWY_EXPORT(PowersLessOne);
 HWY_EXPORT(Target);
 
 namespace {
@@ -206,6 +216,41 @@ TEST_P(FastMath, Exp2OfWholeNumbersIsExact) {
     HWY_DYNAMIC_DISPATCH(Powers)(x.data(), x.size(), power.data());
     for (int e = -126; e <= 127; ++e)
         EXPECT_EQ(power[size_t(e + 126)], std::ldexp(1.0, e));
+}
+
+// The largest relative error, and where it is.
+template <class Exact>
+std::pair<double, double> worst_share(const std::vector<float>& x, const std::vector<double>& y,
+                                      const Exact& exact) {
+    std::pair<double, double> worst;
+    for (size_t i = 0; i < x.size(); ++i) {
+        const double off = std::abs(y[i] / exact(double(x[i])) - 1);
+        if (!(off <= worst.first))
+            worst = {off, double(x[i])};
+    }
+    return worst;
+}
+
+constexpr double kLog2E = 1.4426950408889634;
+
+TEST_P(FastMath, Log2OfOnePlusIsExactTo5e7) {
+    const auto x = geometric(1e-30, 1e30);
+    std::vector<double> log(kCount);
+    HWY_DYNAMIC_DISPATCH(LogsOfOnePlus)(x.data(), kCount, log.data());
+    const auto worst = worst_share(x, log, [](double v) { return kLog2E * std::log1p(v); });
+    EXPECT_LT(worst.first, 5e-7) << "at " << worst.second;
+}
+
+TEST_P(FastMath, Exp2LessOneIsExactTo5e7) {
+    std::vector<double> power(kCount);
+    for (float sign : {-1.0f, 1.0f}) {
+        auto x = geometric(1e-30, 126);
+        for (float& v : x)
+            v *= sign;
+        HWY_DYNAMIC_DISPATCH(PowersLessOne)(x.data(), kCount, power.data());
+        const auto worst = worst_share(x, power, [](double v) { return std::expm1(v / kLog2E); });
+        EXPECT_LT(worst.first, 5e-7) << "at " << worst.second;
+    }
 }
 
 INSTANTIATE_TEST_SUITE_P(Targets, FastMath, testing::ValuesIn(hwy::SupportedAndGeneratedTargets()),

@@ -1,0 +1,172 @@
+"""Views of OpenColorIO configurations, shown by --tonemap and compared through by --hdrflip."""
+
+import shutil
+
+import numpy as np
+import OpenImageIO as oiio
+import pytest
+from conftest import TESTIMAGES
+
+OCIO = TESTIMAGES.parent / "ocio"
+CONFIG = OCIO / "tonetool.ocio"
+ACES = "display=sRGB:view='ACES SDR'"
+REFERENCE, TEST = TESTIMAGES / "gallery_ref.exr", TESTIMAGES / "gallery_test.exr"
+
+
+def pixels(path):
+    image = oiio.ImageBuf(str(path))
+    assert not image.has_error, image.geterror()
+    names = list(image.spec().channelnames)
+    layer = "" if "R" in names else "ViewLayer.Combined."
+    return image.get_pixels(oiio.FLOAT)[..., [names.index(layer + c) for c in "RGB"]]
+
+
+def error_map(path):
+    return oiio.ImageBuf(str(path)).get_pixels(oiio.FLOAT)[..., 0]
+
+
+def test_the_environment_names_the_configuration(tonetool, monkeypatch, tmp_path):
+    tonetool("--colorconfig", CONFIG, REFERENCE, f"--tonemap:{ACES}", "-o", "a.exr")
+    monkeypatch.setenv("OCIO", str(CONFIG))
+    tonetool(REFERENCE, f"--tonemap:{ACES}", "-o", "b.exr")
+    assert np.array_equal(pixels(tmp_path / "a.exr"), pixels(tmp_path / "b.exr"))
+
+
+def test_calibration_goes_before_the_view(tonetool, tmp_path):
+    tonetool("--colorconfig", CONFIG, REFERENCE, f"--tonemap:{ACES}:stops=1.5", "-d", "float",
+             "-o", "a.exr")
+    tonetool("--colorconfig", CONFIG, REFERENCE, "--exposure", "1.5", f"--tonemap:{ACES}",
+             "-d", "float", "-o", "b.exr")
+    assert np.abs(pixels(tmp_path / "a.exr") - pixels(tmp_path / "b.exr")).max() < 1e-6
+
+
+def test_hdrflip_through_a_baked_view_is_near_the_exact_one(tonetool, tmp_path):
+    tonetool("--colorconfig", CONFIG, REFERENCE, TEST, "--hdrflip", "-o", "curve.exr")
+    ran = tonetool("--colorconfig", CONFIG, REFERENCE, TEST, f"--hdrflip:{ACES}", "-o", "baked.exr")
+    assert ran.fact("tonemapper") == "sRGB/ACES SDR"
+    words = ran.fact("bake-error").split()
+    assert words[0] == "max" and words[2] == "mean"
+    assert 0 < float(words[3]) < float(words[1]) < 0.02
+    exact = tonetool("--colorconfig", CONFIG, REFERENCE, TEST, f"--hdrflip:{ACES}:exact=1",
+                     "-o", "exact.exr")
+    assert "bake-error" not in exact.out
+    difference = np.abs(error_map(tmp_path / "baked.exr") - error_map(tmp_path / "exact.exr"))
+    assert difference.max() <= 5e-3 and difference.mean() <= 5e-4
+    # And it is another map than that of the curve.
+    assert np.abs(error_map(tmp_path / "curve.exr") - error_map(tmp_path / "exact.exr")).max() > 0.01
+    spec = oiio.ImageBuf(str(tmp_path / "baked.exr")).spec()
+    assert spec.get_string_attribute("FLIP:tonemapper") == "sRGB/ACES SDR"
+    assert spec.get_float_attribute("FLIP:bakeErrorMax") == pytest.approx(float(words[1]), rel=1e-5)
+
+
+@pytest.mark.parametrize("exact", [0, 1])
+def test_one_exposure_through_a_view_is_ldrflip_of_what_it_shows(tonetool, tmp_path, exact):
+    """The display's own colour space is sRGB: decoding its picture gives the light."""
+    tonetool("--colorconfig", CONFIG, REFERENCE, TEST,
+             f"--hdrflip:{ACES}:exact={exact}:startExposure=0.5:numExposures=1", "-o", "hdr.exr")
+    for name, image in (("a", REFERENCE), ("b", TEST)):
+        tonetool("--colorconfig", CONFIG, image, f"--tonemap:{ACES}:stops=0.5", "-d", "float",
+                 "-o", f"{name}.exr")
+    tonetool("a.exr", "b.exr", "--ldrflip:from=srgb", "-o", "ldr.exr")
+    difference = np.abs(error_map(tmp_path / "hdr.exr") - error_map(tmp_path / "ldr.exr"))
+    # OpenColorIO's pow is a few 1e-5 off; the table as far as it may be.
+    assert difference.max() < (1e-3 if exact else 5e-3)
+
+
+@pytest.mark.parametrize("exact", [0, 1])
+def test_an_image_is_itself_through_a_view(tonetool, exact):
+    ran = tonetool("--colorconfig", CONFIG, TEST, TEST, f"--hdrflip:{ACES}:exact={exact}:fail=0")
+    assert ran.fact("mean") == "0"
+
+
+def test_a_threshold_is_exceeded_through_a_view(tonetool):
+    tonetool("--colorconfig", CONFIG, REFERENCE, TEST, f"--hdrflip:{ACES}:fail=0.01", status=3)
+
+
+def test_bands_and_threads_give_the_same_map(tonetool, tmp_path):
+    for name, words in (("a", ["--threads", 1]), ("b", ["--threads", 3]),
+                        ("c", ["--memory", "200M"])):
+        ran = tonetool(*words, "--colorconfig", CONFIG, REFERENCE, TEST, f"--hdrflip:{ACES}",
+                       "-o", f"{name}.exr")
+        assert ran.fact("bake-error")
+    assert np.array_equal(error_map(tmp_path / "a.exr"), error_map(tmp_path / "b.exr"))
+    assert np.array_equal(error_map(tmp_path / "a.exr"), error_map(tmp_path / "c.exr"))
+
+
+def test_a_grey_of_the_references_median_is_shown_at_085(tonetool, make_image, tmp_path):
+    ran = tonetool("--colorconfig", CONFIG, REFERENCE, TEST, f"--hdrflip:{ACES}:exact=1")
+    words = ran.fact("exposures").split()
+    for fact, stops in (("max-luminance", float(words[1])), ("median-luminance", float(words[3]))):
+        value = float(ran.fact(fact)) * 2 ** stops
+        grey = make_image("grey.exr", 4, 4, pixels=np.full((4, 4, 3), value, np.float32))
+        tonetool("--colorconfig", CONFIG, grey, f"--tonemap:{ACES}", "-d", "float", "-o", "out.exr")
+        code = float(pixels(tmp_path / "out.exr").mean())
+        assert ((code + 0.055) / 1.055) ** 2.4 == pytest.approx(0.85, abs=1e-4)
+
+
+def test_displays_of_high_dynamic_range_need_a_peak(tonetool):
+    pq = "--hdrflip:display=Rec.2100-PQ:view='ACES HDR 1000'"
+    ran = tonetool("--colorconfig", CONFIG, REFERENCE, TEST, pq, status=1)
+    assert "high dynamic range" in ran.err and "peak=" in ran.err
+    ran = tonetool("--colorconfig", CONFIG, REFERENCE, TEST, pq + ":peak=1000")
+    assert float(ran.fact("mean")) > 0.05
+
+
+def broken_configs(folder):
+    """Name of a configuration that is no good, and a word of what is said of it."""
+    (folder / "garbage.ocio").write_text("ocio_profile_version: [", encoding="utf-8")
+    newer = CONFIG.read_text(encoding="utf-8").replace("ocio_profile_version: 2.1",
+                                                       "ocio_profile_version: 2.9", 1)
+    assert "2.9" in newer
+    (folder / "newer.ocio").write_text(newer, encoding="utf-8")
+    (folder / "empty.ocio").write_text("", encoding="utf-8")
+    return ["garbage.ocio", "newer.ocio", "empty.ocio", "missing.ocio"]
+
+
+@pytest.mark.parametrize("command", ["tonemap", "hdrflip"])
+def test_configurations_that_are_no_good(tonetool, tmp_path, command):
+    for name in broken_configs(tmp_path):
+        ran = tonetool("--colorconfig", name, REFERENCE, *([TEST] if command == "hdrflip" else []),
+                       f"--{command}:{ACES}", "-o", "out.exr", status=1)
+        assert name in ran.err, (name, ran.err)
+        assert not (tmp_path / "out.exr").exists()
+
+
+@pytest.mark.parametrize("command", ["tonemap", "hdrflip"])
+def test_a_view_whose_table_is_missing(tonetool, tmp_path, command):
+    shutil.copy(CONFIG, tmp_path / "alone.ocio")
+    images = [REFERENCE, TEST] if command == "hdrflip" else [REFERENCE]
+    ran = tonetool("--colorconfig", "alone.ocio", *images, f"--{command}:display=sRGB:view=hable",
+                   "-o", "out.exr", status=1)
+    assert "hable" in ran.err
+    assert not (tmp_path / "out.exr").exists()
+    # The others need none.
+    tonetool("--colorconfig", "alone.ocio", *images, f"--{command}:{ACES}", "-o", "out.exr")
+
+
+BAD = [
+    ("display=sRBG:view='ACES SDR'", ["sRBG", "sRGB"]),
+    ("display=sRGB:view='ACES SDX'", ["ACES SDX", "ACES SDR"]),
+    ("display=sRGB:view='ACES SDR':looks=nicer", ["nicer"]),
+    ("display=sRGB:view='ACES SDR':context=A", ["context", "NAME=VALUE"]),
+    ("view='ACES SDR':from=acesgc", ["acesgc", "ACEScg"]),
+]
+
+
+@pytest.mark.parametrize("modifiers,words", BAD)
+def test_names_that_the_configuration_does_not_know(tonetool, modifiers, words):
+    ran = tonetool("--colorconfig", CONFIG, REFERENCE, f"--tonemap:{modifiers}", "-o", "out.exr",
+                   status=1)
+    for word in words:
+        assert word in ran.err, ran.err
+
+
+def test_a_comparison_says_so_too(tonetool):
+    for modifiers, words in (("display=sRGB:view='ACES SDX'", ["ACES SDX", "ACES SDR"]),
+                             ("display=sRGB:tonemapper=aces", ["tonemapper", "view"]),
+                             ("exact=1", ["exact"]), ("encoding=srgb", ["encoding"]),
+                             ("peak=100", ["peak"]),
+                             ("display=sRGB:view='ACES SDR':peak=0", ["peak"])):
+        ran = tonetool("--colorconfig", CONFIG, REFERENCE, TEST, f"--hdrflip:{modifiers}", status=1)
+        for word in words:
+            assert word in ran.err, ran.err
