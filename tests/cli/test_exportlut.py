@@ -156,7 +156,7 @@ def test_a_view_from_a_log_space(tonetool):
     ran = tonetool("--colorconfig", CONFIG,
                    "--exportlut:display=sRGB:view='ACES SDR':from=ACEScct:shaper=linear",
                    "lut.spi3d")
-    assert ran.fact("input").startswith("ACEScct, x, as x")
+    assert ran.fact("input") == "ACEScct"
 
 
 @pytest.mark.parametrize("kind", ["cube", "spi1d", "clf", "ctf"])
