@@ -74,11 +74,12 @@ double LutShaper::light(double v) const {
 std::string LutShaper::formula() const {
     switch (m_kind) {
     case Kind::Log2:
-        return format("(log2(x + 2^{0}) - {0}) / (log2(2^{1} + 2^{0}) - {0})", m_min, m_max);
+        return format("(log2(x + 2^{0}) + {2}) / (log2(2^{1} + 2^{0}) + {2})", m_min, m_max,
+                      std::abs(m_min));
     case Kind::AcesCct:
         return "ACEScct's curve of x";
     default:
-        return "x";
+        return "";
     }
 }
 
