@@ -26,7 +26,7 @@ inline size_t edit_distance(const std::string& a, const std::string& b) {
     return row.back();
 }
 
-inline std::string lower(std::string word) {
+inline std::string lower_case(std::string word) {
     for (char& c : word)
         c = c >= 'A' && c <= 'Z' ? char(c + ('a' - 'A')) : c;
     return word;
@@ -38,7 +38,7 @@ nearest_names(const std::string& word, const std::vector<std::string>& names, si
     std::vector<std::pair<size_t, std::string>> ranked;
     for (const std::string& name : names) {
         const bool prefix = word.size() >= 2 && name.compare(0, word.size(), word) == 0;
-        const size_t distance = prefix ? 1 : edit_distance(lower(word), lower(name));
+        const size_t distance = prefix ? 1 : edit_distance(lower_case(word), lower_case(name));
         if (prefix || distance <= std::max<size_t>(1, word.size() / 3))
             ranked.emplace_back(distance, name);
     }

@@ -1,11 +1,12 @@
 #include "imagebuf/view_config.h"
-#include "imagebuf/names.h"
 
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/strutil.h>
 #include <OpenImageIO/sysutil.h>
 #include <algorithm>
 #include <mutex>
+
+#include "imagebuf/names.h"
 
 namespace tonetool {
 namespace {
