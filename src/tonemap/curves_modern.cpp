@@ -58,7 +58,7 @@ Curve uchimura() {
             CurveDomain::Channel,
             false,
             true,
-            {{"peak", 1, 0.1, 100, "P, the largest result"},
+            {{"maximum", 1, 0.1, 100, "P, the largest result"},
              {"contrast", 1, 0.1, 10, "a, slope of the straight line"},
              {"start", 0.22, 0.001, 0.999, "m, where the straight line starts"},
              {"length", 0.4, 0, 0.99, "l, length of the straight line, a share of P - m"},

@@ -18,6 +18,7 @@
 #include "flip/evaluate.h"
 #include "flip/filters.h"
 #include "imagebuf/parallel.h"
+#include "imagebuf/view.h"
 #include "kernels/flip_rows.h"
 #include "kernels/flip_twin.h"
 #include "kernels/lut_rows.h"
@@ -263,6 +264,46 @@ void tone_rows(benchmark::State& state) {
     state.SetLabel(std::string(kernels::flip_rows().name) + (by == kTable ? " table" : " curve"));
 }
 
+// HDR-FLIP through the table of a view and by the ACES curve, one after the other: what the view
+// costs on the same machine at the same time.
+void evaluate_view(benchmark::State& state) {
+    using Clock = std::chrono::steady_clock;
+    const int width = int(state.range(0)), height = int(state.range(1));
+    const auto count = int(state.range(2)), threads = int(state.range(3));
+    DisplayLightOptions options;
+    options.view.config = TONETOOL_BENCH_CONFIG;
+    options.view.display = "sRGB";
+    options.view.view = "ACES SDR";
+    DisplayLight light;
+    std::string error;
+    if (!light.open(options, error)) {
+        state.SkipWithError(error.c_str());
+        return;
+    }
+    const PicturePair pair = make_pair(width, height);
+    flip::Evaluation curve{flip::lane_taps(flip::make_taps(kPixelsPerDegree)),
+                           *tonemap::rational_curve("aces"), exposures(count)};
+    flip::Evaluation view = curve;
+    view.rows = light.baked();
+    std::vector<float> map(pair.reference.plane[0].size());
+    const std::vector<flip::Output> outputs = {{map.data(), nullptr, {}, width}};
+    const auto run = [&](const flip::Evaluation& what) {
+        const auto start = Clock::now();
+        flip::evaluate(what, pair.reference.view(), {pair.test.view()}, {0, 0, width, height},
+                       outputs, make_parallel(threads));
+        return std::chrono::duration<double>(Clock::now() - start).count();
+    };
+    double of_curve = 1e9, of_view = 1e9;
+    for ([[maybe_unused]] auto _ : state) {
+        of_curve = std::min(of_curve, run(curve));
+        of_view = std::min(of_view, run(view));
+    }
+    state.counters["curve_ms"] = of_curve * 1e3;
+    state.counters["view_ms"] = of_view * 1e3;
+    state.counters["times"] = of_view / of_curve;
+    state.SetLabel(kernels::flip_rows().name);
+}
+
 constexpr int kAll = 0;
 
 BENCHMARK(evaluate)
@@ -286,6 +327,12 @@ BENCHMARK(evaluate_corner)
 BENCHMARK(evaluate_stages)
     ->ArgNames({"width", "height", "exposures", "threads", "tests"})
     ->Args({1920, 1080, 9, 1, 1})
+    ->Unit(benchmark::kMillisecond)
+    ->UseRealTime();
+BENCHMARK(evaluate_view)
+    ->ArgNames({"width", "height", "exposures", "threads"})
+    ->Args({1920, 1080, 9, 1})
+    ->Args({1920, 1080, 9, kAll})
     ->Unit(benchmark::kMillisecond)
     ->UseRealTime();
 BENCHMARK(tone_rows)
