@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "imagebuf/names.h"
+
 namespace tonetool {
 namespace {
 
@@ -28,8 +30,7 @@ bool LutShaper::make(const LutOptions& options, std::string& error) {
     const auto names = ToneAlgo::lut_shapers();
     const auto found = std::find(names.begin(), names.end(), options.shaper);
     if (found == names.end()) {
-        error =
-            "unknown shaper \"" + options.shaper + "\"; valid: " + OIIO::Strutil::join(names, ", ");
+        error = unknown_name("shaper", options.shaper, names);
         return false;
     }
     m_kind = Kind(found - names.begin());
