@@ -10,17 +10,14 @@
 #include <string>
 #include <vector>
 
+#include "files.h"
+
 namespace tonetool {
 namespace {
 
-namespace fs = std::filesystem;
-
 class Lut : public ::testing::Test {
 protected:
-    void SetUp() override { fs::create_directories(m_folder); }
-    void TearDown() override { fs::remove_all(m_folder); }
-
-    std::string path(const std::string& name) const { return (m_folder / name).string(); }
+    std::string path(const std::string& name) const { return m_folder / name; }
 
     std::string text(const std::string& name) const {
         std::ifstream file(path(name));
@@ -32,11 +29,11 @@ protected:
     std::string failure(const LutOptions& options, const std::string& name = "lut.cube") const {
         std::string error;
         EXPECT_FALSE(ToneAlgo::export_lut(path(name), options, nullptr, error));
-        EXPECT_FALSE(fs::exists(path(name)));
+        EXPECT_FALSE(std::filesystem::exists(path(name)));
         return error;
     }
 
-    fs::path m_folder = fs::temp_directory_path() / "tonetool_lut_test";
+    Folder m_folder;
 };
 
 TEST_F(Lut, SaysWhatItWroteAndHowFarItIsOff) {
