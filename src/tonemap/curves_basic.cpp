@@ -31,6 +31,21 @@ CurveNumbers make_reinhard_extended(const CurveValues& v) {
     return rational(1 / (v[0] * v[0]), 1, 0, 0, 1, 1);
 }
 
+// The article's shader has a product where this has a power; they agree for bias 0.5 alone.
+Curve drago_curve() {
+    return {"drago",
+            "Drago's adaptive logarithm",
+            "F. Drago et al., Adaptive Logarithmic Mapping, 2003",
+            "y = log(1 + x) / (log10(1 + white) log(2 + 8 (x / white)^(log(bias) / log(0.5))))",
+            CurveDomain::Luminance,
+            false,
+            true,
+            {white_parameter(5, "the value that becomes 1: largest over adapted luminance"),
+             {"bias", 0.85, 0.01, 1, "1: a plain logarithm; less: brighter below white"}},
+            make_drago,
+            "values above white count as white: the formula may fall there"};
+}
+
 } // namespace
 
 std::vector<Curve> basic_curves() {
@@ -64,18 +79,7 @@ std::vector<Curve> basic_curves() {
          {white_parameter(5, "the value that becomes 0.632; nothing becomes 1")},
          make_exponential,
          "the formula's first form divides by the average, not by white"},
-        // The article's shader has a product where this has a power; they agree for bias 0.5 alone.
-        {"drago",
-         "Drago's adaptive logarithm",
-         "F. Drago et al., Adaptive Logarithmic Mapping, 2003",
-         "y = log(1 + x) / (log10(1 + white) log(2 + 8 (x / white)^(log(bias) / log(0.5))))",
-         CurveDomain::Luminance,
-         false,
-         true,
-         {white_parameter(5, "the value that becomes 1: largest over adapted luminance"),
-          {"bias", 0.85, 0.01, 1, "1: a plain logarithm; less: brighter below white"}},
-         make_drago,
-         "values above white count as white: the formula may fall there"},
+        drago_curve(),
         {"reinhard",
          "Reinhard",
          "E. Reinhard et al., Photographic Tone Reproduction, 2002, Eq. 3",

@@ -1,6 +1,8 @@
 """Views of OpenColorIO configurations, shown by --tonemap and compared through by --hdrflip."""
 
+import os
 import shutil
+from pathlib import Path
 
 import numpy as np
 import OpenImageIO as oiio
@@ -57,6 +59,18 @@ def test_hdrflip_through_a_baked_view_is_near_the_exact_one(tonetool, tmp_path):
     spec = oiio.ImageBuf(str(tmp_path / "baked.exr")).spec()
     assert spec.get_string_attribute("FLIP:tonemapper") == "sRGB/ACES SDR"
     assert spec.get_float_attribute("FLIP:bakeErrorMax") == pytest.approx(float(words[1]), rel=1e-5)
+
+
+@pytest.mark.parametrize("scene", ["cornell", "nightstreet", "gallery"])
+def test_a_baked_view_is_near_the_exact_one_on_rendered_scenes(tonetool, tmp_path, scene):
+    folder = Path(os.environ.get("SHARED_DIR") or "/nowhere") / "scenes" / scene
+    if not (folder / "ref.exr").is_file():
+        pytest.skip("the rendered scenes are not here (SHARED_DIR)")
+    for exact in (0, 1):
+        tonetool("--colorconfig", CONFIG, folder / "ref.exr", folder / "test_16spp.exr",
+                 f"--hdrflip:{ACES}:exact={exact}", "-o", f"{exact}.exr")
+    difference = np.abs(error_map(tmp_path / "0.exr") - error_map(tmp_path / "1.exr"))
+    assert difference.max() <= 5e-3 and difference.mean() <= 5e-4
 
 
 @pytest.mark.parametrize("exact", [0, 1])
