@@ -7,6 +7,7 @@
 #define HWY_TARGET_INCLUDE "kernels/guided_rows.cpp"
 #include <hwy/foreach_target.h>
 // After foreach_target.h, which includes this file once per instruction set.
+#include <hwy/cache_control.h>
 #include <hwy/highway.h>
 
 #include "kernels/color-inl.h"
@@ -137,6 +138,19 @@ void PrepareRow(const GuidePlanes& image, const GuidedLayout& layout, const Guid
         Prepare<Rest>{image, layout, scales, {from + i, count - i}, to + i}();
 }
 
+// Asks for the lines of memory of a part of a row.
+void Fetch(const GuidePlanes& image, ptrdiff_t from, ptrdiff_t count) {
+    constexpr ptrdiff_t kLine = 16; // floats
+    const float* const planes[] = {image.value,       image.position[0], image.position[1],
+                                   image.position[2], image.normal[0],   image.normal[1],
+                                   image.normal[2],   image.albedo[0],   image.albedo[1],
+                                   image.albedo[2],   image.range,       image.footprint};
+    for (const float* plane : planes)
+        if (plane)
+            for (ptrdiff_t i = 0; i < count + kLine; i += kLine)
+                hwy::Prefetch(plane + from + std::min(i, count - 1));
+}
+
 void PrepareOutside(const GuidedLayout& layout, ptrdiff_t count, float* to) {
     for (int p = 0; p < layout.planes(); ++p)
         std::fill_n(to + p * layout.pitch, count, p == 1 ? -kFarAway : 0.0f);
@@ -149,14 +163,14 @@ constexpr ptrdiff_t kBatch = 8;
 struct Batch {
     const float* at[kBatch];
     float start[kBatch];
-    ptrdiff_t count;
 
-    HWY_INLINE Batch(const GuidedRun& run, ptrdiff_t first, float offset)
-        : count(std::min(kBatch, run.count - first)) {
-        for (ptrdiff_t i = 0; i < count; ++i) {
-            const Tap& tap = run.taps[first + i];
+    // Where there are no more of them, the last one again, weighing nothing.
+    HWY_INLINE Batch(const GuidedRun& run, ptrdiff_t first, float offset) {
+        const ptrdiff_t count = std::min(kBatch, run.count - first);
+        for (ptrdiff_t i = 0; i < kBatch; ++i) {
+            const Tap& tap = run.taps[first + std::min(i, count - 1)];
             at[i] = run.rows[tap.dy] + run.column + tap.dx;
-            start[i] = tap.log2_weight - offset;
+            start[i] = i < count ? tap.log2_weight - offset : -kFarAway;
         }
     }
 };
@@ -171,11 +185,14 @@ void FilterRun(const GuidedLayout& layout, const GuidedScales& scales, const Gui
         const Batch batch(run, first, Terms::kAngle ? scales.angle : 0.0f);
         for (ptrdiff_t x = 0; x < kGuidedRun; x += lanes) {
             const Terms terms(layout, scales, row + x);
-            V sum = hn::Zero(d), weight = hn::Zero(d), value;
-            for (ptrdiff_t i = 0; i < batch.count; ++i) {
-                const V w = terms.Weight(batch.at[i] + x, run.pitch, batch.start[i], value);
-                weight = hn::Add(weight, w);
-                sum = hn::MulAdd(w, value, sum);
+            V sum = hn::Zero(d), weight = hn::Zero(d);
+            for (ptrdiff_t i = 0; i < kBatch; i += kTogether) {
+                Together w;
+                terms.Weigh(batch.at + i, x, run.pitch, batch.start + i, w);
+                for (int k = 0; k < kTogether; ++k) {
+                    weight = hn::Add(weight, w[k]);
+                    sum = hn::MulAdd(w[k], hn::LoadU(d, batch.at[i + k] + x), sum);
+                }
             }
             // Sums of sums: a long row of additions in float would lose digits.
             hn::Store(hn::Add(hn::Load(d, sums + x), sum), d, sums + x);
@@ -231,7 +248,7 @@ void Filter(const GuidedLayout& layout, const GuidedScales& scales, const Guided
 }
 
 const GuidedRows& GuidedTable() {
-    static const GuidedRows table = {hwy::TargetName(HWY_TARGET), PrepareRow, PrepareOutside,
+    static const GuidedRows table = {hwy::TargetName(HWY_TARGET), Fetch, PrepareRow, PrepareOutside,
                                      Filter};
     return table;
 }

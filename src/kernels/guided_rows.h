@@ -42,6 +42,9 @@ struct GuidedRun {
 struct GuidedRows {
     const char* name;
 
+    /// Announces pixels that are prepared soon.
+    void (*fetch)(const GuidePlanes& image, ptrdiff_t from, ptrdiff_t count);
+
     /// `count` pixels of a row that begins at `from` in the planes; up to a vector more is written.
     void (*prepare)(const GuidePlanes& image, const GuidedLayout& layout,
                     const GuidedScales& scales, ptrdiff_t from, ptrdiff_t count, float* to);

@@ -57,16 +57,17 @@ float* GuidedTile::row_of(int y) const {
     return m_data.get() + ((y % rows + rows) % rows) * m_layout.planes() * m_layout.pitch;
 }
 
-// Row y in columns from x0 - lead on.
+// Row y in the columns of the tile and `half` beside them.
 void GuidedTile::prepare(int y, int x0, int columns) {
-    float* const row = row_of(y);
-    const auto first = ptrdiff_t(x0) - m_lead, end = ptrdiff_t(x0) + columns + m_lead;
-    const auto from = std::max<ptrdiff_t>(first, 0);
-    const auto to = std::min<ptrdiff_t>(end, m_image.width);
+    const int half = m_taps.half();
+    float* const row = row_of(y) + m_lead - half;
+    const ptrdiff_t first = x0 - half, end = ptrdiff_t(x0) + columns + half;
+    const ptrdiff_t from = std::max<ptrdiff_t>(first, 0);
+    const ptrdiff_t to = std::min<ptrdiff_t>(end, m_image.width);
     if (y < 0 || y >= m_image.height || from >= to)
         return m_rows.prepare_outside(m_layout, end - first, row);
-    m_rows.prepare(m_image, m_layout, m_scales, (y - m_image.first_row) * m_image.stride + from,
-                   to - from, row + (from - first));
+    const ptrdiff_t at = (y - m_image.first_row) * m_image.stride + from;
+    m_rows.prepare(m_image, m_layout, m_scales, at, to - from, row + (from - first));
     m_rows.prepare_outside(m_layout, from - first, row);
     m_rows.prepare_outside(m_layout, end - to, row + (to - first));
 }
@@ -84,6 +85,15 @@ void GuidedTile::filter(const Window& window, float* out, ptrdiff_t stride) {
     }
 }
 
+// Asks for a run of a row, and what is beside it at the ends of the tile: spread over the time that
+// a row takes, this costs nothing.
+void GuidedTile::fetch(int y, int x, bool leftmost, bool rightmost) const {
+    const int from = std::max(0, leftmost ? x - m_taps.half() : x);
+    const int to = std::min(m_image.width, x + kGuidedRun + (rightmost ? m_taps.half() : 0));
+    if (y < m_image.height && from < to)
+        m_rows.fetch(m_image, (y - m_image.first_row) * m_image.stride + from, to - from);
+}
+
 bool GuidedTile::counts(float value, float range) const {
     constexpr float largest = std::numeric_limits<float>::max();
     return value >= m_scales.least && value <= largest && std::abs(range) <= largest;
@@ -96,6 +106,7 @@ void GuidedTile::filter_row(int y, const Window& window, int x0, float* out) {
     const float* const range = m_image.range ? m_image.range + (values - m_image.value) : nullptr;
     for (int x = x0; x < end; x += kGuidedRun) {
         const auto& taps = m_taps.at(x, y);
+        fetch(y + m_taps.half() + 1, x, x == x0, x + kGuidedRun >= end);
         m_rows.filter(m_layout, m_scales,
                       {m_table.data() + m_taps.half(), x - x0, m_layout.pitch, taps.data(),
                        ptrdiff_t(taps.size())},

@@ -27,6 +27,7 @@ public:
 private:
     void prepare(int y, int x0, int columns);
     float* row_of(int y) const;
+    void fetch(int y, int x, bool leftmost, bool rightmost) const;
     bool counts(float value, float range) const;
     void filter_row(int y, const Window& window, int x0, float* out);
 

@@ -19,20 +19,32 @@ namespace hn = hwy::HWY_NAMESPACE;
 /// weights are 0, and the squares of these distances are floats.
 constexpr float kFarAway = 3e18f;
 
-/// 2^x for x <= 0, exactly 0 below -127.5; relative error below 2.8e-6. The polynomial has the
+/// Neighbours that are weighed side by side: each waits for many steps of its own.
+constexpr int kTogether = HWY_MAX_BYTES == 64 ? 4 : 2;
+using Together = V[kTogether];
+
+/// 2^x for x <= 0, exactly 0 from -127 on; relative error below 2.8e-6. The polynomial has the
 /// least relative error for its degree.
-HWY_INLINE V Weight2(V x) {
+HWY_INLINE void Weights2(Together& x) {
     const hn::RebindToSigned<D> di;
-    x = hn::Max(x, hn::Set(d, -127.0f));
-    const V whole = hn::Round(x), f = hn::Sub(x, whole);
-    V p = hn::Set(d, 0.009570101908854097f);
-    p = hn::MulAdd(p, f, hn::Set(d, 0.055917860321131746f));
-    p = hn::MulAdd(p, f, hn::Set(d, 0.24024744827851016f));
-    p = hn::MulAdd(p, f, hn::Set(d, 0.6931218147368339f));
-    p = hn::MulAdd(p, f, hn::Set(d, 0.999999261445985f));
-    // -127 gives the bits of 0.
-    const auto bits = hn::Add(hn::ConvertTo(di, whole), hn::Set(di, 127));
-    return hn::Mul(p, hn::BitCast(d, hn::ShiftLeft<23>(bits)));
+    // Added to it, x is rounded to a whole number, which with 127, the bias of exponents, is the
+    // lowest bits of the sum. -127 gives the bits of 0.
+    const V large = hn::Set(d, 12582912.0f + 127.0f);
+    V sum[kTogether], p[kTogether];
+    for (V& v : x)
+        v = hn::Max(v, hn::Set(d, -127.0f));
+    for (int i = 0; i < kTogether; ++i)
+        sum[i] = hn::Add(x[i], large);
+    for (int i = 0; i < kTogether; ++i)
+        x[i] = hn::Sub(x[i], hn::Sub(sum[i], large));
+    for (int i = 0; i < kTogether; ++i)
+        p[i] =
+            hn::MulAdd(hn::Set(d, 0.009570101908854097f), x[i], hn::Set(d, 0.055917860321131746f));
+    for (const float c : {0.24024744827851016f, 0.6931218147368339f, 0.999999261445985f})
+        for (int i = 0; i < kTogether; ++i)
+            p[i] = hn::MulAdd(p[i], x[i], hn::Set(d, c));
+    for (int i = 0; i < kTogether; ++i)
+        x[i] = hn::Mul(p[i], hn::BitCast(d, hn::ShiftLeft<23>(hn::BitCast(di, sum[i]))));
 }
 
 /// One vector of pixels, against which others are weighed. Each combination of terms is a type, so
@@ -61,36 +73,46 @@ struct Terms {
         range = hn::Set(d, scales.range_of_value);
     }
 
-    /// The weight of the pixels at `at`; `start` is log2 of the spatial one.
-    HWY_INLINE V Weight(const float* HWY_RESTRICT at, ptrdiff_t pitch, float start,
-                        V& neighbor) const {
-        V away = hn::Sub(where[0], hn::LoadU(d, at + pitch)), square = hn::Mul(away, away);
-        V x = hn::Set(d, start);
-        if constexpr (kPosition) {
-            away = hn::Sub(where[1], hn::LoadU(d, at + 2 * pitch));
-            square = hn::MulAdd(away, away, square);
-            away = hn::Sub(where[2], hn::LoadU(d, at + 3 * pitch));
-            square = hn::MulAdd(away, away, square);
-            x = hn::NegMulAdd(square, nearness, x);
-        } else {
-            x = hn::Sub(x, square);
+    /// The weights of the pixels at `at`; `start` is log2 of the spatial ones.
+    HWY_INLINE void Weigh(const float* const* at, ptrdiff_t x, ptrdiff_t pitch, const float* start,
+                          Together& weights) const {
+        Together square, away;
+        for (int i = 0; i < kTogether; ++i) {
+            away[i] = hn::Sub(where[0], hn::LoadU(d, at[i] + x + pitch));
+            square[i] = hn::Mul(away[i], away[i]);
         }
-        for (int i = 0; i < kPlain; ++i) {
-            const V step = hn::Sub(plain[i], hn::LoadU(d, at + (kFirstPlain + i) * pitch));
-            x = hn::NegMulAdd(step, step, x);
+        for (int p = 1; p < kWhere; ++p)
+            for (int i = 0; i < kTogether; ++i) {
+                away[i] = hn::Sub(where[p], hn::LoadU(d, at[i] + x + (1 + p) * pitch));
+                square[i] = hn::MulAdd(away[i], away[i], square[i]);
+            }
+        for (int i = 0; i < kTogether; ++i)
+            weights[i] = kPosition ? hn::NegMulAdd(square[i], nearness, hn::Set(d, start[i]))
+                                   : hn::Sub(hn::Set(d, start[i]), square[i]);
+        for (int p = 0; p < kPlain; ++p)
+            for (int i = 0; i < kTogether; ++i) {
+                away[i] = hn::Sub(plain[p], hn::LoadU(d, at[i] + x + (kFirstPlain + p) * pitch));
+                weights[i] = hn::NegMulAdd(away[i], away[i], weights[i]);
+            }
+        if constexpr (kAngle)
+            AddAngles(at, x, pitch, weights);
+        if constexpr (kRangeOfValue)
+            for (int i = 0; i < kTogether; ++i) {
+                away[i] = hn::Sub(value, hn::LoadU(d, at[i] + x));
+                weights[i] = hn::NegMulAdd(hn::Mul(away[i], away[i]), range, weights[i]);
+            }
+        Weights2(weights);
+    }
+
+    HWY_INLINE void AddAngles(const float* const* at, ptrdiff_t x, ptrdiff_t pitch,
+                              Together& weights) const {
+        for (int i = 0; i < kTogether; ++i) {
+            const float* const n = at[i] + x + kFirstAngle * pitch;
+            V cosine = hn::Mul(angle[0], hn::LoadU(d, n));
+            cosine = hn::MulAdd(angle[1], hn::LoadU(d, n + pitch), cosine);
+            cosine = hn::MulAdd(angle[2], hn::LoadU(d, n + 2 * pitch), cosine);
+            weights[i] = hn::MulAdd(hn::Abs(cosine), slope, weights[i]);
         }
-        if constexpr (kAngle) {
-            V cosine = hn::Mul(angle[0], hn::LoadU(d, at + kFirstAngle * pitch));
-            cosine = hn::MulAdd(angle[1], hn::LoadU(d, at + (kFirstAngle + 1) * pitch), cosine);
-            cosine = hn::MulAdd(angle[2], hn::LoadU(d, at + (kFirstAngle + 2) * pitch), cosine);
-            x = hn::MulAdd(hn::Abs(cosine), slope, x);
-        }
-        neighbor = hn::LoadU(d, at);
-        if constexpr (kRangeOfValue) {
-            const V step = hn::Sub(value, neighbor);
-            x = hn::NegMulAdd(hn::Mul(step, step), range, x);
-        }
-        return Weight2(x);
     }
 };
 
