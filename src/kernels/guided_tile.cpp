@@ -106,7 +106,8 @@ void GuidedTile::filter_row(int y, const Window& window, int x0, float* out) {
     const float* const range = m_image.range ? m_image.range + (values - m_image.value) : nullptr;
     for (int x = x0; x < end; x += kGuidedRun) {
         const auto& taps = m_taps.at(x, y);
-        fetch(y + m_taps.half() + 1, x, x == x0, x + kGuidedRun >= end);
+        if (y + 1 < window.y0 + window.height)
+            fetch(y + m_taps.half() + 1, x, x == x0, x + kGuidedRun >= end);
         m_rows.filter(m_layout, m_scales,
                       {m_table.data() + m_taps.half(), x - x0, m_layout.pitch, taps.data(),
                        ptrdiff_t(taps.size())},
