@@ -1,0 +1,82 @@
+// The cross bilateral filter of CG-TMO, guided by the G-buffer, as planes and numbers: F. Banterle
+// et al., Eqs. 3 and 4, with the two terms that others have added.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace tonetool::kernels {
+
+/// Planes of one image, or of a band of its rows, as much as what is computed from it needs. All
+/// have one row stride; those that are null take no part.
+struct GuidePlanes {
+    const float* value = nullptr; ///< what is averaged: luminance or a logarithm of it
+    const float* position[3] = {nullptr, nullptr, nullptr};
+    const float* normal[3] = {nullptr, nullptr, nullptr}; ///< of any length; 0: none
+    const float* albedo[3] = {nullptr, nullptr, nullptr};
+    const float* range = nullptr;     ///< logarithm of luminance; may be the plane `value`
+    const float* footprint = nullptr; ///< of each pixel, in the unit of positions
+    const uint8_t* background =
+        nullptr; ///< not 0: no surface; nor is where a position is not finite
+    ptrdiff_t stride = 0;
+    int width = 0, height = 0; ///< of the whole image
+    int first_row = 0;         ///< row of the image that the planes begin with
+};
+
+/// How normals n, m differ: |n - m|^2 / 2 s^2 as the paper has it, or (1 - |n m|) / 2 s^2 as
+/// its authors' program does, for which both sides of a surface are one.
+enum class NormalTerm { Distance, Angle };
+
+/// Standard deviations of the weights.
+struct GuidedTerms {
+    double position = 8;  ///< in footprints
+    double footprint = 1; ///< where no plane gives it
+    double normal = 0.25, albedo = 0.25;
+    double range = 0.4; ///< in the unit of its plane
+    NormalTerm normal_term = NormalTerm::Distance;
+    float least = 0; ///< values below it are no luminance; lower for a plane of logarithms
+};
+
+/// Footprints are kept within these, values below this, and positions are no surface beyond it:
+/// what is computed from them stays a float.
+inline constexpr float kLeastFootprint = 1e-15f, kMostFootprint = 1e15f;
+inline constexpr float kLargestGuidedValue = 1e35f, kFarthestPosition = 1e15f;
+
+struct Offset {
+    int dx = 0, dy = 0;
+};
+
+/// An offset of the window and log2 of its spatial weight.
+struct Tap {
+    int dx, dy;
+    float log2_weight;
+};
+
+/// Pixels of a row that share one set of offsets. Runs begin at its multiples, counted from the
+/// first column of the image.
+inline constexpr int kGuidedRun = 64;
+
+/// The offsets that are looked at: one set for all pixels, or several among which a hash of the
+/// place in the image chooses, so that results do not depend on tiles or windows.
+class TapSets {
+public:
+    /// `sets`: 1 or 64 of them, each with (0, 0); sigma in pixels.
+    TapSets(const std::vector<std::vector<Offset>>& sets, double sigma);
+
+    const std::vector<Tap>& at(int x, int y) const { return m_sets[choice(x, y)]; }
+    int half() const { return m_half; } ///< largest |dx|, |dy|
+    double sigma() const { return m_sigma; }
+
+private:
+    size_t choice(int x, int y) const;
+
+    std::vector<std::vector<Tap>> m_sets;
+    double m_sigma;
+    int m_half = 0;
+};
+
+/// Every offset of the square window, in rows.
+std::vector<Offset> whole_window(int half);
+
+} // namespace tonetool::kernels

@@ -1,0 +1,295 @@
+#include "kernels/guided_rows.h"
+
+#include <algorithm>
+#include <cmath>
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "kernels/guided_rows.cpp"
+#include <hwy/foreach_target.h>
+// After foreach_target.h, which includes this file once per instruction set.
+#include <hwy/cache_control.h>
+#include <hwy/highway.h>
+
+#include "kernels/color-inl.h"
+#include "kernels/guided_weight-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace tonetool::kernels::HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+using Bytes = hn::Rebind<uint8_t, D>;
+using Mask = hn::Mask<D>;
+
+// Pixels from a place on, a vector of them.
+struct WholeVector {
+    ptrdiff_t at;
+    HWY_INLINE V operator()(const float* plane) const { return hn::LoadU(d, plane + at); }
+    HWY_INLINE Mask IsSet(const uint8_t* plane) const {
+        const hn::RebindToSigned<D> di;
+        return hn::RebindMask(
+            d, hn::Ne(hn::PromoteTo(di, hn::LoadU(Bytes(), plane + at)), hn::Zero(di)));
+    }
+};
+
+// As many as are left; the others are 0.
+struct Rest {
+    ptrdiff_t at, count;
+    HWY_INLINE V operator()(const float* plane) const {
+        alignas(64) float buffer[hn::MaxLanes(d)] = {};
+        std::copy_n(plane + at, count, buffer);
+        return hn::Load(d, buffer);
+    }
+    HWY_INLINE Mask IsSet(const uint8_t* plane) const {
+        alignas(64) uint8_t buffer[hn::MaxLanes(d)] = {};
+        std::copy_n(plane + at, count, buffer);
+        return WholeVector{0}.IsSet(buffer);
+    }
+};
+
+template <class Load>
+struct Prepare {
+    const GuidePlanes& image;
+    const GuidedLayout& layout;
+    const GuidedScales& scales;
+    Load load;
+    float* to;
+
+    HWY_INLINE void Store(int plane, V v) const { hn::StoreU(v, d, to + plane * layout.pitch); }
+
+    static HWY_INLINE V FiniteOrZero(V v) { return hn::IfThenElseZero(hn::IsFinite(v), v); }
+
+    HWY_INLINE Color Load3(const float* const (&planes)[3]) const {
+        return {load(planes[0]), load(planes[1]), load(planes[2])};
+    }
+
+    HWY_INLINE Mask Near(V v) const {
+        return hn::Le(hn::Abs(v), hn::Set(d, kFarthestPosition)); // false for NaN
+    }
+
+    // The value, 0 where there is none.
+    HWY_INLINE Mask StoreValue() const {
+        const V v = load(image.value);
+        Mask valid = hn::And(hn::Ge(v, hn::Set(d, scales.least)), hn::IsFinite(v));
+        if (image.range)
+            valid = hn::And(valid, hn::IsFinite(load(image.range)));
+        Store(0, hn::IfThenElseZero(valid, hn::Min(v, hn::Set(d, kLargestGuidedValue))));
+        return valid;
+    }
+
+    // Returns where there is a surface.
+    HWY_INLINE Mask StorePosition(Mask valid) const {
+        Mask surface = hn::Eq(hn::Zero(d), hn::Zero(d));
+        if (image.background)
+            surface = hn::Not(load.IsSet(image.background));
+        Color p{hn::Zero(d), hn::Zero(d), hn::Zero(d)};
+        if (layout.position) {
+            p = Load3(image.position);
+            surface = hn::And(surface, hn::And(Near(p.c0), hn::And(Near(p.c1), Near(p.c2))));
+            Store(2, hn::IfThenElseZero(hn::And(valid, surface), p.c1));
+            Store(3, hn::IfThenElseZero(hn::And(valid, surface), p.c2));
+        }
+        const V kind = hn::IfThenElse(surface, p.c0, hn::Set(d, kFarAway));
+        Store(1, hn::IfThenElse(valid, kind, hn::Set(d, -kFarAway)));
+        return surface;
+    }
+
+    HWY_INLINE void StoreNormal(Mask surface, int first, float scale) const {
+        Color n = Load3(image.normal);
+        V sum = hn::Mul(n.c0, n.c0);
+        sum = hn::MulAdd(n.c1, n.c1, sum);
+        sum = hn::MulAdd(n.c2, n.c2, sum);
+        // Also false for NaN, and where squares are beyond floats.
+        const Mask some = hn::And(
+            surface, hn::And(hn::Gt(sum, hn::Set(d, 1e-30f)), hn::Lt(sum, hn::Set(d, 1e30f))));
+        const V length = hn::Div(hn::Set(d, scale), hn::Sqrt(sum));
+        Store(first, hn::IfThenElseZero(some, hn::Mul(n.c0, length)));
+        Store(first + 1, hn::IfThenElseZero(some, hn::Mul(n.c1, length)));
+        Store(first + 2, hn::IfThenElseZero(some, hn::Mul(n.c2, length)));
+    }
+
+    HWY_INLINE void operator()() const {
+        const Mask valid = StoreValue(), surface = StorePosition(valid);
+        int plane = layout.first_plain();
+        if (image.normal[0]) {
+            StoreNormal(surface, layout.angle ? layout.first_angle() : plane,
+                        layout.angle ? 1.0f : scales.normal);
+            plane += layout.angle ? 0 : 3;
+        }
+        if (image.albedo[0])
+            for (const float* albedo : image.albedo)
+                Store(plane++, hn::Mul(hn::IfThenElseZero(surface, FiniteOrZero(load(albedo))),
+                                       hn::Set(d, scales.albedo)));
+        if (image.range && !layout.range_of_value)
+            Store(plane++, hn::Mul(FiniteOrZero(load(image.range)), hn::Set(d, scales.range)));
+        const V given = image.footprint ? load(image.footprint) : hn::Set(d, scales.footprint);
+        const V least = hn::Set(d, kLeastFootprint), most = hn::Set(d, kMostFootprint);
+        const V f = hn::IfThenElse(hn::Gt(given, least), hn::Min(given, most), least);
+        Store(layout.nearness(), hn::Div(hn::Set(d, scales.nearness), hn::Mul(f, f)));
+    }
+};
+
+void PrepareRow(const GuidePlanes& image, const GuidedLayout& layout, const GuidedScales& scales,
+                ptrdiff_t from, ptrdiff_t count, float* to) {
+    const auto lanes = ptrdiff_t(hn::Lanes(d));
+    ptrdiff_t i = 0;
+    for (; i + lanes <= count; i += lanes)
+        Prepare<WholeVector>{image, layout, scales, {from + i}, to + i}();
+    if (i < count)
+        Prepare<Rest>{image, layout, scales, {from + i, count - i}, to + i}();
+}
+
+// Asks for the lines of memory of a part of a row.
+void Fetch(const GuidePlanes& image, ptrdiff_t from, ptrdiff_t count) {
+    constexpr ptrdiff_t kLine = 16; // floats
+    const float* const planes[] = {image.value,       image.position[0], image.position[1],
+                                   image.position[2], image.normal[0],   image.normal[1],
+                                   image.normal[2],   image.albedo[0],   image.albedo[1],
+                                   image.albedo[2],   image.range,       image.footprint};
+    for (const float* plane : planes)
+        if (plane)
+            for (ptrdiff_t i = 0; i < count + kLine; i += kLine)
+                hwy::Prefetch(plane + from + std::min(i, count - 1));
+}
+
+void PrepareOutside(const GuidedLayout& layout, ptrdiff_t count, float* to) {
+    for (int p = 0; p < layout.planes(); ++p)
+        std::fill_n(to + p * layout.pitch, count, p == 1 ? -kFarAway : 0.0f);
+}
+
+// Offsets that are looked at for all vectors of a run, while the lines of memory that these share
+// are close.
+constexpr ptrdiff_t kBatch = 8;
+
+struct Batch {
+    const float* at[kBatch];
+    float start[kBatch];
+
+    // Where there are no more of them, the last one again, weighing nothing.
+    HWY_INLINE Batch(const GuidedRun& run, ptrdiff_t first, float offset) {
+        const ptrdiff_t count = std::min(kBatch, run.count - first);
+        for (ptrdiff_t i = 0; i < kBatch; ++i) {
+            const Tap& tap = run.taps[first + std::min(i, count - 1)];
+            at[i] = run.rows[tap.dy] + run.column + tap.dx;
+            start[i] = i < count ? tap.log2_weight - offset : -kFarAway;
+        }
+    }
+};
+
+template <class Terms>
+void FilterRun(const GuidedLayout& layout, const GuidedScales& scales, const GuidedRun& run,
+               float* HWY_RESTRICT out) {
+    const auto lanes = ptrdiff_t(hn::Lanes(d));
+    alignas(64) float sums[kGuidedRun] = {}, weights[kGuidedRun] = {};
+    const float* const row = run.rows[0] + run.column;
+    for (ptrdiff_t first = 0; first < run.count; first += kBatch) {
+        const Batch batch(run, first, Terms::kAngle ? scales.angle : 0.0f);
+        for (ptrdiff_t x = 0; x < kGuidedRun; x += lanes) {
+            const Terms terms(layout, scales, row + x);
+            V sum = hn::Zero(d), weight = hn::Zero(d);
+            for (ptrdiff_t i = 0; i < kBatch; i += kTogether) {
+                Together w;
+                terms.Weigh(batch.at + i, x, run.pitch, batch.start + i, w);
+                for (int k = 0; k < kTogether; ++k) {
+                    weight = hn::Add(weight, w[k]);
+                    sum = hn::MulAdd(w[k], hn::LoadU(d, batch.at[i + k] + x), sum);
+                }
+            }
+            // Sums of sums: a long row of additions in float would lose digits.
+            hn::Store(hn::Add(hn::Load(d, sums + x), sum), d, sums + x);
+            hn::Store(hn::Add(hn::Load(d, weights + x), weight), d, weights + x);
+        }
+    }
+    for (ptrdiff_t x = 0; x < kGuidedRun; x += lanes) {
+        const V weight = hn::Load(d, weights + x);
+        const V mean = hn::Div(hn::Load(d, sums + x), weight);
+        hn::StoreU(hn::IfThenElse(hn::Gt(weight, hn::Zero(d)), mean, hn::LoadU(d, row + x)), d,
+                   out + x);
+    }
+}
+
+template <bool kPosition, bool kAngle, bool kRangeOfValue>
+void WithPlain(const GuidedLayout& layout, const GuidedScales& scales, const GuidedRun& run,
+               float* out) {
+    switch (layout.plain) {
+    case 0:
+        return FilterRun<Terms<kPosition, 0, kAngle, kRangeOfValue>>(layout, scales, run, out);
+    case 1:
+        return FilterRun<Terms<kPosition, 1, kAngle, kRangeOfValue>>(layout, scales, run, out);
+    case 3:
+        return FilterRun<Terms<kPosition, 3, kAngle, kRangeOfValue>>(layout, scales, run, out);
+    case 4:
+        return FilterRun<Terms<kPosition, 4, kAngle, kRangeOfValue>>(layout, scales, run, out);
+    case 6:
+        return FilterRun<Terms<kPosition, 6, kAngle, kRangeOfValue>>(layout, scales, run, out);
+    default:
+        return FilterRun<Terms<kPosition, 7, kAngle, kRangeOfValue>>(layout, scales, run, out);
+    }
+}
+
+template <bool kPosition>
+void WithPosition(const GuidedLayout& layout, const GuidedScales& scales, const GuidedRun& run,
+                  float* out) {
+    if (layout.angle && layout.range_of_value)
+        WithPlain<kPosition, true, true>(layout, scales, run, out);
+    else if (layout.angle)
+        WithPlain<kPosition, true, false>(layout, scales, run, out);
+    else if (layout.range_of_value)
+        WithPlain<kPosition, false, true>(layout, scales, run, out);
+    else
+        WithPlain<kPosition, false, false>(layout, scales, run, out);
+}
+
+void Filter(const GuidedLayout& layout, const GuidedScales& scales, const GuidedRun& run,
+            float* out) {
+    if (layout.position)
+        WithPosition<true>(layout, scales, run, out);
+    else
+        WithPosition<false>(layout, scales, run, out);
+}
+
+const GuidedRows& GuidedTable() {
+    static const GuidedRows table = {hwy::TargetName(HWY_TARGET), Fetch, PrepareRow, PrepareOutside,
+                                     Filter};
+    return table;
+}
+
+} // namespace tonetool::kernels::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace tonetool::kernels {
+namespace {
+
+// log2 of exp(-x^2 / 2 sigma^2) is minus this times x^2.
+double exponent(double sigma) {
+    return 1 / (2 * sigma * sigma * std::log(2.0));
+}
+
+} // namespace
+
+GuidedLayout::GuidedLayout(const GuidePlanes& image, const GuidedTerms& terms)
+    : position(image.position[0] != nullptr),
+      angle(image.normal[0] != nullptr && terms.normal_term == NormalTerm::Angle),
+      range_of_value(image.range != nullptr && image.range == image.value) {
+    plain = (image.normal[0] && !angle ? 3 : 0) + (image.albedo[0] ? 3 : 0) +
+            (image.range && !range_of_value ? 1 : 0);
+}
+
+GuidedScales::GuidedScales(const GuidePlanes& image, const GuidedTerms& terms)
+    : nearness(image.position[0] ? float(exponent(terms.position)) : 1.0f),
+      footprint(float(terms.footprint)),
+      normal(float(std::sqrt(exponent(terms.normal)))),
+      albedo(float(std::sqrt(exponent(terms.albedo)))),
+      range(float(std::sqrt(exponent(terms.range)))),
+      angle(float(exponent(terms.normal))),
+      range_of_value(float(exponent(terms.range))),
+      least(terms.least) {}
+
+HWY_EXPORT(GuidedTable);
+
+const GuidedRows& guided_rows() {
+    return HWY_DYNAMIC_DISPATCH(GuidedTable)();
+}
+
+} // namespace tonetool::kernels
+#endif

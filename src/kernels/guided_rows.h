@@ -1,0 +1,63 @@
+// The cross bilateral filter on rows, in float lanes (Google Highway): one table of functions per
+// instruction set, guided_tile.h puts them together.
+#pragma once
+
+#include "kernels/guided.h"
+
+namespace tonetool::kernels {
+
+/// How a prepared row lies in memory: planes of `pitch` floats, one after the other. First the
+/// value; then the position, of which the first plane also says what kind of pixel it is (the only
+/// plane there is without positions); then planes whose differences count as they are: normal,
+/// albedo, range; then the normal whose angle counts; last, log2 e / 2 s1^2.
+struct GuidedLayout {
+    GuidedLayout(const GuidePlanes& image, const GuidedTerms& terms);
+
+    bool position, angle, range_of_value;
+    int plain = 0;
+    ptrdiff_t pitch = 0;
+
+    int first_plain() const { return position ? 4 : 2; }
+    int first_angle() const { return first_plain() + plain; }
+    int nearness() const { return first_angle() + (angle ? 3 : 0); }
+    int planes() const { return nearness() + 1; }
+};
+
+/// The terms as what differences are multiplied by, for weights that are powers of 2.
+struct GuidedScales {
+    GuidedScales(const GuidePlanes& image, const GuidedTerms& terms);
+
+    float nearness, footprint, normal, albedo, range, angle, range_of_value, least;
+};
+
+/// Pixels [column, column + kGuidedRun) of a row and their neighbours: rows[dy] is the prepared row
+/// dy below theirs.
+struct GuidedRun {
+    const float* const* rows;
+    ptrdiff_t column, pitch;
+    const Tap* taps;
+    ptrdiff_t count;
+};
+
+struct GuidedRows {
+    const char* name;
+
+    /// Announces pixels that are prepared soon.
+    void (*fetch)(const GuidePlanes& image, ptrdiff_t from, ptrdiff_t count);
+
+    /// `count` pixels of a row that begins at `from` in the planes; up to a vector more is written.
+    void (*prepare)(const GuidePlanes& image, const GuidedLayout& layout,
+                    const GuidedScales& scales, ptrdiff_t from, ptrdiff_t count, float* to);
+
+    /// Pixels outside the image: neighbours of none.
+    void (*prepare_outside)(const GuidedLayout& layout, ptrdiff_t count, float* to);
+
+    /// The weighted means of a run. Where a pixel has no neighbour, not even itself: its own value.
+    void (*filter)(const GuidedLayout& layout, const GuidedScales& scales, const GuidedRun& run,
+                   float* out);
+};
+
+/// For the best instruction set of this machine.
+const GuidedRows& guided_rows();
+
+} // namespace tonetool::kernels

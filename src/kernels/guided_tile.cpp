@@ -1,0 +1,120 @@
+#include "kernels/guided_tile.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace tonetool::kernels {
+namespace {
+
+constexpr ptrdiff_t kLine = 16; // floats of a line of the cache
+
+ptrdiff_t whole_lines(ptrdiff_t n) {
+    return (n + kLine - 1) / kLine * kLine;
+}
+
+// Runs that windows of so many columns can touch.
+ptrdiff_t run_columns(int columns) {
+    return (columns + 2 * kGuidedRun - 2) / kGuidedRun * kGuidedRun;
+}
+
+ptrdiff_t pitch_of(const TapSets& taps, int columns) {
+    // A vector is written beyond the last column.
+    return run_columns(columns) + 2 * whole_lines(taps.half()) + kLine;
+}
+
+size_t floats(const GuidedLayout& layout, const TapSets& taps) {
+    return size_t(layout.pitch) * size_t(layout.planes()) * size_t(2 * taps.half() + 1);
+}
+
+GuidedLayout layout_of(const GuidePlanes& image, const GuidedTerms& terms, const TapSets& taps,
+                       int columns) {
+    GuidedLayout layout(image, terms);
+    layout.pitch = pitch_of(taps, columns);
+    return layout;
+}
+
+} // namespace
+
+GuidedTile::GuidedTile(const GuidePlanes& image, const GuidedTerms& terms, const TapSets& taps,
+                       int columns)
+    : m_image(image),
+      m_taps(taps),
+      m_rows(guided_rows()),
+      m_layout(layout_of(image, terms, taps, columns)),
+      m_scales(image, terms),
+      m_lead(whole_lines(taps.half())),
+      m_data(hwy::AllocateAligned<float>(floats(m_layout, taps))),
+      m_table(size_t(2 * taps.half() + 1)) {}
+
+size_t GuidedTile::bytes(const GuidePlanes& image, const GuidedTerms& terms, const TapSets& taps,
+                         int columns) {
+    return floats(layout_of(image, terms, taps, columns), taps) * sizeof(float);
+}
+
+float* GuidedTile::row_of(int y) const {
+    const int rows = 2 * m_taps.half() + 1;
+    return m_data.get() + ((y % rows + rows) % rows) * m_layout.planes() * m_layout.pitch;
+}
+
+// Row y in the columns of the tile and `half` beside them.
+void GuidedTile::prepare(int y, int x0, int columns) {
+    const int half = m_taps.half();
+    float* const row = row_of(y) + m_lead - half;
+    const ptrdiff_t first = x0 - half, end = ptrdiff_t(x0) + columns + half;
+    const ptrdiff_t from = std::max<ptrdiff_t>(first, 0);
+    const ptrdiff_t to = std::min<ptrdiff_t>(end, m_image.width);
+    if (y < 0 || y >= m_image.height || from >= to)
+        return m_rows.prepare_outside(m_layout, end - first, row);
+    const ptrdiff_t at = (y - m_image.first_row) * m_image.stride + from;
+    m_rows.prepare(m_image, m_layout, m_scales, at, to - from, row + (from - first));
+    m_rows.prepare_outside(m_layout, from - first, row);
+    m_rows.prepare_outside(m_layout, end - to, row + (to - first));
+}
+
+void GuidedTile::filter(const Window& window, float* out, ptrdiff_t stride) {
+    const int half = m_taps.half(), x0 = window.x0 / kGuidedRun * kGuidedRun;
+    const int runs = (window.x0 + window.width - x0 + kGuidedRun - 1) / kGuidedRun;
+    for (int y = window.y0 - half; y < window.y0 + half; ++y)
+        prepare(y, x0, runs * kGuidedRun);
+    for (int y = window.y0; y < window.y0 + window.height; ++y) {
+        prepare(y + half, x0, runs * kGuidedRun);
+        for (int dy = -half; dy <= half; ++dy)
+            m_table[size_t(dy + half)] = row_of(y + dy) + m_lead;
+        filter_row(y, window, x0, out + (y - window.y0) * stride);
+    }
+}
+
+// Asks for a run of a row, and what is beside it at the ends of the tile: spread over the time that
+// a row takes, this costs nothing.
+void GuidedTile::fetch(int y, int x, bool leftmost, bool rightmost) const {
+    const int from = std::max(0, leftmost ? x - m_taps.half() : x);
+    const int to = std::min(m_image.width, x + kGuidedRun + (rightmost ? m_taps.half() : 0));
+    if (y < m_image.height && from < to)
+        m_rows.fetch(m_image, (y - m_image.first_row) * m_image.stride + from, to - from);
+}
+
+bool GuidedTile::counts(float value, float range) const {
+    constexpr float largest = std::numeric_limits<float>::max();
+    return value >= m_scales.least && value <= largest && std::abs(range) <= largest;
+}
+
+void GuidedTile::filter_row(int y, const Window& window, int x0, float* out) {
+    alignas(64) float means[kGuidedRun];
+    const int end = window.x0 + window.width;
+    const float* const values = m_image.value + (y - m_image.first_row) * m_image.stride;
+    const float* const range = m_image.range ? m_image.range + (values - m_image.value) : nullptr;
+    for (int x = x0; x < end; x += kGuidedRun) {
+        const auto& taps = m_taps.at(x, y);
+        if (y + 1 < window.y0 + window.height)
+            fetch(y + m_taps.half() + 1, x, x == x0, x + kGuidedRun >= end);
+        m_rows.filter(m_layout, m_scales,
+                      {m_table.data() + m_taps.half(), x - x0, m_layout.pitch, taps.data(),
+                       ptrdiff_t(taps.size())},
+                      means);
+        for (int i = std::max(x, window.x0); i < std::min(x + kGuidedRun, end); ++i)
+            out[i - window.x0] = counts(values[i], range ? range[i] : 0) ? means[i - x] : values[i];
+    }
+}
+
+} // namespace tonetool::kernels

@@ -1,0 +1,44 @@
+// Columns of an image, from which the cross bilateral filter makes one row after the other.
+#pragma once
+
+#include <hwy/aligned_allocator.h>
+#include <vector>
+
+#include "kernels/guided_rows.h"
+#include "kernels/views.h"
+
+namespace tonetool::kernels {
+
+/// Work space of one thread: as many prepared rows as the window of the filter is high, so that a
+/// core's L2 cache holds them.
+class GuidedTile {
+public:
+    /// For windows of at most `columns`. What is given must outlive it.
+    GuidedTile(const GuidePlanes& image, const GuidedTerms& terms, const TapSets& taps,
+               int columns);
+
+    /// Filters a window of the image; row stride of `out` in floats. Where the value itself is not
+    /// one to be averaged it is copied.
+    void filter(const Window& window, float* out, ptrdiff_t stride);
+
+    static size_t bytes(const GuidePlanes& image, const GuidedTerms& terms, const TapSets& taps,
+                        int columns);
+
+private:
+    void prepare(int y, int x0, int columns);
+    float* row_of(int y) const;
+    void fetch(int y, int x, bool leftmost, bool rightmost) const;
+    bool counts(float value, float range) const;
+    void filter_row(int y, const Window& window, int x0, float* out);
+
+    const GuidePlanes& m_image;
+    const TapSets& m_taps;
+    const GuidedRows& m_rows;
+    GuidedLayout m_layout;
+    GuidedScales m_scales;
+    ptrdiff_t m_lead; ///< columns before the first one
+    hwy::AlignedFreeUniquePtr<float[]> m_data;
+    std::vector<const float*> m_table; ///< the rows around the one that is filtered
+};
+
+} // namespace tonetool::kernels

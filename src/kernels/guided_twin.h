@@ -1,0 +1,13 @@
+// The cross bilateral filter in double precision, written straight from the paper's Eqs. 3 and 4:
+// the oracle of the tests.
+#pragma once
+
+#include "kernels/guided.h"
+
+namespace tonetool::kernels {
+
+/// The filtered value of pixel (x, y).
+double guided_twin(const GuidePlanes& image, const GuidedTerms& terms, const TapSets& taps, int x,
+                   int y);
+
+} // namespace tonetool::kernels

@@ -1,0 +1,88 @@
+#include "tonemap/base.h"
+
+#include <algorithm>
+#include <memory>
+#include <mutex>
+#include <vector>
+
+#include "kernels/guided_tile.h"
+
+namespace tonetool::tonemap {
+namespace {
+
+using kernels::GuidedTile;
+using kernels::kGuidedRun;
+using kernels::Window;
+
+// The rows of a tile must stay in a core's L2 cache; the rows above and beside it are prepared for
+// it alone. Low enough that all threads end at the same time.
+constexpr int kTileWidth = 5 * kGuidedRun, kTileHeight = 540;
+
+// Filters tiles, several at a time: each takes a work space that is free, or makes one.
+class Tiles {
+public:
+    Tiles(const kernels::GuidePlanes& image, const kernels::GuidedTerms& terms,
+          const kernels::TapSets& taps, const Window& window, float* out, ptrdiff_t stride)
+        : m_image(image),
+          m_terms(terms),
+          m_taps(taps),
+          m_window(window),
+          m_out(out),
+          m_stride(stride),
+          m_first(window.x0 / kGuidedRun * kGuidedRun),
+          m_across((window.x0 + window.width - m_first + kTileWidth - 1) / kTileWidth),
+          m_down((window.height + kTileHeight - 1) / kTileHeight),
+          m_height((window.height + m_down - 1) / m_down) {}
+
+    int64_t count() const { return int64_t(m_across) * m_down; }
+
+    void run(int64_t i) {
+        const int left = m_first + int(i % m_across) * kTileWidth;
+        const int x0 = std::max(left, m_window.x0);
+        const int x1 = std::min(left + kTileWidth, m_window.x0 + m_window.width);
+        const int y0 = int(i / m_across) * m_height;
+        const int y1 = std::min(y0 + m_height, m_window.height);
+        auto space = take();
+        space->filter({x0, m_window.y0 + y0, x1 - x0, y1 - y0},
+                      m_out + y0 * m_stride + (x0 - m_window.x0), m_stride);
+        const std::lock_guard<std::mutex> hold(m_lock);
+        m_free.push_back(std::move(space));
+    }
+
+private:
+    std::unique_ptr<GuidedTile> take() {
+        {
+            const std::lock_guard<std::mutex> hold(m_lock);
+            if (!m_free.empty()) {
+                auto space = std::move(m_free.back());
+                m_free.pop_back();
+                return space;
+            }
+        }
+        return std::make_unique<GuidedTile>(m_image, m_terms, m_taps, kTileWidth);
+    }
+
+    const kernels::GuidePlanes& m_image;
+    const kernels::GuidedTerms& m_terms;
+    const kernels::TapSets& m_taps;
+    Window m_window;
+    float* m_out;
+    ptrdiff_t m_stride;
+    int m_first; ///< column that tiles are counted from
+    int m_across, m_down, m_height;
+    std::mutex m_lock;
+    std::vector<std::unique_ptr<GuidedTile>> m_free;
+};
+
+} // namespace
+
+void filter_base(const kernels::GuidePlanes& image, const kernels::GuidedTerms& terms,
+                 const kernels::TapSets& taps, const Window& window, float* out, ptrdiff_t stride,
+                 const kernels::ParallelFor& parallel) {
+    if (window.width <= 0 || window.height <= 0)
+        return;
+    Tiles tiles(image, terms, taps, window, out, stride);
+    parallel(tiles.count(), [&tiles](int64_t i) { tiles.run(i); });
+}
+
+} // namespace tonetool::tonemap

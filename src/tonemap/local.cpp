@@ -1,0 +1,101 @@
+#include "tonemap/local.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "tonemap/base.h"
+
+namespace tonetool::tonemap {
+namespace {
+
+using kernels::ConstRgb;
+using kernels::GuidePlanes;
+using kernels::Window;
+
+const double kLn2 = std::log(2.0), kLn10 = std::log(10.0);
+
+struct Rows {
+    int first, end; // of the image
+};
+
+// What is filtered, and what the luminance term compares, as planes beside the guides.
+class Values {
+public:
+    Values(const LocalOperator& what, const ConstRgb& image, const GuidePlanes& guides,
+           const Rows& rows, const kernels::ParallelFor& parallel)
+        : m_planes(guides) {
+        if (m_planes.stride < image.width)
+            m_planes.stride = image.width;
+        const auto size = size_t(m_planes.stride) * size_t(rows.end - image.first_row);
+        const bool two = !what.logarithmic && what.luminance_sigma > 0;
+        m_value.resize(size);
+        m_range.resize(two ? size : 0);
+        parallel(rows.end - rows.first, [&](int64_t i) {
+            const ptrdiff_t y = rows.first - image.first_row + i, at = y * m_planes.stride;
+            fill(what, image, y, m_value.data() + at, two ? m_range.data() + at : nullptr);
+        });
+        m_planes.value = m_value.data();
+        m_planes.range = two ? m_range.data() : what.luminance_sigma > 0 ? m_value.data() : nullptr;
+    }
+
+    const GuidePlanes& planes() const { return m_planes; }
+
+private:
+    static void fill(const LocalOperator& what, const ConstRgb& image, ptrdiff_t y, float* value,
+                     float* range) {
+        const float* rgb[3];
+        for (size_t c = 0; c < 3; ++c)
+            rgb[c] = image.plane[c] + y * image.stride;
+        kernels::luminance_rows(what.curve.weights, rgb, value, image.width);
+        const auto least = float(what.least_luminance);
+        if (range)
+            kernels::log_rows(value, range, image.width, least, float(kLn2 / kLn10));
+        if (what.logarithmic)
+            kernels::log_rows(value, value, image.width, least, float(kLn2));
+    }
+
+    GuidePlanes m_planes;
+    std::vector<float> m_value, m_range;
+};
+
+kernels::GuidedTerms terms_of(const LocalOperator& what) {
+    kernels::GuidedTerms terms = what.terms;
+    // The range of a base of natural logarithms is the base itself.
+    terms.range = what.luminance_sigma * (what.logarithmic ? kLn10 : 1);
+    terms.least = what.logarithmic ? std::numeric_limits<float>::lowest() : 0;
+    return terms;
+}
+
+} // namespace
+
+void tone_map_local(const LocalOperator& what, const ConstRgb& image, const GuidePlanes& guides,
+                    const kernels::TapSets& taps, const Window& window, const LocalOutput& output,
+                    const kernels::ParallelFor& parallel) {
+    if (window.width <= 0 || window.height <= 0)
+        return;
+    const Rows rows{std::max(0, window.y0 - taps.half()),
+                    std::min(image.height, window.y0 + window.height + taps.half())};
+    const Values values(what, image, guides, rows, parallel);
+    std::vector<float> kept;
+    if (!output.base)
+        kept.resize(size_t(window.width) * size_t(window.height));
+    float* const base = output.base ? output.base : kept.data();
+    const ptrdiff_t stride = output.base ? output.stride : window.width;
+    filter_base(values.planes(), terms_of(what), taps, window, base, stride, parallel);
+    kernels::LocalCurve curve = what.curve;
+    curve.log_base = what.logarithmic;
+    parallel(window.height, [&](int64_t y) {
+        const ptrdiff_t at = (window.y0 - image.first_row + y) * image.stride + window.x0;
+        const float* in[3];
+        float* out[3];
+        for (size_t c = 0; c < 3; ++c) {
+            in[c] = image.plane[c] + at;
+            out[c] = output.rgb[c] + y * output.stride;
+        }
+        kernels::local_rows(curve, base + y * stride, in, out, window.width);
+    });
+}
+
+} // namespace tonetool::tonemap

@@ -1,0 +1,36 @@
+// CG-TMO: Drago's curve on a base that the G-buffer guides. F. Banterle et al., Eq. 2 to 4; here
+// everything is a number or a plane.
+#pragma once
+
+#include "kernels/guided.h"
+#include "kernels/local_rows.h"
+#include "kernels/views.h"
+
+namespace tonetool::tonemap {
+
+struct LocalOperator {
+    kernels::LocalCurve curve;  ///< `log_base` is set by what follows
+    kernels::GuidedTerms terms; ///< `range` and `least` too
+    /// The base is a geometric mean of luminance, not an arithmetic one (the paper's): one bright
+    /// pixel does not fill it.
+    bool logarithmic = false;
+    double luminance_sigma = 0;    ///< of the term on log10 of luminance; 0: none, as in the paper
+    double least_luminance = 1e-6; ///< darker pixels count as this in logarithms
+};
+
+/// Where the results go: planes of the window's size, row stride in floats.
+struct LocalOutput {
+    float* rgb[3] = {nullptr, nullptr, nullptr}; ///< display light, not clamped
+    float* base = nullptr; ///< linear or, if logarithmic, its logarithm; may be null
+    ptrdiff_t stride = 0;
+};
+
+/// Tone maps a window of an image. `guides` are of the same size and first row; their value and
+/// range are not looked at. Luminance that is not finite or negative takes no part, and becomes
+/// black. The bits depend neither on the window nor on how `parallel` schedules.
+void tone_map_local(const LocalOperator& what, const kernels::ConstRgb& image,
+                    const kernels::GuidePlanes& guides, const kernels::TapSets& taps,
+                    const kernels::Window& window, const LocalOutput& output,
+                    const kernels::ParallelFor& parallel);
+
+} // namespace tonetool::tonemap

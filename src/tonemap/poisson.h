@@ -1,0 +1,25 @@
+// Subsets of a filter's window: F. Banterle, M. Corsini, P. Cignoni, R. Scopigno, "A Low-Memory,
+// Straightforward and Fast Bilateral Filter Through Subsampling in Spatial Domain" (2012).
+#pragma once
+
+#include <vector>
+
+#include "kernels/guided.h"
+
+namespace tonetool::tonemap {
+
+/// What the authors' programs take for a window of 41 x 41.
+inline constexpr int kPoissonSamples = 80, kPoissonSets = 64;
+
+/// `count` different offsets, |dx|, |dy| <= half, the first of them (0, 0), well apart from one
+/// another: each is the farthest from the others of several random candidates (D. P. Mitchell,
+/// "Spectrally Optimal Sampling for Distribution Ray Tracing", 1991). Opposite edges of the window
+/// count as neighbours, lest offsets crowd at them. The same on every machine. At most as many as
+/// the window holds.
+std::vector<kernels::Offset> poisson_set(int half, int count, unsigned seed);
+
+/// As many sets, no two the same unless there are too few offsets for that.
+std::vector<std::vector<kernels::Offset>> poisson_sets(int half, int count,
+                                                       int sets = kPoissonSets);
+
+} // namespace tonetool::tonemap
