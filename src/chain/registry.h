@@ -59,5 +59,6 @@ std::vector<Command> color_commands();
 std::vector<Command> channel_commands();
 std::vector<Command> stack_commands();
 std::vector<Command> tone_commands();
+std::vector<Command> cgtmo_commands();
 
 } // namespace tonetool::chain

@@ -10,14 +10,15 @@ namespace {
 struct NamedEncoding {
     const char* name;
     Encoding encode;
+    const char* space;
 };
 
 const NamedEncoding kEncodings[] = {
-    {"none", [](float v) { return v; }},
-    {"srgb", [](float v) { return float(linear_to_srgb(double(v))); }},
-    {"gamma2.2", [](float v) { return std::pow(v, 1.0f / 2.2f); }},
-    {"rec1886", [](float v) { return std::pow(v, 1.0f / 2.4f); }},
-    {"gamma2.6", [](float v) { return std::pow(v, 1.0f / 2.6f); }}};
+    {"none", [](float v) { return v; }, "lin_rec709"},
+    {"srgb", [](float v) { return float(linear_to_srgb(double(v))); }, "sRGB"},
+    {"gamma2.2", [](float v) { return std::pow(v, 1.0f / 2.2f); }, "GammaCorrected2.2"},
+    {"rec1886", [](float v) { return std::pow(v, 1.0f / 2.4f); }, "GammaCorrected2.4"},
+    {"gamma2.6", [](float v) { return std::pow(v, 1.0f / 2.6f); }, "GammaCorrected2.6"}};
 
 float alpha_of(const float* pixel, const ToneChannels& which) {
     const float alpha = which.alpha < 0 ? 1.0f : pixel[which.alpha];
@@ -88,6 +89,13 @@ Encoding find_encoding(const std::string& name) {
         if (name == entry.name)
             return entry.encode;
     return nullptr;
+}
+
+std::string space_of_encoding(const std::string& name) {
+    for (const NamedEncoding& entry : kEncodings)
+        if (name == entry.name)
+            return entry.space;
+    return {};
 }
 
 std::vector<std::string> ToneAlgo::display_encodings() {

@@ -48,5 +48,7 @@ void linearize_row(const ColorSpace& space, bool rec709, ToneRow& row, size_t co
 /// An encoding by its name, of display light >= 0; null: there is none of that name.
 using Encoding = float (*)(float);
 Encoding find_encoding(const std::string& name);
+/// What `oiio:ColorSpace` says of Rec.709 so encoded.
+std::string space_of_encoding(const std::string& name);
 
 } // namespace tonetool

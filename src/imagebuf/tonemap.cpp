@@ -195,14 +195,10 @@ private:
     // What the values are now, and how they came to be.
     void tag(ImageSpec& spec) const {
         std::string space = m_view.space();
-        if (!m_options.view) {
-            const std::string& encode = m_options.encode;
-            const bool linear = encode == "none";
-            space = linear ? (rec709() || m_space.is_rec709 ? "lin_rec709" : m_space.name)
-                    : encode == "srgb"    ? "sRGB"
-                    : encode == "rec1886" ? "GammaCorrected2.4"
-                                          : "GammaCorrected" + encode.substr(5);
-        }
+        if (!m_options.view)
+            space = m_options.encode == "none" && !rec709() && !m_space.is_rec709
+                        ? m_space.name
+                        : space_of_encoding(m_options.encode);
         if (m_options.view || rec709())
             spec.erase_attribute("chromaticities");
         spec.attribute("oiio:ColorSpace", space);

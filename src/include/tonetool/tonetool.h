@@ -1,6 +1,7 @@
 // Everything tonetool offers to C++.
 #pragma once
 
+#include "tonetool/cgtmo.h"
 #include "tonetool/display.h"
 #include "tonetool/export.h"
 #include "tonetool/flip.h"

@@ -1,0 +1,80 @@
+// CG-TMO: local tone mapping of rendered images, guided by the renderer's own G-buffer.
+//
+// F. Banterle et al., CG-TMO; F. Drago et al., "Adaptive Logarithmic Mapping for Displaying High
+// Contrast Scenes" (2003) for the curve.
+#pragma once
+
+#include <OpenImageIO/imagebuf.h>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "tonetool/export.h"
+#include "tonetool/pixels.h"
+
+namespace tonetool {
+
+struct CgTmoOptions {
+    PixelOptions pixels; ///< the beauty and its colour space
+    /// "default": a base of log luminance, with a term of 0.4 in log10 of luminance beside the
+    /// guides, since emitters, their glow and shadows are not in a G-buffer; "paper": Eq. 2 and 4
+    /// to the letter, a base of luminance under the guides alone. What follows overrides.
+    std::string preset = "default";
+    std::string domain;             ///< of the base: "log", "linear"; empty: the preset's
+    std::optional<double> lumsigma; ///< of the luminance term in log10, 0: none, to 10
+    /// Guides by the name of their layer; "none": without; empty: found by the names and contents.
+    std::string position, normal, albedo, depth;
+    bool strict = false;               ///< a missing guide is an error, not a warning
+    double sigma = 8;                  ///< of the window in pixels, 1 to 20; its half is 2.5 sigma
+    int samples = 80;                  ///< of the window, 4 to 400; 0: all
+    std::string normaldist = "euclid"; ///< |n - m|^2, or "dot": 1 - |n m|
+    /// "pixel": of each pixel, from its neighbours' positions; "global": the median of those; or a
+    /// number, in the unit of the positions.
+    std::string footprint = "pixel";
+    /// "guided"; "bilateral": the luminance term alone (Durand and Dorsey 2002); "none": Drago's
+    /// curve on each pixel.
+    std::string filter = "guided";
+    /// Adaptation luminance: "geometric", "harmonic", "arithmetic", "median" of the image, or a
+    /// number.
+    std::string lwa = "geometric";
+    std::optional<double> lmax;  ///< luminance that becomes white; unset: the image's maximum
+    double bias = 0.85;          ///< of Drago's curve, 0.01 to 1
+    double ldmax = 100;          ///< cd/m2 of the display, 1 to 10000; 100 counts as 1
+    double saturation = 1;       ///< C' = (C / L)^saturation Ld, 0 to 4
+    std::string encode = "srgb"; ///< of the result, as TonemapOptions::encode
+    bool clamp = true;           ///< the result to [0,1]
+};
+
+struct CgTmoSummary {
+    std::string layer, space;
+    std::string position, normal, albedo, depth; ///< layers that were used; empty: none
+    double adaptation = 0, maximum = 0;          ///< Lwa and Lmax
+    double footprint = 0;                        ///< median, in the unit of positions; 0: unknown
+    int samples = 0;                             ///< neighbours of each pixel
+    int64_t background = 0;                      ///< pixels without a surface
+    int64_t nonfinite = 0, negative = 0;
+    std::vector<std::string> warnings;
+};
+
+namespace ToneAlgo {
+
+/// Tone map the colour of a rendered image: Drago's curve on a base of luminance, the detail
+/// multiplied back (Eq. 2); the base by a cross bilateral filter that position, normal and albedo
+/// guide (Eq. 4), which are layers of the same image.
+///
+/// Colour: as tonemap with a curve, in linear Rec.709; every other channel is carried.
+/// Missing guides: without a position, normal or albedo the term is left out, with a warning; with
+///   none of them the luminance term alone remains.
+/// Background (no surface): neighbours of background only.
+/// NaN, Inf, negative colour: as tonemap; such pixels take no part in the base.
+/// Results do not depend on the ROI, tiles or threads to the bit.
+TONETOOL_API bool cg_tmo(OIIO::ImageBuf& dst, const OIIO::ImageBuf& src,
+                         const CgTmoOptions& options = {}, CgTmoSummary* summary = nullptr,
+                         OIIO::ROI roi = {}, int nthreads = 0);
+TONETOOL_API OIIO::ImageBuf cg_tmo(const OIIO::ImageBuf& src, const CgTmoOptions& options = {},
+                                   CgTmoSummary* summary = nullptr, OIIO::ROI roi = {},
+                                   int nthreads = 0);
+
+} // namespace ToneAlgo
+} // namespace tonetool
