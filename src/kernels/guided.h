@@ -43,6 +43,9 @@ struct GuidedTerms {
 inline constexpr float kLeastFootprint = 1e-15f, kMostFootprint = 1e15f;
 inline constexpr float kLargestGuidedValue = 1e35f, kFarthestPosition = 1e15f;
 
+/// Weights whose log2 is below this are 0.
+inline constexpr float kLeastLog2Weight = -126.5f;
+
 struct Offset {
     int dx = 0, dy = 0;
 };

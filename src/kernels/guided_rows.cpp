@@ -175,33 +175,52 @@ struct Batch {
     }
 };
 
+struct Sums {
+    alignas(64) float values[kGuidedRun] = {}, weights[kGuidedRun] = {};
+
+    HWY_INLINE void Add(ptrdiff_t x, V value, V weight) {
+        hn::Store(hn::Add(hn::Load(d, values + x), value), d, values + x);
+        hn::Store(hn::Add(hn::Load(d, weights + x), weight), d, weights + x);
+    }
+};
+
+template <class Terms>
+HWY_INLINE void AddBatch(const Terms& terms, const Batch& batch, ptrdiff_t x, ptrdiff_t pitch,
+                         Sums& sums) {
+    V value = hn::Zero(d), weight = hn::Zero(d);
+    for (ptrdiff_t i = 0; i < kBatch; i += kTogether) {
+        Together w;
+        terms.Weigh(batch.at + i, x, pitch, batch.start + i, w);
+        for (int k = 0; k < kTogether; ++k) {
+            weight = hn::Add(weight, w[k]);
+            value = hn::MulAdd(w[k], hn::LoadU(d, batch.at[i + k] + x), value);
+        }
+    }
+    sums.Add(x, value, weight);
+}
+
+// Sums of sums of sums: long rows of additions in float would lose digits.
+constexpr ptrdiff_t kBlock = 16 * kBatch;
+
 template <class Terms>
 void FilterRun(const GuidedLayout& layout, const GuidedScales& scales, const GuidedRun& run,
                float* HWY_RESTRICT out) {
     const auto lanes = ptrdiff_t(hn::Lanes(d));
-    alignas(64) float sums[kGuidedRun] = {}, weights[kGuidedRun] = {};
     const float* const row = run.rows[0] + run.column;
-    for (ptrdiff_t first = 0; first < run.count; first += kBatch) {
-        const Batch batch(run, first, Terms::kAngle ? scales.angle : 0.0f);
-        for (ptrdiff_t x = 0; x < kGuidedRun; x += lanes) {
-            const Terms terms(layout, scales, row + x);
-            V sum = hn::Zero(d), weight = hn::Zero(d);
-            for (ptrdiff_t i = 0; i < kBatch; i += kTogether) {
-                Together w;
-                terms.Weigh(batch.at + i, x, run.pitch, batch.start + i, w);
-                for (int k = 0; k < kTogether; ++k) {
-                    weight = hn::Add(weight, w[k]);
-                    sum = hn::MulAdd(w[k], hn::LoadU(d, batch.at[i + k] + x), sum);
-                }
-            }
-            // Sums of sums: a long row of additions in float would lose digits.
-            hn::Store(hn::Add(hn::Load(d, sums + x), sum), d, sums + x);
-            hn::Store(hn::Add(hn::Load(d, weights + x), weight), d, weights + x);
+    Sums all;
+    for (ptrdiff_t block = 0; block < run.count; block += kBlock) {
+        Sums sums;
+        for (ptrdiff_t i = block; i < std::min(block + kBlock, run.count); i += kBatch) {
+            const Batch batch(run, i, Terms::kAngle ? scales.angle : 0.0f);
+            for (ptrdiff_t x = 0; x < kGuidedRun; x += lanes)
+                AddBatch(Terms(layout, scales, row + x), batch, x, run.pitch, sums);
         }
+        for (ptrdiff_t x = 0; x < kGuidedRun; x += lanes)
+            all.Add(x, hn::Load(d, sums.values + x), hn::Load(d, sums.weights + x));
     }
     for (ptrdiff_t x = 0; x < kGuidedRun; x += lanes) {
-        const V weight = hn::Load(d, weights + x);
-        const V mean = hn::Div(hn::Load(d, sums + x), weight);
+        const V weight = hn::Load(d, all.weights + x);
+        const V mean = hn::Div(hn::Load(d, all.values + x), weight);
         hn::StoreU(hn::IfThenElse(hn::Gt(weight, hn::Zero(d)), mean, hn::LoadU(d, row + x)), d,
                    out + x);
     }

@@ -112,8 +112,10 @@ double guided_twin(const GuidePlanes& image, const GuidedTerms& terms, const Tap
         if (!counts(image, terms, j) || is_surface(image, i) != is_surface(image, j))
             continue;
         const double square = tap.dx * tap.dx + tap.dy * tap.dy;
-        const double w =
-            std::exp(-share(square, taps.sigma()) - guide_exponent(image, terms, i, j));
+        const double exponent = share(square, taps.sigma()) + guide_exponent(image, terms, i, j);
+        if (-exponent < double(kLeastLog2Weight) * std::log(2.0))
+            continue;
+        const double w = std::exp(-exponent);
         sum += w * std::min(double(image.value[j]), double(kLargestGuidedValue));
         weights += w;
     }

@@ -23,8 +23,8 @@ constexpr float kFarAway = 3e18f;
 constexpr int kTogether = HWY_MAX_BYTES == 64 ? 4 : 2;
 using Together = V[kTogether];
 
-/// 2^x for x <= 0, exactly 0 from -127 on; relative error below 2.8e-6. The polynomial has the
-/// least relative error for its degree.
+/// 2^x for x <= 0, exactly 0 below kLeastLog2Weight; relative error below 2.8e-6. The polynomial
+/// has the least relative error for its degree.
 HWY_INLINE void Weights2(Together& x) {
     const hn::RebindToSigned<D> di;
     // Added to it, x is rounded to a whole number, which with 127, the bias of exponents, is the

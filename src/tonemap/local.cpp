@@ -26,8 +26,10 @@ public:
     Values(const LocalOperator& what, const ConstRgb& image, const GuidePlanes& guides,
            const Rows& rows, const kernels::ParallelFor& parallel)
         : m_planes(guides) {
-        if (m_planes.stride < image.width)
-            m_planes.stride = image.width;
+        m_planes.stride = std::max<ptrdiff_t>(m_planes.stride, image.width);
+        m_planes.width = image.width;
+        m_planes.height = image.height;
+        m_planes.first_row = image.first_row;
         const auto size = size_t(m_planes.stride) * size_t(rows.end - image.first_row);
         const bool two = !what.logarithmic && what.luminance_sigma > 0;
         m_value.resize(size);

@@ -25,9 +25,10 @@ struct LocalOutput {
     ptrdiff_t stride = 0;
 };
 
-/// Tone maps a window of an image. `guides` are of the same size and first row; their value and
-/// range are not looked at. Luminance that is not finite or negative takes no part, and becomes
-/// black. The bits depend neither on the window nor on how `parallel` schedules.
+/// Tone maps a window of an image. `guides` are of the same size and first row, or have no planes
+/// at all; their value and range are not looked at. Luminance that is not finite or negative takes
+/// no part, and becomes black. The bits depend neither on the window nor on how `parallel`
+/// schedules.
 void tone_map_local(const LocalOperator& what, const kernels::ConstRgb& image,
                     const kernels::GuidePlanes& guides, const kernels::TapSets& taps,
                     const kernels::Window& window, const LocalOutput& output,
