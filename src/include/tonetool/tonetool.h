@@ -1,11 +1,14 @@
 // Everything tonetool offers to C++.
 #pragma once
 
+#include "tonetool/compare.h"
 #include "tonetool/display.h"
+#include "tonetool/errors.h"
 #include "tonetool/export.h"
 #include "tonetool/flip.h"
 #include "tonetool/luminance.h"
 #include "tonetool/lut.h"
 #include "tonetool/pixels.h"
+#include "tonetool/tmqi.h"
 #include "tonetool/tonemap.h"
 #include "tonetool/write.h"
