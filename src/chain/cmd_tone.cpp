@@ -15,15 +15,14 @@ void run_colorconfig(Session& session, const Call& call) {
     session.color_config = call.argument(0);
 }
 
-void report_calibration(Session& session, const std::string& label,
-                        const CalibrationSummary& found) {
+void add_calibration(Lines& lines, const CalibrationSummary& found) {
     if (found.mean > 0) {
-        session.report(label + ": mean " + format_number(found.mean));
-        session.report(label + ": key " + format_number(found.key));
+        lines.add("mean", found.mean);
+        lines.add("key", found.key);
     }
-    session.report(label + ": exposure " + format_number(found.exposure));
+    lines.add("exposure", found.exposure);
     if (found.white > 0) {
-        session.report(label + ": white " + format_number(found.white));
+        lines.add("white", found.white);
     }
 }
 
@@ -36,7 +35,9 @@ void run_calibrate(Session& session, const Call& call) {
     if (!ToneAlgo::calibrate(result, source, calibration_options(call), pixels, &found)) {
         throw CommandError(result.geterror());
     }
-    report_calibration(session, call.row().label(), found);
+    Lines lines{call.row().label(), ""};
+    add_calibration(lines, found);
+    session.report(lines);
     session.push(Image::derived(image, std::move(result)));
 }
 
@@ -71,11 +72,13 @@ void run_tonemap(Session& session, const Call& call) {
     if (!ToneAlgo::tonemap(result, source, options, &found)) {
         throw CommandError(result.geterror());
     }
-    session.report(label + ": curve " + found.curve);
+    Lines lines{label, ""};
+    lines.add("curve", found.curve);
     for (const auto& [name, value] : found.parameters) {
-        session.report(label + ": " + name + " " + format_number(value));
+        lines.add(name, value);
     }
-    report_calibration(session, label, found.calibration);
+    add_calibration(lines, found.calibration);
+    session.report(lines);
     for (const std::string& warning : found.warnings) {
         session.warning(label, image.name() + ": " + warning);
     }
@@ -158,13 +161,14 @@ void run_exportlut(Session& session, const Call& call) {
     if (!ToneAlgo::export_lut(call.argument(0), lut_options(session, call), &made, why)) {
         throw CommandError(why);
     }
-    const std::string label = call.row().label() + ": ";
-    session.report(label + "file " + call.argument(0) + ", " + made.structure);
-    session.report(label + "input " + made.input);
-    session.report(label + "range " + format_number(made.low) + " to " + format_number(made.high));
-    session.report(label + "error max " + format_number(made.max_error) + " mean " +
-                   format_number(made.mean_error));
-    session.report(label + "grey-error max " + format_number(made.grey_max_error));
+    Lines lines{call.row().label(), ""};
+    lines.add("file", call.argument(0) + ", " + made.structure);
+    lines.add("input", made.input);
+    lines.add("range", format_number(made.low) + " to " + format_number(made.high));
+    lines.add("error max",
+              format_number(made.max_error) + " mean " + format_number(made.mean_error));
+    lines.add("grey-error max", made.grey_max_error);
+    session.report(lines);
     session.produced = true;
 }
 

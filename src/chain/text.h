@@ -30,6 +30,17 @@ std::string format_apart(double value, double other);
 Strings split(const std::string& text, char separator);
 std::string join(const Strings& words, const std::string& separator);
 
+/// Lines of "label: name value".
+struct Lines {
+    std::string label, text;
+
+    void add(const std::string& name, const std::string& value) {
+        text += label + ": " + name + " " + value + "\n";
+    }
+    void add(const std::string& name, double value) { add(name, format_number(value)); }
+    void add(const std::string& name, int64_t value) { add(name, std::to_string(value)); }
+};
+
 /// The argument as one would type it in a shell.
 std::string shell_quoted(const std::string& argument);
 
