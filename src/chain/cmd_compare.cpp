@@ -40,12 +40,7 @@ Maps compare(Session& session, const Call& call, const Look& look, const Compare
     }
     Maps maps(tests.size());
     if (!function(maps, views.front(), tests)) {
-        for (const OIIO::ImageBuf& map : maps) {
-            if (map.has_error()) {
-                throw CommandError(map.geterror());
-            }
-        }
-        throw CommandError("failed without a reason");
+        throw CommandError(maps.front().geterror());
     }
     session.produced = true;
     return maps;
@@ -57,9 +52,9 @@ void report(Session& session, const Call& call, const Summary& summary, size_t t
     for (const std::string& warning : summary.warnings) {
         session.warning(label, warning);
     }
-    if (call.flag("print", true) && !session.quiet) {
-        session.out << summary_text(label, summary, call.images.front()->name(),
-                                    call.images.at(test + 1)->name());
+    if (call.flag("print", true)) {
+        session.report(summary_text(label, summary, call.images.front()->name(),
+                                    call.images.at(test + 1)->name()));
     }
 }
 
@@ -96,14 +91,8 @@ void save(Session& session, const OIIO::ImageBuf& image, const std::string& file
 }
 
 void save_exposures(Session& session, const Call& call, const FlipResult& result, size_t test) {
-    auto prefix = call.text("saveexposures");
-    if (!prefix) {
-        return;
-    }
-    std::string start = *prefix;
-    if (test_count(call) > 1) {
-        start += ".t" + std::to_string(test + 1);
-    }
+    std::string of_test = test_count(call) > 1 ? ".t" + std::to_string(test + 1) : "";
+    std::string start = call.text("saveexposures").value_or("") + of_test;
     for (size_t i = 0; i < result.exposures.size(); ++i) {
         std::string name = start + (i < 10 ? ".0" : ".") + std::to_string(i);
         save(session, result.exposures[i].reference, name + ".reference.exr");
@@ -121,10 +110,10 @@ void run_hdrflip(Session& session, const Call& call) {
     options.want_exposure_map = exposure_map.has_value();
     options.want_exposures = call.has("saveexposures");
     std::vector<FlipResult> results;
-    Maps maps = compare(session, call, same_look(call),
-                        [&](Maps& to, const OIIO::ImageBuf& reference, const Tests& tests) {
-                            return ToneAlgo::hdr_flip(to, reference, tests, options, &results);
-                        });
+    Maps maps =
+        compare(session, call, same_look(call), [&](Maps& to, auto& reference, auto& tests) {
+            return ToneAlgo::hdr_flip(to, reference, tests, options, &results);
+        });
     for (size_t i = 0; i < maps.size(); ++i) {
         FlipResult& result = results[i];
         report(session, call, result.summary, i);
@@ -147,10 +136,9 @@ void run_ldrflip(Session& session, const Call& call) {
     Thresholds thresholds = thresholds_of(call);
     FlipResult result;
     Maps maps =
-        compare(session, call, same_look(call),
-                [&](Maps& to, const OIIO::ImageBuf& reference, const Tests& tests) {
-                    return ToneAlgo::ldr_flip(to[0], reference, *tests[0], options, &result);
-                });
+        compare(session, call, same_look(call), [&](Maps& to, auto& reference, auto& tests) {
+            return ToneAlgo::ldr_flip(to[0], reference, *tests[0], options, &result);
+        });
     report(session, call, result.summary);
     judge_flip(session, call, thresholds, result.summary.pool);
     push_map(session, call, std::move(maps[0]));
@@ -167,11 +155,10 @@ void run_flipdiff(Session& session, const Call& call) {
     (void)call.flag("print", true);
     FlipResult result;
     Maps maps =
-        compare(session, call, same_look(call),
-                [&](Maps& to, const OIIO::ImageBuf& reference, const Tests& tests) {
-                    return hdr ? ToneAlgo::hdr_flip(to[0], reference, *tests[0], options, &result)
-                               : ToneAlgo::ldr_flip(to[0], reference, *tests[0], options, &result);
-                });
+        compare(session, call, same_look(call), [&](Maps& to, auto& reference, auto& tests) {
+            return hdr ? ToneAlgo::hdr_flip(to[0], reference, *tests[0], options, &result)
+                       : ToneAlgo::ldr_flip(to[0], reference, *tests[0], options, &result);
+        });
     report(session, call, result.summary);
     if (judge_flip(session, call, thresholds, result.summary.pool)) {
         session.print("FAILURE");
@@ -191,11 +178,10 @@ void run_filmstrip(Session& session, const Call& call) {
     look.max_columns = call.integer("columns", {1, 1024}).value_or(look.max_columns);
     look.font = call.text("font").value_or(look.font);
     FlipResult result;
-    Maps maps = compare(session, call, same_look(call, true),
-                        [&](Maps& to, const OIIO::ImageBuf& reference, const Tests& tests) {
-                            return ToneAlgo::flip_filmstrip(to[0], reference, *tests[0], options,
-                                                            look, &result);
-                        });
+    Maps maps =
+        compare(session, call, same_look(call, true), [&](Maps& to, auto& reference, auto& tests) {
+            return ToneAlgo::flip_filmstrip(to[0], reference, *tests[0], options, look, &result);
+        });
     report(session, call, result.summary);
     judge_flip(session, call, thresholds, result.summary.pool);
     maps[0].specmod().attribute("oiio:ColorSpace", "sRGB");
@@ -210,10 +196,9 @@ void run_errormap(Session& session, const Call& call) {
     Thresholds thresholds = thresholds_of(call, quantities, {decibels ? -1e30 : 0, 1e30});
     ErrorSummary summary;
     Maps maps =
-        compare(session, call, same_look(call),
-                [&](Maps& to, const OIIO::ImageBuf& reference, const Tests& tests) {
-                    return ToneAlgo::error_map(to[0], reference, *tests[0], options, &summary);
-                });
+        compare(session, call, same_look(call), [&](Maps& to, auto& reference, auto& tests) {
+            return ToneAlgo::error_map(to[0], reference, *tests[0], options, &summary);
+        });
     report(session, call, summary);
     auto pooled = ToneAlgo::flip_quantity(summary.pool, thresholds.quantity);
     judge(session, call, thresholds, {pooled.value_or(summary.value), !pooled && decibels});
@@ -225,10 +210,10 @@ void run_tmqi(Session& session, const Call& call) {
                         session.memory};
     Thresholds thresholds = thresholds_of(call, ToneAlgo::tmqi_quantities());
     TmqiSummary summary;
-    Maps maps = compare(session, call, {options.hdr, options.ldr},
-                        [&](Maps& to, const OIIO::ImageBuf& hdr, const Tests& tests) {
-                            return ToneAlgo::tmqi(to[0], hdr, *tests[0], options, &summary);
-                        });
+    Maps maps =
+        compare(session, call, {options.hdr, options.ldr}, [&](Maps& to, auto& hdr, auto& tests) {
+            return ToneAlgo::tmqi(to[0], hdr, *tests[0], options, &summary);
+        });
     report(session, call, summary);
     auto value = ToneAlgo::tmqi_quantity(summary.score, thresholds.quantity);
     judge(session, call, thresholds, {value.value(), true});
@@ -264,13 +249,13 @@ std::vector<Modifier> tmqi_modifiers() {
                           {"ldrlayer", "NAME", "layer of the picture"},
                           {"ldrfrom", "SPACE", "colour space of the picture (sRGB for integers)"},
                           {"crop", "0|1", "compare only where the display windows meet"}},
-                         threshold_modifiers(join(ToneAlgo::tmqi_quantities(), "|"),
+                         threshold_modifiers(ToneAlgo::tmqi_quantities(),
                                              "at least X (0 to 1; higher is better)")});
 }
 
 Command pair_command(const char* name, std::vector<Modifier> modifiers, const char* help,
                      void (*run)(Session&, const Call&)) {
-    return {{name}, {}, 2, 1, std::move(modifiers), help, Group::Compare, run};
+    return {{{name}, {}, 2, 1, Group::Compare}, std::move(modifiers), help, run};
 }
 
 } // namespace

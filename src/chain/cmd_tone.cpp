@@ -21,9 +21,7 @@ void add_calibration(Lines& lines, const CalibrationSummary& found) {
         lines.add("key", found.key);
     }
     lines.add("exposure", found.exposure);
-    if (found.white > 0) {
-        lines.add("white", found.white);
-    }
+    lines.add_positive("white", found.white);
 }
 
 void run_calibrate(Session& session, const Call& call) {
@@ -35,9 +33,9 @@ void run_calibrate(Session& session, const Call& call) {
     if (!ToneAlgo::calibrate(result, source, calibration_options(call), pixels, &found)) {
         throw CommandError(result.geterror());
     }
-    Lines lines{call.row().label(), ""};
+    Lines lines(call.row().label());
     add_calibration(lines, found);
-    session.report(lines);
+    session.report(lines.text);
     session.push(Image::derived(image, std::move(result)));
 }
 
@@ -72,13 +70,13 @@ void run_tonemap(Session& session, const Call& call) {
     if (!ToneAlgo::tonemap(result, source, options, &found)) {
         throw CommandError(result.geterror());
     }
-    Lines lines{label, ""};
+    Lines lines(label);
     lines.add("curve", found.curve);
     for (const auto& [name, value] : found.parameters) {
         lines.add(name, value);
     }
     add_calibration(lines, found.calibration);
-    session.report(lines);
+    session.report(lines.text);
     for (const std::string& warning : found.warnings) {
         session.warning(label, image.name() + ": " + warning);
     }
@@ -161,14 +159,14 @@ void run_exportlut(Session& session, const Call& call) {
     if (!ToneAlgo::export_lut(call.argument(0), lut_options(session, call), &made, why)) {
         throw CommandError(why);
     }
-    Lines lines{call.row().label(), ""};
+    Lines lines(call.row().label());
     lines.add("file", call.argument(0) + ", " + made.structure);
     lines.add("input", made.input);
     lines.add("range", format_number(made.low) + " to " + format_number(made.high));
     lines.add("error max",
               format_number(made.max_error) + " mean " + format_number(made.mean_error));
     lines.add("grey-error max", made.grey_max_error);
-    session.report(lines);
+    session.report(lines.text);
     session.produced = true;
 }
 
@@ -209,45 +207,25 @@ std::vector<Modifier> tonemap_modifiers() {
 
 std::vector<Command> tone_commands() {
     return {
-        {{"colorconfig"},
-         {"FILE"},
-         0,
-         0,
+        {{{"colorconfig"}, {"FILE"}, 0, 0, Group::Color},
          {},
          "OpenColorIO configuration of the commands that follow ($OCIO)",
-         Group::Color,
          run_colorconfig},
-        {{"calibrate"},
-         {},
-         1,
-         1,
+        {{{"calibrate"}, {}, 1, 1, Group::Color},
          concatenated({method_modifier("manual"), calibration_modifiers(), pixel_modifiers()}),
          "Multiply the colour by an exposure that is measured",
-         Group::Color,
          run_calibrate},
-        {{"tonemap"},
-         {},
-         1,
-         1,
+        {{{"tonemap"}, {}, 1, 1, Group::Color},
          tonemap_modifiers(),
          "HDR to a display, by a tone curve or an OpenColorIO view",
-         Group::Color,
          run_tonemap},
-        {{"exportlut"},
-         {"FILE"},
-         0,
-         0,
+        {{{"exportlut"}, {"FILE"}, 0, 0, Group::Write},
          exportlut_modifiers(),
          "Write a tone curve or a view as ." + join(ToneAlgo::lut_formats(), ", ."),
-         Group::Write,
          run_exportlut},
-        {{"tonecurves"},
-         {},
-         0,
-         0,
+        {{{"tonecurves"}, {}, 0, 0, Group::Print},
          {{"table", "0|1", "as numbers: stops, and the light of each curve (0)"}},
          "Print all tone curves: parameters, formulas, sources",
-         Group::Print,
          run_tonecurves},
     };
 }

@@ -89,16 +89,11 @@ std::vector<Modifier> hdr_modifiers() {
           {"medianluminance", "X", "instead of the reference's median luminance"}}});
 }
 
-std::vector<Modifier> threshold_modifiers(const std::string& quantities,
-                                          const std::string& unless) {
+std::vector<Modifier> threshold_modifiers(const Strings& quantities, const std::string& unless) {
     return {{"fail", "X", "exit status 3 unless the quantity is " + unless},
             {"warn", "X", "a warning unless the quantity is " + unless},
-            {"quantity", quantities, "what fail and warn test (the first)"},
+            {"quantity", choices(quantities), "what fail and warn test (the first)"},
             {"print", "0|1", "print the summary (1)"}};
-}
-
-std::vector<Modifier> threshold_modifiers() {
-    return threshold_modifiers(choices(ToneAlgo::flip_quantities()), "at most X (0 to 1)");
 }
 
 std::vector<Modifier> concatenated(const std::vector<std::vector<Modifier>>& lists) {
@@ -159,15 +154,17 @@ Thresholds thresholds_of(const Call& call, const Strings& quantities, Range rang
 }
 
 std::vector<Modifier> error_modifiers() {
-    return concatenated({{{"metric", choices(ToneAlgo::error_metrics()), "which error"},
-                          {"eps", "X", "of smape, rmae, relmse (0.01)"},
-                          {"peak", "X", "of psnr (1)"},
-                          {"startExposure", "STOPS", "of mpsnr: first exposure, as in hdrflip"},
-                          {"stopExposure", "STOPS", "its last exposure"},
-                          {"numExposures", "N", "number of its exposures"}},
-                         pair_modifiers(),
-                         threshold_modifiers("METRIC|" + choices(ToneAlgo::flip_quantities()),
-                                             "at most X, and psnr, mpsnr at least X dB")});
+    Strings quantities = ToneAlgo::flip_quantities();
+    quantities.insert(quantities.begin(), "METRIC");
+    return concatenated(
+        {{{"metric", choices(ToneAlgo::error_metrics()), "which error"},
+          {"eps", "X", "of smape, rmae, relmse (0.01)"},
+          {"peak", "X", "of psnr (1)"},
+          {"startExposure", "STOPS", "of mpsnr: first exposure, as in hdrflip"},
+          {"stopExposure", "STOPS", "its last exposure"},
+          {"numExposures", "N", "number of its exposures"}},
+         pair_modifiers(),
+         threshold_modifiers(quantities, "at most X (psnr, mpsnr: at least X dB)")});
 }
 
 ErrorOptions error_options(const Session& session, const Call& call) {

@@ -22,9 +22,9 @@ std::vector<Modifier> pixel_modifiers();   ///< layer, from
 std::vector<Modifier> pair_modifiers();    ///< and resize, crop, alpha
 std::vector<Modifier> viewing_modifiers(); ///< ppd, distance, width, pixels
 std::vector<Modifier> hdr_modifiers();     ///< tone curve and exposures
-/// fail, warn, quantity, print; `unless` says what keeps from failing, "at most X (0 to 1)".
-std::vector<Modifier> threshold_modifiers(const std::string& quantities, const std::string& unless);
-std::vector<Modifier> threshold_modifiers();
+/// fail, warn, quantity, print; `unless` says what keeps from failing.
+std::vector<Modifier> threshold_modifiers(const Strings& quantities = ToneAlgo::flip_quantities(),
+                                          const std::string& unless = "at most X (0 to 1)");
 std::vector<Modifier> concatenated(const std::vector<std::vector<Modifier>>& lists);
 
 /// layer and from, or "ldrlayer" and "ldrfrom" with the prefix "ldr".

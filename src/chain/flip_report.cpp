@@ -45,9 +45,7 @@ void add_exposures(Lines& lines, const Summary& summary) {
                                    format_number(summary.exposures.back()) + " count " +
                                    std::to_string(summary.exposures.size()));
     }
-    if (summary.max_luminance > 0) {
-        lines.add("max-luminance", summary.max_luminance);
-    }
+    lines.add_positive("max-luminance", summary.max_luminance);
     if (summary.median_luminance > 0) {
         lines.add("median-luminance", format_number(summary.median_luminance) +
                                           (summary.median_of_lit ? " of lit pixels" : ""));
@@ -85,7 +83,7 @@ void add_found(Lines& lines, const PairSummary& summary) {
 
 std::string summary_text(const std::string& label, const FlipSummary& summary,
                          const std::string& first, const std::string& second) {
-    Lines lines{label, ""};
+    Lines lines(label);
     add_pair(lines, summary, first, second);
     lines.add("ppd", summary.ppd);
     if (summary.hdr) {
@@ -98,14 +96,10 @@ std::string summary_text(const std::string& label, const FlipSummary& summary,
 
 std::string summary_text(const std::string& label, const ErrorSummary& summary,
                          const std::string& first, const std::string& second) {
-    Lines lines{label, ""};
+    Lines lines(label);
     add_pair(lines, summary, first, second);
-    if (summary.eps > 0) {
-        lines.add("eps", summary.eps);
-    }
-    if (summary.peak > 0) {
-        lines.add("peak", summary.peak);
-    }
+    lines.add_positive("eps", summary.eps);
+    lines.add_positive("peak", summary.peak);
     add_exposures(lines, summary);
     lines.add(summary.metric, summary.value);
     add_found(lines, summary);
@@ -114,7 +108,7 @@ std::string summary_text(const std::string& label, const ErrorSummary& summary,
 
 std::string summary_text(const std::string& label, const TmqiSummary& summary,
                          const std::string& first, const std::string& second) {
-    Lines lines{label, ""};
+    Lines lines(label);
     add_side(lines, "hdr", first, summary.hdr);
     add_side(lines, "ldr", second, summary.ldr);
     for (const std::string& name : ToneAlgo::tmqi_quantities()) {

@@ -31,12 +31,6 @@ void Session::report(const std::string& line) {
     }
 }
 
-void Session::report(const Lines& lines) {
-    if (!quiet) {
-        out << lines.text;
-    }
-}
-
 void Session::print(const std::string& line) {
     out << line << '\n';
 }

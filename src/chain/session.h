@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "chain/image.h"
-#include "chain/text.h"
 
 namespace tonetool::chain {
 
@@ -63,7 +62,6 @@ struct Session {
     void warning(const std::string& where, const std::string& what);
     /// A line of a measurement: not under -q.
     void report(const std::string& line);
-    void report(const Lines& lines);
     /// A line that was asked for by name, or a failure: also under -q.
     void print(const std::string& line);
 

@@ -32,12 +32,18 @@ std::string join(const Strings& words, const std::string& separator);
 
 /// Lines of "label: name value".
 struct Lines {
+    explicit Lines(std::string name) : label(std::move(name)) {}
     std::string label, text;
 
     void add(const std::string& name, const std::string& value) {
-        text += label + ": " + name + " " + value + "\n";
+        text += (text.empty() ? "" : "\n") + label + ": " + name + " " + value;
     }
     void add(const std::string& name, double value) { add(name, format_number(value)); }
+    void add_positive(const std::string& name, double value) {
+        if (value > 0) {
+            add(name, value);
+        }
+    }
     void add(const std::string& name, int64_t value) { add(name, std::to_string(value)); }
 };
 
