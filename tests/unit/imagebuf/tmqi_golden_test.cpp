@@ -4,6 +4,7 @@
 #include <OpenImageIO/imagebuf.h>
 #include <cstdlib>
 #include <fstream>
+#include <functional>
 #include <nlohmann/json.hpp>
 
 #include "include/tonetool/tmqi.h"
@@ -47,7 +48,7 @@ std::vector<Golden> goldens(const std::string& list, const std::string& prefix,
     std::ifstream in(list);
     for (std::string text; std::getline(in, text);) {
         const json line = json::parse(text);
-        const std::string scene = scene_of_all.empty() ? line["scene"] : scene_of_all;
+        const std::string scene = line.value("scene", scene_of_all);
         const std::string name = scene + "_" + line["ldr"].get<std::string>();
         out.push_back({name, scene_file(scene), prefix + name + ".png", line});
     }
