@@ -3,14 +3,14 @@
 #include <algorithm>
 
 #include "chain/error.h"
-#include "text/nearest_names.h"
+#include "imagebuf/names.h"
 
 namespace tonetool::chain {
 
 namespace {
 
 std::string meant(const std::string& word, const Strings& names) {
-    Strings near = text::nearest_names(word, names, 1);
+    Strings near = nearest_names(word, names, 1);
     return near.empty() ? "" : ", did you mean \"" + near.front() + "\"?";
 }
 

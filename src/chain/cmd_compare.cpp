@@ -18,8 +18,7 @@ using Compare = std::function<bool(Maps&, const OIIO::ImageBuf&, const Tests&)>;
 // What the images of a command are looked at for: call.images is the reference and the tests.
 struct Look {
     PixelOptions reference, tests;
-    /// The function looks at the images many times, so that they are read before, unless they may
-    /// not take that much memory.
+    /// Many times: the images are read before, unless their memory is bounded.
     bool again = false;
 };
 
@@ -60,8 +59,8 @@ void report(Session& session, const Call& call, const Summary& summary, size_t t
 
 bool judge_flip(Session& session, const Call& call, const Thresholds& thresholds,
                 const FlipPool& pool, size_t test = 0) {
-    auto value = ToneAlgo::flip_quantity(pool, thresholds.quantity);
-    return judge(session, call, thresholds, {value.value()}, test);
+    return judge(session, call, thresholds,
+                 {ToneAlgo::flip_quantity(pool, thresholds.quantity).value()}, test);
 }
 
 void push_map(Session& session, const Call& call, OIIO::ImageBuf map) {
@@ -215,8 +214,8 @@ void run_tmqi(Session& session, const Call& call) {
             return ToneAlgo::tmqi(to[0], hdr, *tests[0], options, &summary);
         });
     report(session, call, summary);
-    auto value = ToneAlgo::tmqi_quantity(summary.score, thresholds.quantity);
-    judge(session, call, thresholds, {value.value(), true});
+    judge(session, call, thresholds,
+          {ToneAlgo::tmqi_quantity(summary.score, thresholds.quantity).value(), true});
     push_map(session, call, std::move(maps[0]));
 }
 

@@ -172,7 +172,7 @@ void run_exportlut(Session& session, const Call& call) {
 
 std::vector<Modifier> exportlut_modifiers() {
     return concatenated(
-        {{{"curve", join(ToneAlgo::tone_curve_names(), "|"), "tone curve (aces)"}},
+        {{{"curve", "NAME", "tone curve (aces): " + join(ToneAlgo::tone_curve_names(), ", ")}},
          curve_modifiers(false),
          view_modifiers(),
          {{"from", "SPACE", "colour space that a view starts from (linear Rec.709)"},
@@ -191,7 +191,7 @@ std::vector<Modifier> method_modifier(const std::string& otherwise) {
 
 std::vector<Modifier> tonemap_modifiers() {
     return concatenated(
-        {{{"curve", join(ToneAlgo::tone_curve_names(), "|"), "tone curve (aces)"}},
+        {{{"curve", "NAME", "tone curve (aces): " + join(ToneAlgo::tone_curve_names(), ", ")}},
          curve_modifiers(true),
          view_modifiers(),
          method_modifier("manual"),

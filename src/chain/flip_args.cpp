@@ -75,8 +75,8 @@ std::vector<Modifier> viewing_modifiers() {
 
 std::vector<Modifier> hdr_modifiers() {
     return concatenated(
-        {{{"tonemapper", choices(ToneAlgo::flip_tonemappers()), "tone curve (aces)"}},
-         curve_modifiers(false),
+        {{{"tonemapper", "NAME", "tone curve (aces): " + join(ToneAlgo::flip_tonemappers(), ", ")}},
+         curve_modifiers(false, true),
          view_modifiers(),
          {{"encoding", "srgb|gamma2.2|rec1886|gamma2.6|linear",
            "of the view's result (its display's)"},
@@ -142,14 +142,13 @@ void read_hdr_options(const Session& session, const Call& call, HdrFlipOptions& 
 }
 
 Thresholds thresholds_of(const Call& call, const Strings& quantities, Range range) {
-    Thresholds thresholds{quantities.front(), call.number("fail", range),
+    auto quantity = call.choice("quantity", quantities);
+    Thresholds thresholds{quantity.value_or(quantities.front()), call.number("fail", range),
                           call.number("warn", range)};
     (void)call.flag("print", true);
-    auto quantity = call.choice("quantity", quantities);
     if (quantity && !thresholds.fail && !thresholds.warn) {
         throw CommandError("quantity= needs fail= or warn=");
     }
-    thresholds.quantity = quantity.value_or(thresholds.quantity);
     return thresholds;
 }
 
@@ -192,21 +191,22 @@ ErrorOptions error_options(const Session& session, const Call& call) {
 }
 
 std::vector<Modifier> flipdiff_modifiers() {
-    return {{"hdr", "0|1", "HDR-FLIP (1), or LDR-FLIP"},
-            {"maxluminance", "X",
-             "luminance that the first exposure suits (2.0); 0: exposures "
-             "from the reference"},
-            {"medianluminance", "X", "luminance that the last exposure suits (0.18)"},
-            {"startExposure", "STOPS", "first exposure"},
-            {"stopExposure", "STOPS", "last exposure"},
-            {"numExposures", "N", "number of exposures; 0: from their range"},
-            {"ppd", "X", "pixels per degree of visual angle (67.02)"},
-            {"tonemapper", choices(ToneAlgo::flip_tonemappers()), "tone curve (aces)"},
-            {"colormap", "NAME", "push the map in these colours, as --colormap"},
-            {"layer", "NAME", "layer whose R,G,B are used"},
-            {"from", "SPACE", "colour space of the pixels"},
-            {"print", "0|1", "print the summary (1)"},
-            {"fail", "X", "exit status 3 unless the largest error is at most X (0 to 1)"}};
+    return {
+        {"hdr", "0|1", "HDR-FLIP (1), or LDR-FLIP"},
+        {"maxluminance", "X",
+         "luminance that the first exposure suits (2.0); 0: exposures "
+         "from the reference"},
+        {"medianluminance", "X", "luminance that the last exposure suits (0.18)"},
+        {"startExposure", "STOPS", "first exposure"},
+        {"stopExposure", "STOPS", "last exposure"},
+        {"numExposures", "N", "number of exposures; 0: from their range"},
+        {"ppd", "X", "pixels per degree of visual angle (67.02)"},
+        {"tonemapper", "NAME", "tone curve (aces): " + join(ToneAlgo::flip_tonemappers(), ", ")},
+        {"colormap", "NAME", "push the map in these colours, as --colormap"},
+        {"layer", "NAME", "layer whose R,G,B are used"},
+        {"from", "SPACE", "colour space of the pixels"},
+        {"print", "0|1", "print the summary (1)"},
+        {"fail", "X", "exit status 3 unless the largest error is at most X (0 to 1)"}};
 }
 
 HdrFlipOptions flipdiff_options(const Session& session, const Call& call) {

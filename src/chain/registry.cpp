@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <iterator>
 
-#include "text/nearest_names.h"
+#include "imagebuf/names.h"
 
 namespace tonetool::chain {
 
@@ -59,7 +59,7 @@ std::string suggest_command(const std::string& name) {
     for (const Command& row : all_commands()) {
         names.insert(names.end(), row.names.begin(), row.names.end());
     }
-    Strings near = text::nearest_names(name, names);
+    Strings near = nearest_names(name, names);
     if (near.empty()) {
         return "--help lists all commands";
     }

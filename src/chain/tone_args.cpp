@@ -14,7 +14,7 @@ struct Parameter {
     Strings curves;
 };
 
-std::vector<Parameter> parameters() {
+std::vector<Parameter> parameters(bool flip = false) {
     std::vector<Parameter> all;
     for (const ToneCurveInfo& curve : ToneAlgo::tone_curves()) {
         for (const ToneCurveParameter& parameter : curve.parameters) {
@@ -23,7 +23,8 @@ std::vector<Parameter> parameters() {
             if (at == all.end()) {
                 at = all.insert(all.end(), {parameter.name, parameter.help, {}});
             }
-            at->curves.push_back(curve.name + " " + format_number(parameter.value));
+            double value = flip ? parameter.flip_value : parameter.value;
+            at->curves.push_back(curve.name + " " + format_number(value));
         }
     }
     return all;
@@ -36,9 +37,9 @@ bool is_measured(const std::string& white) {
 
 } // namespace
 
-std::vector<Modifier> curve_modifiers(bool measured) {
+std::vector<Modifier> curve_modifiers(bool measured, bool flip) {
     std::vector<Modifier> rows;
-    for (const Parameter& p : parameters()) {
+    for (const Parameter& p : parameters(flip)) {
         bool white = measured && p.name == "white";
         rows.push_back({p.name, white ? "X|max|pN" : "X",
                         p.help + (white ? ", or the image's maximum or percentile" : "") + " (" +

@@ -9,8 +9,9 @@
 
 namespace tonetool::chain {
 
-/// The parameters of all curves, coeffs=, on=, saturation=; with `white=max|pN` if `measured`.
-std::vector<Modifier> curve_modifiers(bool measured);
+/// The parameters of all curves, coeffs=, on=, saturation=; with `white=max|pN` if `measured`, and
+/// HDR-FLIP's defaults in the help if `flip`.
+std::vector<Modifier> curve_modifiers(bool measured, bool flip = false);
 /// The curve that the modifier `key` names.
 CurveOptions curve_options(const Call& call, const std::string& key);
 

@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "imagebuf/names.h"
 #include "include/tonetool/pixels.h"
 
 namespace tonetool {
@@ -264,7 +265,7 @@ bool find_space(const OIIO::ImageSpec& spec, const std::string& from, ColorSpace
         return from_tags(spec, space, error);
     if (const Known* known = find_known(from))
         return from_known(*known, space);
-    error = "unknown colour space \"" + from + "\"; valid: " + known_names();
+    error = unknown_name("colour space", from, ToneAlgo::color_spaces());
     return false;
 }
 

@@ -3,6 +3,7 @@
 #include <OpenImageIO/strutil.h>
 #include <algorithm>
 
+#include "imagebuf/names.h"
 #include "tonemap/curves.h"
 
 namespace tonetool {
@@ -56,10 +57,7 @@ bool plan_coefficients(const CurveOptions& options, CurvePlan& plan, std::string
 bool plan_named(const CurveOptions& options, bool flip, CurvePlan& plan, std::string& error) {
     const Curve* curve = tonemap::find_curve(options.name);
     if (!curve) {
-        const auto names = tonemap::curve_names();
-        const std::string near = tonemap::did_you_mean(options.name, names);
-        error = "unknown tone curve \"" + options.name + "\"" + (near.empty() ? "" : ", " + near) +
-                "; valid: " + OIIO::Strutil::join(names, ", ");
+        error = unknown_name("tone curve", options.name, tonemap::curve_names());
         return false;
     }
     plan.name = curve->name;

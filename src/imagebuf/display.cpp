@@ -8,6 +8,7 @@
 
 #include "imagebuf/colorimetry.h"
 #include "imagebuf/guard.h"
+#include "imagebuf/names.h"
 #include "imagebuf/parallel.h"
 #include "imagebuf/planes.h"
 
@@ -81,8 +82,7 @@ bool color_map(ImageBuf& dst, const ImageBuf& src, const std::string& map, int c
     return guarded(dst, "color_map", [&](std::string& error) {
         const auto names = color_maps();
         if (std::find(names.begin(), names.end(), map) == names.end()) {
-            error =
-                "unknown colour map \"" + map + "\"; valid: " + OIIO::Strutil::join(names, ", ");
+            error = unknown_name("colour map", map, names);
             return false;
         }
         return colored(dst, src, channel, roi, nthreads, error,

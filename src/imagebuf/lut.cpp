@@ -37,7 +37,7 @@ bool is_cube(const std::string& format, const LutSource& source, const LutShaper
 
 LutRemarks remarks_of(const std::string& format, const LutSource& source, const LutShaper& shaper) {
     const std::string title = "tonetool " TONETOOL_VERSION ": " + source.name();
-    const std::string formula = holds_scene_light(format) ? "x" : shaper.formula();
+    const std::string formula = holds_scene_light(format) ? "" : shaper.formula();
     return {title, source.input(), source.output(), formula};
 }
 
@@ -62,7 +62,7 @@ bool ToneAlgo::export_lut(const std::string& filename, const LutOptions& options
         LutSummary found;
         found.format = extension;
         found.structure = steps.structure;
-        found.input = remarks.input + ", x, as " + remarks.shaper;
+        found.input = remarks.taken();
         measure_lut(source, shaper, steps, found);
         if (!write_bytes(lut_text(extension, steps, remarks), filename, why))
             return false;

@@ -6,7 +6,8 @@
 namespace tonetool {
 namespace {
 
-constexpr int kCells = 33, kMostCells = 65, kPerCell = 4, kGreys = 8192, kPerEntry = 4;
+constexpr int kCells = 33, kMostCells = 65, kPerCell = 4, kGreys = 8192, kPerEntry = 4,
+              kNearBlack = 320;
 
 // Additive recurrence of the plastic number's kin in three dimensions (M. Roberts, 2018).
 constexpr double kStep[3] = {0.8191725133961645, 0.6710436067037893, 0.5497004779019703};
@@ -21,6 +22,9 @@ public:
         std::vector<float> rgb;
         for (int i = 0; i <= count; ++i)
             rgb.insert(rgb.end(), 3, light(double(i) / count));
+        // An encoding that is infinitely steep at 0 is furthest off close to it.
+        for (int i = 1; i <= kNearBlack; ++i)
+            rgb.insert(rgb.end(), 3, light(std::exp2(-20.0 * i / kNearBlack) / count));
         return rgb;
     }
 

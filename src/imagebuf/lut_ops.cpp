@@ -56,7 +56,7 @@ void append(const ocio::GroupTransformRcPtr& group, const ocio::TransformRcPtr& 
 
 ocio::Lut3DTransformRcPtr make_cube(const LutSource& source, const LutShaper& shaper, int size) {
     const auto nodes = (unsigned long)(size);
-    const auto cube = ocio::Lut3DTransform::Create(nodes);
+    auto cube = ocio::Lut3DTransform::Create(nodes);
     cube->setFileOutputBitDepth(ocio::BIT_DEPTH_F32);
     cube->setInterpolation(ocio::INTERP_TETRAHEDRAL);
     std::vector<float> axis(nodes), row(3 * nodes);
@@ -165,7 +165,7 @@ ocio::MatrixTransformRcPtr lut_matrix(const double (&rows)[3][3],
             values[4 * i + j] = rows[i][j];
     values[15] = 1;
     const double offsets[4] = {offset[0], offset[1], offset[2], 0};
-    const auto transform = ocio::MatrixTransform::Create();
+    auto transform = ocio::MatrixTransform::Create();
     transform->setMatrix(values);
     transform->setOffset(offsets);
     return transform;
@@ -173,7 +173,7 @@ ocio::MatrixTransformRcPtr lut_matrix(const double (&rows)[3][3],
 
 ocio::Lut1DTransformRcPtr lut_table(int size, const std::function<double(int, double)>& value) {
     const auto entries = (unsigned long)(size);
-    const auto table = ocio::Lut1DTransform::Create(entries, false);
+    auto table = ocio::Lut1DTransform::Create(entries, false);
     table->setFileOutputBitDepth(ocio::BIT_DEPTH_F32);
     table->setInterpolation(ocio::INTERP_LINEAR);
     for (unsigned long i = 0; i < entries; ++i) {

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "imagebuf/names.h"
+
 namespace tonetool {
 namespace {
 
@@ -28,8 +30,7 @@ bool LutShaper::make(const LutOptions& options, std::string& error) {
     const auto names = ToneAlgo::lut_shapers();
     const auto found = std::find(names.begin(), names.end(), options.shaper);
     if (found == names.end()) {
-        error =
-            "unknown shaper \"" + options.shaper + "\"; valid: " + OIIO::Strutil::join(names, ", ");
+        error = unknown_name("shaper", options.shaper, names);
         return false;
     }
     m_kind = Kind(found - names.begin());
@@ -74,11 +75,12 @@ double LutShaper::light(double v) const {
 std::string LutShaper::formula() const {
     switch (m_kind) {
     case Kind::Log2:
-        return format("(log2(x + 2^{0}) - {0}) / (log2(2^{1} + 2^{0}) - {0})", m_min, m_max);
+        return format("(log2(x + 2^{0}) + {2}) / (log2(2^{1} + 2^{0}) + {2})", m_min, m_max,
+                      std::abs(m_min));
     case Kind::AcesCct:
         return "ACEScct's curve of x";
     default:
-        return "x";
+        return "";
     }
 }
 

@@ -17,7 +17,7 @@ public:
     double light(double v) const; ///< the inverse, never below 0
     double low() const { return light(0); }
     double high() const { return light(1); }
-    /// As a formula of x.
+    /// As a formula of x; empty: x itself.
     std::string formula() const;
     /// As OpenColorIO does it; null: nothing to do.
     ocio::TransformRcPtr transform() const;

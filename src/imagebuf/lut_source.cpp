@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "imagebuf/names.h"
 #include "kernels/curve_constants.h"
 #include "kernels/curve_twin.h"
 
@@ -64,8 +65,7 @@ bool LutSource::open_curve(const LutOptions& options, std::string& error) {
     }
     m_encoding = find_encoding(options.encode);
     if (!m_encoding) {
-        error = "unknown encoding \"" + options.encode +
-                "\"; valid: " + OIIO::Strutil::join(ToneAlgo::display_encodings(), ", ");
+        error = unknown_name("encoding", options.encode, ToneAlgo::display_encodings());
         return false;
     }
     if (!plan_curve(options.curve, false, m_curve, error))

@@ -15,8 +15,7 @@ std::string triple(const float (&v)[3]) {
 }
 
 std::vector<std::string> lines_of(const LutRemarks& remarks) {
-    return {remarks.title, "input: " + remarks.input + ", x, as " + remarks.shaper,
-            "result: " + remarks.output};
+    return {remarks.title, "input: " + remarks.taken(), "result: " + remarks.output};
 }
 
 std::string cube_text(const LutSteps& steps, const LutRemarks& remarks) {

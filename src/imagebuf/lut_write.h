@@ -10,7 +10,9 @@ namespace tonetool {
 
 /// What files say of themselves, a line each.
 struct LutRemarks {
-    std::string title, input, output, shaper;
+    std::string title, input, output;
+    std::string shaper; ///< a formula of x; empty: the file takes the input itself
+    std::string taken() const { return shaper.empty() ? input : input + ", x, as " + shaper; }
 };
 
 bool holds_scene_light(const std::string& format); ///< clf, ctf

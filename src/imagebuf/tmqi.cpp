@@ -62,18 +62,19 @@ struct Side {
     }
 };
 
-bool check_region(const ROI& region, uint64_t memory, std::string& error) {
+bool check_region(const ROI& region, uint64_t memory, int nthreads, std::string& error) {
     if (std::min(region.width(), region.height()) < metrics::kTmqiWindow) {
         error = format("{}x{} pixels are compared: needs {} or more in each direction",
                        region.width(), region.height(), metrics::kTmqiWindow);
         return false;
     }
     // Two planes of luminance and the map, and at half the size two planes of doubles and, while
-    // they are made, the two above them; a band of rows in all its colours beside that.
-    constexpr uint64_t pixel = 17, band_pixel = 32;
-    const auto width = uint64_t(region.width()), height = uint64_t(region.height());
-    const uint64_t least =
-        kSetAside + width * (height * pixel + uint64_t(kLuminanceRows) * band_pixel);
+    // they are made, the two above them. Reading takes less than what comes after it.
+    constexpr uint64_t pixel = 17;
+    const auto threads = uint64_t(oiio::threads_of(nthreads));
+    const uint64_t least = kSetAside +
+                           uint64_t(region.width()) * uint64_t(region.height()) * pixel +
+                           threads * metrics::tmqi_work_bytes(region.width(), region.height());
     if (memory == 0 || least <= memory)
         return true;
     error = "memory is " + size_text(memory) + ": needs at least " + size_text(least);
@@ -97,7 +98,7 @@ bool score(ImageBuf& dst, const ImageBuf& hdr, const ImageBuf& ldr, const TmqiOp
     ROI& region = summary.region;
     if (!check_readable(hdr, "HDR", error) || !check_readable(ldr, "display", error) ||
         !compared_region(hdr, ldr, size, region, error) ||
-        !check_region(region, options.memory, error))
+        !check_region(region, options.memory, nthreads, error))
         return false;
     Side light{hdr, options.hdr, "HDR", metrics::luminance_row, {}, {}};
     Side shown{ldr, options.ldr, "display", encoded_luminance_row, {}, {}};

@@ -19,7 +19,8 @@ ToneCurveInfo info_of(const tonemap::Curve& curve) {
     info.domain = domains[size_t(curve.domain)];
     info.encoded = curve.encoded;
     for (const auto& p : curve.parameters)
-        info.parameters.push_back({p.name, p.help, p.value, p.low, p.high});
+        info.parameters.push_back(
+            {p.name, p.help, p.value, p.low, p.high, p.flip_value.value_or(p.value)});
     CurvePlan plan;
     std::string error;
     CurveOptions options;

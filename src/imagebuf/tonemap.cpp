@@ -10,6 +10,7 @@
 #include "imagebuf/calibrate.h"
 #include "imagebuf/curve_plan.h"
 #include "imagebuf/guard.h"
+#include "imagebuf/names.h"
 #include "imagebuf/parallel.h"
 #include "imagebuf/planes.h"
 #include "imagebuf/tone_rows.h"
@@ -123,8 +124,7 @@ private:
         }
         m_encode = find_encoding(m_options.encode);
         if (!m_encode) {
-            error = "unknown encoding \"" + m_options.encode +
-                    "\"; valid: " + OIIO::Strutil::join(ToneAlgo::display_encodings(), ", ");
+            error = unknown_name("encoding", m_options.encode, ToneAlgo::display_encodings());
             return false;
         }
         if (m_options.encode != "none" && !rec709() && !m_space.is_rec709) {

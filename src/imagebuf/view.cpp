@@ -4,6 +4,7 @@
 
 #include "imagebuf/colorimetry.h"
 #include "imagebuf/guard.h"
+#include "imagebuf/names.h"
 #include "imagebuf/view_config.h"
 
 namespace tonetool {

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <mutex>
 
+#include "imagebuf/names.h"
+
 namespace tonetool {
 namespace {
 
@@ -258,24 +260,6 @@ std::vector<std::string> scene_spaces(const ChosenView& chosen) {
     for (int i = 0; i < chosen.config->getNumColorSpaces(scene, visible); ++i)
         names.emplace_back(chosen.config->getColorSpaceNameByIndex(scene, visible, i));
     return names;
-}
-
-std::string unknown_name(const std::string& what, const std::string& name,
-                         const std::vector<std::string>& names) {
-    std::string text = "unknown " + what + " \"" + name + "\"; ";
-    const std::string wanted = OIIO::Strutil::lower(name);
-    size_t best = wanted.size() / 2 + 1;
-    const std::string* nearest = nullptr;
-    for (const std::string& n : names) {
-        const size_t distance = OIIO::Strutil::edit_distance(wanted, OIIO::Strutil::lower(n));
-        if (distance >= best)
-            continue;
-        best = distance;
-        nearest = &n;
-    }
-    if (nearest)
-        text += "did you mean \"" + *nearest + "\"? ";
-    return text + (names.empty() ? "there are none" : "valid: " + OIIO::Strutil::join(names, ", "));
 }
 
 std::string one_line(const char* message) {

@@ -47,9 +47,6 @@ std::string find_scene_space(const ChosenView& chosen, const std::vector<std::st
 ocio::ConstColorSpaceRcPtr known_space(const ChosenView& chosen, const std::string& name);
 std::vector<std::string> scene_spaces(const ChosenView& chosen);
 
-/// "unknown view "x"; did you mean "y"? valid: y, z".
-std::string unknown_name(const std::string& what, const std::string& name,
-                         const std::vector<std::string>& names);
 /// What OpenColorIO says, on one line.
 std::string one_line(const char* message);
 

@@ -302,6 +302,11 @@ LightRange light_range(const float* plane, int width, int height, const Parallel
     return low <= high ? LightRange{double(low), double(high)} : LightRange{};
 }
 
+size_t tmqi_work_bytes(int width, int height) {
+    const int64_t rows = std::min<int64_t>(block_rows(width), height) + kTaps;
+    return size_t(rows) * size_t(width) * sizeof(Moments);
+}
+
 TmqiScore tmqi(const TmqiPair& pair, const LightRange& range, float* structure,
                const ParallelFor& parallel) {
     TmqiScore score;

@@ -2,6 +2,8 @@
 // Transactions on Image Processing 22(2), 2013.
 #pragma once
 
+#include <cstddef>
+
 #include "include/tonetool/numbers.h"
 #include "kernels/views.h"
 
@@ -30,5 +32,8 @@ LightRange light_range(const float* plane, int width, int height,
 /// picture keeps what the HDR image shows. The bits do not depend on how `parallel` schedules.
 TmqiScore tmqi(const TmqiPair& pair, const LightRange& range, float* structure,
                const kernels::ParallelFor& parallel);
+
+/// Bytes of work space of each thread; beside these, tmqi() holds 5 bytes per pixel.
+size_t tmqi_work_bytes(int width, int height);
 
 } // namespace tonetool::metrics

@@ -5,7 +5,6 @@
 #include <cstdio>
 
 #include "kernels/curve_twin.h"
-#include "text/nearest_names.h"
 #include "tonemap/curve_families.h"
 
 namespace tonetool::tonemap {
@@ -45,9 +44,7 @@ std::vector<std::string> parameter_names(const Curve& curve) {
 
 std::string unknown_parameter(const Curve& curve, const std::string& name) {
     const auto names = parameter_names(curve);
-    const std::string hint = did_you_mean(name, names);
     return of_curve(curve) + " has no parameter \"" + name + "\"" +
-           (hint.empty() ? "" : ", " + hint) +
            (names.empty() ? " (it has none)" : " (it has " + joined(names) + ")");
 }
 
@@ -97,11 +94,6 @@ std::vector<std::string> curve_parameter_names() {
             if (std::find(names.begin(), names.end(), name) == names.end())
                 names.push_back(name);
     return names;
-}
-
-std::string did_you_mean(std::string_view word, const std::vector<std::string>& names) {
-    const auto nearest = text::nearest_names(std::string(word), names);
-    return nearest.empty() ? "" : "did you mean " + joined(nearest) + "?";
 }
 
 bool curve_values(const Curve& curve, const std::map<std::string, double>& given, bool flip,

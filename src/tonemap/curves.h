@@ -49,9 +49,6 @@ std::vector<std::string> curve_names();
 /// Every parameter name of any curve, once, in the order of first appearance.
 std::vector<std::string> curve_parameter_names();
 
-/// Those of `names` that a person could have meant, nearest first; "" or "did you mean a, b?".
-std::string did_you_mean(std::string_view word, const std::vector<std::string>& names);
-
 /// Defaults, with those of `given` in their place. An unknown name or a value out of range is an
 /// error that says what would be valid; so are values that together make a curve that falls or has
 /// a pole. `flip`: HDR-FLIP's defaults.

@@ -17,7 +17,7 @@ def test_error_text(tonetool):
     (["--hdrflp"], "did you mean --hdrflip"),
     (["--"], 'unknown command "--"'),
     (["--hdrflip:tonemaper=aces"], 'did you mean "tonemapper"'),
-    (["--hdrflip:nonsense=1"], "valid: tonemapper, coeffs"),
+    (["--hdrflip:nonsense=1"], "valid: tonemapper, white"),
     (["--hdrflip:fail"], 'malformed modifier "fail"'),
     (["--hdrflip:fail="], '"fail" has no value'),
     (["--hdrflip:"], "empty modifier"),

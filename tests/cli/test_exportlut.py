@@ -6,6 +6,7 @@ import subprocess
 from pathlib import Path
 
 import numpy as np
+import OpenImageIO as oiio
 import pytest
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -25,10 +26,6 @@ def formats_of(domain):
     return ["cube", "spi1d" if domain == "rgb" else "spi3d", "clf", "ctf"]
 
 
-def cases():
-    return [(curve, kind) for curve, domain in registry().items() for kind in formats_of(domain)]
-
-
 def log2_shaper(x, low=-12, high=10):
     e = 2.0 ** low
     return (np.log2(np.maximum(x, 0) + e) - low) / (np.log2(2.0 ** high + e) - low)
@@ -45,47 +42,55 @@ def error_of(ran):
     return float(found[1]), float(found[2])
 
 
-@pytest.fixture
-def picture(make_image, read, testimages, oiiotool):
-    """The beauty of a rendered image, and rows of greys and pure colours, all linear Rec.709."""
+@pytest.fixture(scope="module")
+def pixels():
+    """The beauty of a rendered image, and rows of greys and pure colours, linear Rec.709."""
+    render = oiio.ImageBuf(str(ROOT / "testimages" / "cornell_ref.exr"))
+    render = render.get_pixels(oiio.FLOAT)[..., :3]
+    light = np.exp2(np.linspace(-12, 9.99, render.shape[1]))
+    rows = [np.outer(light, [bool(k & 1), bool(k & 2), bool(k & 4)]) for k in range(1, 8)]
+    return np.concatenate([render, rows]).astype(np.float32)
 
-    def make(shaper=None, limit=1024):
-        colour = ",".join(f"ViewLayer.Combined.{c}" for c in "RGB")
-        oiiotool(testimages / "cornell_ref.exr", "--ch", colour, "--chnames", "R,G,B", "-d",
-                 "float", "-o", "render.exr")
-        render = read("render.exr")[0]
-        light = np.exp2(np.linspace(-12, 9.99, render.shape[1]))
-        rows = [np.outer(light, [bool(k & 1), bool(k & 2), bool(k & 4)]) for k in range(1, 8)]
-        pixels = np.minimum(np.concatenate([render, rows]).astype(np.float32), limit)
+
+@pytest.fixture
+def picture(make_image, pixels):
+    """Writes linear.exr, and shaped.exr, which formats of one table take."""
+
+    def make(shaper=log2_shaper, limit=1024):
         height, width = pixels.shape[:2]
-        make_image("linear.exr", width=width, height=height, pixels=pixels)
-        shaped = pixels if shaper is None else shaper(pixels.astype(np.float64))
-        make_image("shaped.exr", width=width, height=height, pixels=shaped)
+        light = np.minimum(pixels, limit)
+        make_image("linear.exr", width=width, height=height, pixels=light)
+        make_image("shaped.exr", width=width, height=height,
+                   pixels=shaper(light.astype(np.float64)))
 
     return make
 
 
 @pytest.fixture
-def difference(tonetool, oiiotool, read):
-    """Largest difference of a table's picture, by stock oiiotool, to tonetool's own."""
+def difference(tonetool, oiiotool, read, tmp_path):
+    """Differences of a table's picture, by stock oiiotool, to tonetool's own."""
 
     def measure(lut, tonemap):
-        done = oiiotool("shaped.exr", "--ociofiletransform", lut, "-d", "float", "-o", "lut.exr")
+        image = "linear.exr" if lut.endswith(SCENE_LIGHT) else "shaped.exr"
+        # 2.4 wants a configuration, whichever, before it reads a table.
+        done = oiiotool("--colorconfig", CONFIG, image, "--ociofiletransform", tmp_path / lut,
+                        "-d", "float", "-o", "lut.exr")
         assert done.status == 0, done.err
-        tonetool("linear.exr", tonemap, "-d", "float", "-o", "curve.exr")
+        tonetool("--colorconfig", CONFIG, "linear.exr", tonemap, "-d", "float", "-o", "curve.exr")
         return np.abs(read("lut.exr")[0] - read("curve.exr")[0])
 
     return measure
 
 
-@pytest.mark.parametrize("curve,kind", cases())
-def test_reproduces_the_curve(curve, kind, tonetool, picture, difference):
-    picture(None if kind in SCENE_LIGHT else log2_shaper)
-    ran = tonetool(f"--exportlut:curve={curve}", f"lut.{kind}")
-    largest, mean = error_of(ran)
-    off = difference(f"lut.{kind}", f"--tonemap:curve={curve}")
-    assert off.max() <= largest * 1.001 + SLACK
-    assert mean <= largest <= (0.11 if "3D" in ran.out else 1e-3)
+@pytest.mark.parametrize("curve,domain", registry().items())
+def test_reproduces_the_curve(curve, domain, tonetool, picture, difference):
+    picture()
+    for kind in formats_of(domain):
+        ran = tonetool(f"--exportlut:curve={curve}", f"lut.{kind}")
+        largest, mean = error_of(ran)
+        off = difference(f"lut.{kind}", f"--tonemap:curve={curve}")
+        assert off.max() <= largest * 1.001 + SLACK, (kind, off.max(), largest)
+        assert mean <= largest <= (0.11 if "3D" in ran.out else 1e-3), kind
 
 
 @pytest.mark.parametrize("curve", [c for c, domain in registry().items() if domain != "rgb"])
@@ -95,17 +100,17 @@ def test_larger_cubes_are_closer(curve, tonetool):
     assert means[0] > 1.5 * means[1] > 2 * means[2]
 
 
-@pytest.mark.parametrize("encode", ["none", "srgb", "gamma2.2", "rec1886", "gamma2.6"])
+@pytest.mark.parametrize("encode", ["none", "gamma2.2", "rec1886", "gamma2.6"])
 @pytest.mark.parametrize("curve,kind", [("aces", "clf"), ("aces", "spi1d"), ("agx", "clf"),
-                                        ("reinhard", "ctf"), ("neutral", "ctf")])
+                                        ("neutral", "ctf")])
 def test_encodings(encode, curve, kind, tonetool, picture, difference):
-    picture(None if kind in SCENE_LIGHT else log2_shaper)
+    picture()
     largest, _ = error_of(tonetool(f"--exportlut:curve={curve}:encode={encode}", f"lut.{kind}"))
     off = difference(f"lut.{kind}", f"--tonemap:curve={curve}:encode={encode}")
-    if encode in ("none", "srgb"):
+    if encode == "none":
         assert off.max() <= largest * 1.001 + SLACK
     else:  # infinitely steep at 0: pixels there are not the samples
-        assert off.max() <= 2 * largest + SLACK
+        assert off.max() <= 1.02 * largest + SLACK
 
 
 def test_parameters(tonetool, picture, difference):
@@ -123,7 +128,7 @@ def test_parameters(tonetool, picture, difference):
                                                 ("linear", lambda x: x, 1)])
 @pytest.mark.parametrize("kind", ["cube", "spi1d", "clf"])
 def test_shapers(shaper, shape, limit, kind, tonetool, picture, difference):
-    picture(None if kind in SCENE_LIGHT else shape, limit)
+    picture(shape, limit)
     largest, _ = error_of(tonetool(f"--exportlut:curve=hable:shaper={shaper}", f"lut.{kind}"))
     off = difference(f"lut.{kind}", "--tonemap:curve=hable")
     assert off.max() <= largest * 1.001 + SLACK
@@ -137,17 +142,11 @@ def test_range_of_log2(tonetool, picture, difference):
 
 
 def test_a_view(tonetool, picture, difference):
-    picture(log2_shaper)
+    picture()
     words = "display=sRGB:view='ACES SDR'"
     largest, _ = error_of(tonetool("--colorconfig", CONFIG, f"--exportlut:{words}:size=48",
                                    "lut.cube"))
-    tonetool("--colorconfig", CONFIG, "linear.exr", f"--tonemap:{words}", "-d", "float", "-o",
-             "view.exr")
-    os.environ["OCIO"] = str(CONFIG)
-    try:
-        off = difference("lut.cube", f"--tonemap:{words}")
-    finally:
-        del os.environ["OCIO"]
+    off = difference("lut.cube", f"--tonemap:{words}")
     # The view's own edges of the gamut are sharper than the cube's cells.
     assert off.max() <= largest * 1.1 + SLACK
     assert off.mean() < 0.01
@@ -157,7 +156,7 @@ def test_a_view_from_a_log_space(tonetool):
     ran = tonetool("--colorconfig", CONFIG,
                    "--exportlut:display=sRGB:view='ACES SDR':from=ACEScct:shaper=linear",
                    "lut.spi3d")
-    assert ran.fact("input").startswith("ACEScct, x, as x")
+    assert ran.fact("input") == "ACEScct"
 
 
 @pytest.mark.parametrize("kind", ["cube", "spi1d", "clf", "ctf"])

@@ -21,7 +21,8 @@ def shell_commands():
 
 @pytest.fixture
 def folder(tmp_path):
-    (tmp_path / "testimages").symlink_to(ROOT / "testimages")
+    for name in ("testimages", "ocio"):
+        (tmp_path / name).symlink_to(ROOT / name)
     return tmp_path
 
 
@@ -59,6 +60,16 @@ def test_printed_figures(program, folder):
         theirs = [float(v) for v in re.findall(r"-?\d+\.?\d*", actual)]
         # Instruction sets differ by up to 2e-5; the page shows six digits.
         assert theirs == pytest.approx(ours, abs=3e-5), (line, actual)
+
+
+def test_printed_error_of_a_table(program, folder):
+    (line,) = [command for command in shell_commands() if command.endswith("neutral.ctf")]
+    shown = re.findall(r"^    (exportlut: error .*)$", README, re.M)
+    printed = run(line, program, folder).stdout.splitlines()
+    (actual,) = [text for text in printed if text.startswith("exportlut: error ")]
+    # Sums of roundings: the processor's instructions may differ in the last bits.
+    for ours, theirs in zip(re.findall(r"\d\S*", shown[0]), re.findall(r"\d\S*", actual)):
+        assert float(theirs) == pytest.approx(float(ours), rel=0.2)
 
 
 def test_opening_picture(program, folder):

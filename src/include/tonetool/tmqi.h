@@ -52,8 +52,8 @@ namespace ToneAlgo {
 /// NaN, Inf: such a pixel, and one that an image does not cover, is black in the image that has it
 ///   (the HDR image's darkest value); its structure at the finest scale is 0 unless both images
 ///   have it. Counted and warned about; if no finite pixel is left the call fails.
-/// The result does not depend on nthreads to the bit. Memory: 17 bytes per pixel; images that were
-///   not read are read from their files in bands.
+/// The result does not depend on nthreads to the bit. Memory: 17 bytes per pixel and some MB for
+///   each thread; images that were not read are read from their files in bands.
 /// `summary`, when given, receives the numbers; the score also lands in dst as `TMQI:*`.
 /// Returns false, with the reason in dst.geterror(), and then never leaves a map in dst.
 TONETOOL_API bool tmqi(OIIO::ImageBuf& dst, const OIIO::ImageBuf& hdr, const OIIO::ImageBuf& ldr,

@@ -102,6 +102,7 @@ struct TonemapSummary {
 struct ToneCurveParameter {
     std::string name, help;
     double value = 0, low = 0, high = 0;
+    double flip_value = 0; ///< its default in HDR-FLIP
 };
 struct ToneCurveInfo {
     std::string name, title, source, formula, note;

@@ -1,5 +1,5 @@
-// What a person could have meant by a misspelt name. Header only: both sides of the library's
-// border use it, and no symbol of the library is hidden on one side or installed for the other.
+// What a person could have meant by a misspelt name. Header only: the command language uses it,
+// too, which sees no symbol of the library but the installed ones.
 #pragma once
 
 #include <algorithm>
@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-namespace tonetool::text {
+namespace tonetool {
 
 /// How many characters must be changed, added or left out (Levenshtein).
 inline size_t edit_distance(const std::string& a, const std::string& b) {
@@ -26,13 +26,19 @@ inline size_t edit_distance(const std::string& a, const std::string& b) {
     return row.back();
 }
 
+inline std::string lower_case(std::string word) {
+    for (char& c : word)
+        c = c >= 'A' && c <= 'Z' ? char(c + ('a' - 'A')) : c;
+    return word;
+}
+
 /// Those of `names` that a person could have meant by `word`, nearest first, at most `limit`.
 inline std::vector<std::string>
 nearest_names(const std::string& word, const std::vector<std::string>& names, size_t limit = 3) {
     std::vector<std::pair<size_t, std::string>> ranked;
     for (const std::string& name : names) {
         const bool prefix = word.size() >= 2 && name.compare(0, word.size(), word) == 0;
-        const size_t distance = prefix ? 1 : edit_distance(word, name);
+        const size_t distance = prefix ? 1 : edit_distance(lower_case(word), lower_case(name));
         if (prefix || distance <= std::max<size_t>(1, word.size() / 3))
             ranked.emplace_back(distance, name);
     }
@@ -44,4 +50,17 @@ nearest_names(const std::string& word, const std::vector<std::string>& names, si
     return nearest;
 }
 
-} // namespace tonetool::text
+/// `unknown WHAT "name"; did you mean "x"? valid: ...`.
+inline std::string unknown_name(const std::string& what, const std::string& name,
+                                const std::vector<std::string>& names) {
+    std::string text = "unknown " + what + " \"" + name + "\"; ";
+    const auto nearest = nearest_names(name, names, 1);
+    if (!nearest.empty())
+        text += "did you mean \"" + nearest.front() + "\"? ";
+    text += names.empty() ? "there are none" : "valid: ";
+    for (size_t i = 0; i < names.size(); ++i)
+        text += (i == 0 ? "" : ", ") + names[i];
+    return text;
+}
+
+} // namespace tonetool

@@ -1,8 +1,8 @@
-#include "text/nearest_names.h"
+#include "imagebuf/names.h"
 
 #include <gmock/gmock.h>
 
-namespace tonetool::text {
+namespace tonetool {
 namespace {
 
 using testing::ElementsAre;
@@ -21,7 +21,14 @@ TEST(NearestNames, FindsMisspeltOnes) {
     EXPECT_THAT(nearest_names("flip", names), ElementsAre("flipdiff"));
     EXPECT_THAT(nearest_names("zzzzzzzz", names), IsEmpty());
     EXPECT_THAT(nearest_names("hdrflp", names, 1), ElementsAre("hdrflip"));
+    EXPECT_THAT(nearest_names("HDRflip", names, 1), ElementsAre("hdrflip"));
+}
+
+TEST(UnknownName, ListsWhatIsValid) {
+    EXPECT_EQ(unknown_name("look", "b", {}), "unknown look \"b\"; there are none");
+    EXPECT_EQ(unknown_name("view", "ACES SDX", {"Raw", "ACES SDR"}),
+              "unknown view \"ACES SDX\"; did you mean \"ACES SDR\"? valid: Raw, ACES SDR");
 }
 
 } // namespace
-} // namespace tonetool::text
+} // namespace tonetool
