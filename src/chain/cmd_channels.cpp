@@ -73,29 +73,17 @@ void run_subimage(Session& session, const Call& call) {
 
 std::vector<Command> channel_commands() {
     return {
-        {{"ch"},
-         {"CHANLIST"},
-         1,
-         1,
+        {{{"ch"}, {"CHANLIST"}, 1, 1, Group::Channels},
          {},
          "Select or shuffle channels (\"R,G,B\", \"2,1,0\", \"R,G=0.5,B,A=1.0\", \"Y=G\")",
-         Group::Channels,
          run_ch},
-        {{"chnames"},
-         {"NAMELIST"},
-         1,
-         1,
+        {{{"chnames"}, {"NAMELIST"}, 1, 1, Group::Channels},
          {},
          "Rename the channels (an empty name stays as it is)",
-         Group::Channels,
          run_chnames},
-        {{"subimage"},
-         {"INDEX"},
-         1,
-         1,
+        {{{"subimage"}, {"INDEX"}, 1, 1, Group::Channels},
          {{"delete", "0|1", "keep all but this one"}},
          "Select one subimage by index or name",
-         Group::Channels,
          run_subimage},
     };
 }

@@ -19,29 +19,26 @@ void run_exposure(Session& session, const Call& call) {
     session.push(Image::derived(image, std::move(result)));
 }
 
-std::string luminance_text(const std::string& label, const LuminanceStats& stats,
-                           const std::string& name) {
-    std::string text;
-    auto add = [&](const char* key, const std::string& value) {
-        text += label + ": " + key + " " + value + "\n";
-    };
-    add("image", name);
-    add("layer", stats.layer.empty() ? "R,G,B" : stats.layer);
-    add("space", stats.space);
-    add("pixels", std::to_string(stats.pixels));
-    add("nonfinite", std::to_string(stats.nonfinite));
-    add("negative", std::to_string(stats.negative));
-    add("black", std::to_string(stats.black));
-    add("min", format_number(stats.min));
-    add("max", format_number(stats.max));
-    add("mean", format_number(stats.mean));
-    add("median", format_number(stats.median));
-    add("median-lit", format_number(stats.median_lit));
-    add("log-average", format_number(stats.log_average));
-    add("p1", format_number(stats.p1));
-    add("p99", format_number(stats.p99));
-    add("p99.9", format_number(stats.p999));
-    return text;
+Lines luminance_lines(const std::string& label, const LuminanceStats& stats,
+                      const std::string& name) {
+    Lines lines(label);
+    lines.add("image", name);
+    lines.add("layer", stats.layer.empty() ? "R,G,B" : stats.layer);
+    lines.add("space", stats.space);
+    lines.add("pixels", stats.pixels);
+    lines.add("nonfinite", stats.nonfinite);
+    lines.add("negative", stats.negative);
+    lines.add("black", stats.black);
+    lines.add("min", stats.min);
+    lines.add("max", stats.max);
+    lines.add("mean", stats.mean);
+    lines.add("median", stats.median);
+    lines.add("median-lit", stats.median_lit);
+    lines.add("log-average", stats.log_average);
+    lines.add("p1", stats.p1);
+    lines.add("p99", stats.p99);
+    lines.add("p99.9", stats.p999);
+    return lines;
 }
 
 void run_luminance(Session& session, const Call& call) {
@@ -57,9 +54,7 @@ void run_luminance(Session& session, const Call& call) {
         session.warning(label, std::to_string(stats.nonfinite) + " non-finite pixels in " +
                                    image.name() + " are in no figure");
     }
-    if (!session.quiet) {
-        session.out << luminance_text(label, stats, image.name());
-    }
+    session.report(luminance_lines(label, stats, image.name()).text);
     session.produced = true;
     session.push(call.images[0]);
 }
@@ -75,29 +70,17 @@ void run_colormap(Session& session, const Call& call) {
 
 std::vector<Command> color_commands() {
     return {
-        {{"exposure"},
-         {"STOPS"},
-         1,
-         1,
+        {{{"exposure"}, {"STOPS"}, 1, 1, Group::Color},
          pixel_modifiers(),
          "Multiply the colour by 2^STOPS",
-         Group::Color,
          run_exposure},
-        {{"colormap"},
-         {"MAPNAME"},
-         1,
-         1,
+        {{{"colormap"}, {"MAPNAME"}, 1, 1, Group::Color},
          {},
          "Show values as colours: " + join(ToneAlgo::color_maps(), ", ") + ", or RGB triples",
-         Group::Color,
          run_colormap},
-        {{"luminancestats"},
-         {},
-         1,
-         1,
+        {{{"luminancestats"}, {}, 1, 1, Group::Measure},
          pixel_modifiers(),
          "Print the luminance statistics of the current image",
-         Group::Measure,
          run_luminance},
     };
 }

@@ -13,50 +13,54 @@ namespace {
 
 using Maps = std::vector<OIIO::ImageBuf>;
 using Tests = std::vector<const OIIO::ImageBuf*>;
-using Results = std::vector<FlipResult>;
-using Compare = std::function<bool(Maps&, const OIIO::ImageBuf&, const Tests&, Results&)>;
+using Compare = std::function<bool(Maps&, const OIIO::ImageBuf&, const Tests&)>;
 
-/// What one command has compared: call.images is the reference and the tests.
-struct Compared {
-    Maps maps;
-    Results results;
+// What the images of a command are looked at for: call.images is the reference and the tests.
+struct Look {
+    PixelOptions reference, tests;
+    /// Many times: the images are read before, unless their memory is bounded.
+    bool again = false;
 };
 
-// `again`: the function looks at the images many times, so that they are read before, unless they
-// may not take that much memory.
-Compared compare(Session& session, const Call& call, const Compare& function, bool again = false) {
-    const auto view = again && session.memory == 0 ? color_input : color_source;
+Look same_look(const Call& call, bool again = false) {
+    return {pixel_options(call), pixel_options(call), again};
+}
+
+// A map for each test.
+Maps compare(Session& session, const Call& call, const Look& look, const Compare& function) {
+    const auto view = look.again && session.memory == 0 ? color_input : color_source;
     std::vector<OIIO::ImageBuf> views;
-    views.reserve(call.images.size());
     for (const ImagePtr& image : call.images) {
-        views.push_back(view(session, call, *image, pixel_options(call)));
+        views.push_back(view(session, call, *image, views.empty() ? look.reference : look.tests));
     }
     Tests tests;
     for (size_t i = 1; i < views.size(); ++i) {
         tests.push_back(&views[i]);
     }
-    Compared compared{Maps(tests.size()), Results(tests.size())};
-    if (!function(compared.maps, views.front(), tests, compared.results)) {
-        for (const OIIO::ImageBuf& map : compared.maps) {
-            if (map.has_error()) {
-                throw CommandError(map.geterror());
-            }
-        }
-        throw CommandError("failed without a reason");
+    Maps maps(tests.size());
+    if (!function(maps, views.front(), tests)) {
+        throw CommandError(maps.front().geterror());
     }
     session.produced = true;
-    return compared;
+    return maps;
 }
 
-void report(Session& session, const Call& call, const FlipSummary& summary, size_t test) {
+template <class Summary>
+void report(Session& session, const Call& call, const Summary& summary, size_t test = 0) {
     const std::string label = call.row().label();
     for (const std::string& warning : summary.warnings) {
         session.warning(label, warning);
     }
-    if (call.flag("print", true) && !session.quiet) {
-        session.out << summary_text(label, summary, call.images.front()->name(),
-                                    call.images.at(test + 1)->name());
+    if (call.flag("print", true)) {
+        session.report(summary_text(label, summary, call.images.front()->name(),
+                                    call.images.at(test + 1)->name()));
     }
+}
+
+bool judge_flip(Session& session, const Call& call, const Thresholds& thresholds,
+                const FlipPool& pool, size_t test = 0) {
+    return judge(session, call, thresholds,
+                 {ToneAlgo::flip_quantity(pool, thresholds.quantity).value()}, test);
 }
 
 void push_map(Session& session, const Call& call, OIIO::ImageBuf map) {
@@ -86,14 +90,8 @@ void save(Session& session, const OIIO::ImageBuf& image, const std::string& file
 }
 
 void save_exposures(Session& session, const Call& call, const FlipResult& result, size_t test) {
-    auto prefix = call.text("saveexposures");
-    if (!prefix) {
-        return;
-    }
-    std::string start = *prefix;
-    if (test_count(call) > 1) {
-        start += ".t" + std::to_string(test + 1);
-    }
+    std::string of_test = test_count(call) > 1 ? ".t" + std::to_string(test + 1) : "";
+    std::string start = call.text("saveexposures").value_or("") + of_test;
     for (size_t i = 0; i < result.exposures.size(); ++i) {
         std::string name = start + (i < 10 ? ".0" : ".") + std::to_string(i);
         save(session, result.exposures[i].reference, name + ".reference.exr");
@@ -104,57 +102,49 @@ void save_exposures(Session& session, const Call& call, const FlipResult& result
 
 void run_hdrflip(Session& session, const Call& call) {
     HdrFlipOptions options;
-    read_flip_options(call, true, options);
+    read_flip_options(session, call, true, options);
     read_hdr_options(session, call, options);
-    options.memory = session.memory;
     Thresholds thresholds = thresholds_of(call);
-    (void)call.flag("print", true);
     auto exposure_map = call.choice("exposuremap", {"stops", "index"});
     options.want_exposure_map = exposure_map.has_value();
     options.want_exposures = call.has("saveexposures");
-    Compared compared = compare(
-        session, call,
-        [&](Maps& maps, const OIIO::ImageBuf& reference, const Tests& tests, Results& results) {
-            return ToneAlgo::hdr_flip(maps, reference, tests, options, &results);
+    std::vector<FlipResult> results;
+    Maps maps =
+        compare(session, call, same_look(call), [&](Maps& to, auto& reference, auto& tests) {
+            return ToneAlgo::hdr_flip(to, reference, tests, options, &results);
         });
-    for (size_t i = 0; i < compared.maps.size(); ++i) {
-        FlipResult& result = compared.results[i];
+    for (size_t i = 0; i < maps.size(); ++i) {
+        FlipResult& result = results[i];
         report(session, call, result.summary, i);
-        judge(session, call, result.summary.pool, thresholds, i);
+        judge_flip(session, call, thresholds, result.summary.pool, i);
         save_exposures(session, call, result, i);
         if (exposure_map) {
             push_map(session, call,
                      std::move(*exposure_map == "stops" ? result.exposure_stops
                                                         : result.exposure_index));
         }
-        push_map(session, call, std::move(compared.maps[i]));
+        push_map(session, call, std::move(maps[i]));
     }
 }
 
-// ---- ldrflip, flipdiff, filmstrip: one test
-
-Compare ldr_function(const FlipOptions& options) {
-    return [options](Maps& maps, const OIIO::ImageBuf& reference, const Tests& tests,
-                     Results& results) {
-        return ToneAlgo::ldr_flip(maps[0], reference, *tests[0], options, &results[0]);
-    };
-}
+// ---- one test
 
 void run_ldrflip(Session& session, const Call& call) {
     FlipOptions options;
-    read_flip_options(call, true, options);
-    options.memory = session.memory;
+    read_flip_options(session, call, true, options);
     Thresholds thresholds = thresholds_of(call);
-    (void)call.flag("print", true);
-    Compared compared = compare(session, call, ldr_function(options));
-    report(session, call, compared.results[0].summary, 0);
-    judge(session, call, compared.results[0].summary.pool, thresholds);
-    push_map(session, call, std::move(compared.maps[0]));
+    FlipResult result;
+    Maps maps =
+        compare(session, call, same_look(call), [&](Maps& to, auto& reference, auto& tests) {
+            return ToneAlgo::ldr_flip(to[0], reference, *tests[0], options, &result);
+        });
+    report(session, call, result.summary);
+    judge_flip(session, call, thresholds, result.summary.pool);
+    push_map(session, call, std::move(maps[0]));
 }
 
 void run_flipdiff(Session& session, const Call& call) {
-    HdrFlipOptions options = flipdiff_options(call);
-    options.memory = session.memory;
+    HdrFlipOptions options = flipdiff_options(session, call);
     bool hdr = call.flag("hdr", true);
     Thresholds thresholds{"max", call.number("fail", {0, 1}), std::nullopt};
     auto colors = call.text("colormap");
@@ -162,45 +152,71 @@ void run_flipdiff(Session& session, const Call& call) {
         check_colormap(*colors);
     }
     (void)call.flag("print", true);
-    Compare hdr_function = [&](Maps& maps, const OIIO::ImageBuf& reference, const Tests& tests,
-                               Results& results) {
-        return ToneAlgo::hdr_flip(maps[0], reference, *tests[0], options, &results[0]);
-    };
-    Compared compared = compare(session, call, hdr ? hdr_function : ldr_function(options));
-    const FlipSummary& summary = compared.results[0].summary;
-    report(session, call, summary, 0);
-    bool failed = judge(session, call, summary.pool, thresholds);
-    if (failed) {
+    FlipResult result;
+    Maps maps =
+        compare(session, call, same_look(call), [&](Maps& to, auto& reference, auto& tests) {
+            return hdr ? ToneAlgo::hdr_flip(to[0], reference, *tests[0], options, &result)
+                       : ToneAlgo::ldr_flip(to[0], reference, *tests[0], options, &result);
+        });
+    report(session, call, result.summary);
+    if (judge_flip(session, call, thresholds, result.summary.pool)) {
         session.print("FAILURE");
     } else if (thresholds.fail) {
         session.report("PASS");
     }
-    push_map(session, call,
-             colors ? colored(compared.maps[0], *colors) : std::move(compared.maps[0]));
+    push_map(session, call, colors ? colored(maps[0], *colors) : std::move(maps[0]));
 }
 
 void run_filmstrip(Session& session, const Call& call) {
     HdrFlipOptions options;
-    read_flip_options(call, false, options);
+    read_flip_options(session, call, false, options);
     read_hdr_options(session, call, options);
-    options.memory = session.memory;
     Thresholds thresholds = thresholds_of(call);
-    (void)call.flag("print", true);
     ToneAlgo::FilmstripOptions look;
     look.thumb_width = call.integer("width", {32, 4096}).value_or(look.thumb_width);
     look.max_columns = call.integer("columns", {1, 1024}).value_or(look.max_columns);
     look.font = call.text("font").value_or(look.font);
-    Compared compared = compare(
-        session, call,
-        [&](Maps& maps, const OIIO::ImageBuf& reference, const Tests& tests, Results& results) {
-            return ToneAlgo::flip_filmstrip(maps[0], reference, *tests[0], options, look,
-                                            &results[0]);
-        },
-        true);
-    report(session, call, compared.results[0].summary, 0);
-    judge(session, call, compared.results[0].summary.pool, thresholds);
-    compared.maps[0].specmod().attribute("oiio:ColorSpace", "sRGB");
-    push_map(session, call, std::move(compared.maps[0]));
+    FlipResult result;
+    Maps maps =
+        compare(session, call, same_look(call, true), [&](Maps& to, auto& reference, auto& tests) {
+            return ToneAlgo::flip_filmstrip(to[0], reference, *tests[0], options, look, &result);
+        });
+    report(session, call, result.summary);
+    judge_flip(session, call, thresholds, result.summary.pool);
+    maps[0].specmod().attribute("oiio:ColorSpace", "sRGB");
+    push_map(session, call, std::move(maps[0]));
+}
+
+void run_errormap(Session& session, const Call& call) {
+    ErrorOptions options = error_options(session, call);
+    bool decibels = options.metric == "psnr" || options.metric == "mpsnr";
+    Strings quantities = ToneAlgo::flip_quantities();
+    quantities.insert(quantities.begin(), options.metric);
+    Thresholds thresholds = thresholds_of(call, quantities, {decibels ? -1e30 : 0, 1e30});
+    ErrorSummary summary;
+    Maps maps =
+        compare(session, call, same_look(call), [&](Maps& to, auto& reference, auto& tests) {
+            return ToneAlgo::error_map(to[0], reference, *tests[0], options, &summary);
+        });
+    report(session, call, summary);
+    auto pooled = ToneAlgo::flip_quantity(summary.pool, thresholds.quantity);
+    judge(session, call, thresholds, {pooled.value_or(summary.value), !pooled && decibels});
+    push_map(session, call, std::move(maps[0]));
+}
+
+void run_tmqi(Session& session, const Call& call) {
+    TmqiOptions options{pixel_options(call), pixel_options(call, "ldr"), call.flag("crop", false),
+                        session.memory};
+    Thresholds thresholds = thresholds_of(call, ToneAlgo::tmqi_quantities());
+    TmqiSummary summary;
+    Maps maps =
+        compare(session, call, {options.hdr, options.ldr}, [&](Maps& to, auto& hdr, auto& tests) {
+            return ToneAlgo::tmqi(to[0], hdr, *tests[0], options, &summary);
+        });
+    report(session, call, summary);
+    judge(session, call, thresholds,
+          {ToneAlgo::tmqi_quantity(summary.score, thresholds.quantity).value(), true});
+    push_map(session, call, std::move(maps[0]));
 }
 
 // ---- rows
@@ -226,46 +242,44 @@ std::vector<Modifier> filmstrip_modifiers() {
                          threshold_modifiers()});
 }
 
+std::vector<Modifier> tmqi_modifiers() {
+    return concatenated({{{"layer", "NAME", "layer of the HDR image whose R,G,B are used"},
+                          {"from", "SPACE", "colour space of the HDR image"},
+                          {"ldrlayer", "NAME", "layer of the picture"},
+                          {"ldrfrom", "SPACE", "colour space of the picture (sRGB for integers)"},
+                          {"crop", "0|1", "compare only where the display windows meet"}},
+                         threshold_modifiers(ToneAlgo::tmqi_quantities(),
+                                             "at least X (0 to 1; higher is better)")});
+}
+
+Command pair_command(const char* name, std::vector<Modifier> modifiers, const char* help,
+                     void (*run)(Session&, const Call&)) {
+    return {{{name}, {}, 2, 1, Group::Compare}, std::move(modifiers), help, run};
+}
+
 } // namespace
 
 std::vector<Command> compare_commands() {
-    return {
-        {{"hdrflip"},
-         {},
-         2,
-         1,
-         hdrflip_modifiers(),
-         "HDR-FLIP: reference, test -> error map",
-         Group::Compare,
-         run_hdrflip,
-         true,
-         hdrflip_pops,
-         hdrflip_pushes},
-        {{"ldrflip"},
-         {},
-         2,
-         1,
-         concatenated({viewing_modifiers(), pair_modifiers(), threshold_modifiers()}),
-         "LDR-FLIP: reference, test -> error map",
-         Group::Compare,
-         run_ldrflip},
-        {{"flipdiff"},
-         {},
-         2,
-         1,
-         flipdiff_modifiers(),
-         "FLIP with the option names and defaults of OpenImageIO 3.2's oiiotool",
-         Group::Compare,
-         run_flipdiff},
-        {{"filmstrip"},
-         {},
-         2,
-         1,
-         filmstrip_modifiers(),
-         "HDR-FLIP as a picture: every exposure of both images and its map",
-         Group::Compare,
-         run_filmstrip},
-    };
+    std::vector<Command> rows{
+        pair_command("hdrflip", hdrflip_modifiers(), "HDR-FLIP: reference, test -> error map",
+                     run_hdrflip),
+        pair_command("ldrflip",
+                     concatenated({viewing_modifiers(), pair_modifiers(), threshold_modifiers()}),
+                     "LDR-FLIP: reference, test -> error map", run_ldrflip),
+        pair_command("flipdiff", flipdiff_modifiers(),
+                     "FLIP with the option names and defaults of OpenImageIO 3.2's oiiotool",
+                     run_flipdiff),
+        pair_command("filmstrip", filmstrip_modifiers(),
+                     "HDR-FLIP as a picture: every exposure of both images and its map",
+                     run_filmstrip),
+        pair_command("errormap", error_modifiers(),
+                     "An error by pixel: reference, test -> error map", run_errormap),
+        pair_command("tmqi", tmqi_modifiers(),
+                     "TMQI of a tone-mapped picture: HDR image, picture -> structure map",
+                     run_tmqi)};
+    rows.front().pops_of = hdrflip_pops;
+    rows.front().pushes_of = hdrflip_pushes;
+    return rows;
 }
 
 } // namespace tonetool::chain

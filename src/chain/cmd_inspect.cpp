@@ -19,21 +19,13 @@ void run_stats(Session& session, const Call&) {
 
 std::vector<Command> inspect_commands() {
     return {
-        {{"info"},
-         {},
-         0,
-         0,
+        {{{"info"}, {}, 0, 0, Group::Print},
          {{"verbose", "0|1", "with the metadata, as -v does"}},
          "Print size, channels and format of every image read after it (-v: and its metadata)",
-         Group::Print,
          run_info},
-        {{"stats"},
-         {},
-         0,
-         0,
+        {{{"stats"}, {}, 0, 0, Group::Print},
          {},
          "Print pixel statistics of every image read after it",
-         Group::Print,
          run_stats},
     };
 }

@@ -31,16 +31,12 @@ void run_label(Session& session, const Call& call) {
 
 std::vector<Command> stack_commands() {
     return {
-        {{"dup"}, {}, 1, 2, {}, "Push a copy of the current image", Group::Stack, run_dup, false},
-        {{"swap"}, {}, 2, 2, {}, "Swap the two images on top", Group::Stack, run_swap, false},
-        {{"pop"}, {}, 1, 0, {}, "Throw away the current image", Group::Stack, run_pop, false},
-        {{"label"},
-         {"NAME"},
-         1,
-         1,
+        {{{"dup"}, {}, 1, 2, Group::Stack}, {}, "Push a copy of the current image", run_dup, false},
+        {{{"swap"}, {}, 2, 2, Group::Stack}, {}, "Swap the two images on top", run_swap, false},
+        {{{"pop"}, {}, 1, 0, Group::Stack}, {}, "Throw away the current image", run_pop, false},
+        {{{"label"}, {"NAME"}, 1, 1, Group::Stack},
          {},
          "Label the current image: the bare word NAME pushes it again",
-         Group::Stack,
          run_label,
          false},
     };

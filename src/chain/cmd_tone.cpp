@@ -15,16 +15,13 @@ void run_colorconfig(Session& session, const Call& call) {
     session.color_config = call.argument(0);
 }
 
-void report_calibration(Session& session, const std::string& label,
-                        const CalibrationSummary& found) {
+void add_calibration(Lines& lines, const CalibrationSummary& found) {
     if (found.mean > 0) {
-        session.report(label + ": mean " + format_number(found.mean));
-        session.report(label + ": key " + format_number(found.key));
+        lines.add("mean", found.mean);
+        lines.add("key", found.key);
     }
-    session.report(label + ": exposure " + format_number(found.exposure));
-    if (found.white > 0) {
-        session.report(label + ": white " + format_number(found.white));
-    }
+    lines.add("exposure", found.exposure);
+    lines.add_positive("white", found.white);
 }
 
 void run_calibrate(Session& session, const Call& call) {
@@ -36,7 +33,9 @@ void run_calibrate(Session& session, const Call& call) {
     if (!ToneAlgo::calibrate(result, source, calibration_options(call), pixels, &found)) {
         throw CommandError(result.geterror());
     }
-    report_calibration(session, call.row().label(), found);
+    Lines lines(call.row().label());
+    add_calibration(lines, found);
+    session.report(lines.text);
     session.push(Image::derived(image, std::move(result)));
 }
 
@@ -71,11 +70,13 @@ void run_tonemap(Session& session, const Call& call) {
     if (!ToneAlgo::tonemap(result, source, options, &found)) {
         throw CommandError(result.geterror());
     }
-    session.report(label + ": curve " + found.curve);
+    Lines lines(label);
+    lines.add("curve", found.curve);
     for (const auto& [name, value] : found.parameters) {
-        session.report(label + ": " + name + " " + format_number(value));
+        lines.add(name, value);
     }
-    report_calibration(session, label, found.calibration);
+    add_calibration(lines, found.calibration);
+    session.report(lines.text);
     for (const std::string& warning : found.warnings) {
         session.warning(label, image.name() + ": " + warning);
     }
@@ -158,13 +159,14 @@ void run_exportlut(Session& session, const Call& call) {
     if (!ToneAlgo::export_lut(call.argument(0), lut_options(session, call), &made, why)) {
         throw CommandError(why);
     }
-    const std::string label = call.row().label() + ": ";
-    session.report(label + "file " + call.argument(0) + ", " + made.structure);
-    session.report(label + "input " + made.input);
-    session.report(label + "range " + format_number(made.low) + " to " + format_number(made.high));
-    session.report(label + "error max " + format_number(made.max_error) + " mean " +
-                   format_number(made.mean_error));
-    session.report(label + "grey-error max " + format_number(made.grey_max_error));
+    Lines lines(call.row().label());
+    lines.add("file", call.argument(0) + ", " + made.structure);
+    lines.add("input", made.input);
+    lines.add("range", format_number(made.low) + " to " + format_number(made.high));
+    lines.add("error max",
+              format_number(made.max_error) + " mean " + format_number(made.mean_error));
+    lines.add("grey-error max", made.grey_max_error);
+    session.report(lines.text);
     session.produced = true;
 }
 
@@ -205,45 +207,25 @@ std::vector<Modifier> tonemap_modifiers() {
 
 std::vector<Command> tone_commands() {
     return {
-        {{"colorconfig"},
-         {"FILE"},
-         0,
-         0,
+        {{{"colorconfig"}, {"FILE"}, 0, 0, Group::Color},
          {},
          "OpenColorIO configuration of the commands that follow ($OCIO)",
-         Group::Color,
          run_colorconfig},
-        {{"calibrate"},
-         {},
-         1,
-         1,
+        {{{"calibrate"}, {}, 1, 1, Group::Color},
          concatenated({method_modifier("manual"), calibration_modifiers(), pixel_modifiers()}),
          "Multiply the colour by an exposure that is measured",
-         Group::Color,
          run_calibrate},
-        {{"tonemap"},
-         {},
-         1,
-         1,
+        {{{"tonemap"}, {}, 1, 1, Group::Color},
          tonemap_modifiers(),
          "HDR to a display, by a tone curve or an OpenColorIO view",
-         Group::Color,
          run_tonemap},
-        {{"exportlut"},
-         {"FILE"},
-         0,
-         0,
+        {{{"exportlut"}, {"FILE"}, 0, 0, Group::Write},
          exportlut_modifiers(),
          "Write a tone curve or a view as ." + join(ToneAlgo::lut_formats(), ", ."),
-         Group::Write,
          run_exportlut},
-        {{"tonecurves"},
-         {},
-         0,
-         0,
+        {{{"tonecurves"}, {}, 0, 0, Group::Print},
          {{"table", "0|1", "as numbers: stops, and the light of each curve (0)"}},
          "Print all tone curves: parameters, formulas, sources",
-         Group::Print,
          run_tonecurves},
     };
 }

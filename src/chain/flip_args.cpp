@@ -1,5 +1,7 @@
 #include "chain/flip_args.h"
 
+#include <algorithm>
+
 #include "chain/error.h"
 #include "chain/tone_args.h"
 
@@ -9,13 +11,12 @@ namespace {
 
 const Range stops_range{-1000, 1000};
 const Range luminance_range{1e-30, 1e30};
-const Range unit_range{0, 1};
 
 std::string choices(const Strings& names) {
     return join(names, "|");
 }
 
-void read_size(const Call& call, FlipOptions& options) {
+void read_size(const Call& call, PairOptions& options) {
     bool resize = call.flag("resize", false);
     bool crop = call.flag("crop", false);
     if (resize && crop) {
@@ -36,7 +37,8 @@ void read_screen(const Call& call, FlipOptions& options) {
     options.pixels_across = pixels.value_or(options.pixels_across);
 }
 
-void read_exposures(const Call& call, HdrFlipOptions& options) {
+template <class Options>
+void read_exposures(const Call& call, Options& options, double least = 1) {
     options.start_exposure = call.number("startExposure", stops_range);
     options.stop_exposure = call.number("stopExposure", stops_range);
     if (options.start_exposure && options.stop_exposure &&
@@ -44,6 +46,7 @@ void read_exposures(const Call& call, HdrFlipOptions& options) {
         throw CommandError("startExposure " + *call.text("startExposure") +
                            " is above stopExposure " + *call.text("stopExposure"));
     }
+    options.num_exposures = call.integer("numExposures", {least, 1024});
 }
 
 } // namespace
@@ -86,10 +89,10 @@ std::vector<Modifier> hdr_modifiers() {
           {"medianluminance", "X", "instead of the reference's median luminance"}}});
 }
 
-std::vector<Modifier> threshold_modifiers() {
-    return {{"fail", "X", "exit status 3 unless the quantity is at most X (0 to 1)"},
-            {"warn", "X", "a warning unless the quantity is at most X (0 to 1)"},
-            {"quantity", choices(ToneAlgo::flip_quantities()), "what fail and warn test (mean)"},
+std::vector<Modifier> threshold_modifiers(const Strings& quantities, const std::string& unless) {
+    return {{"fail", "X", "exit status 3 unless the quantity is " + unless},
+            {"warn", "X", "a warning unless the quantity is " + unless},
+            {"quantity", choices(quantities), "what fail and warn test (the first)"},
             {"print", "0|1", "print the summary (1)"}};
 }
 
@@ -101,15 +104,21 @@ std::vector<Modifier> concatenated(const std::vector<std::vector<Modifier>>& lis
     return all;
 }
 
-PixelOptions pixel_options(const Call& call) {
-    return {call.text("layer").value_or(""), call.text("from").value_or("")};
+PixelOptions pixel_options(const Call& call, const std::string& prefix) {
+    return {call.text(prefix + "layer").value_or(""), call.text(prefix + "from").value_or("")};
 }
 
-void read_flip_options(const Call& call, bool screen, FlipOptions& options) {
+void read_pair_options(const Session& session, const Call& call, PairOptions& options) {
+    options.memory = session.memory;
     options.pixels = pixel_options(call);
     read_size(call, options);
     bool error = call.choice("alpha", {"ignore", "error"}).value_or("ignore") == "error";
     options.alpha = error ? AlphaPolicy::Error : AlphaPolicy::Ignore;
+}
+
+void read_flip_options(const Session& session, const Call& call, bool screen,
+                       FlipOptions& options) {
+    read_pair_options(session, call, options);
     options.ppd = call.number("ppd", {1, 1000});
     if (screen) {
         read_screen(call, options);
@@ -128,21 +137,57 @@ void read_hdr_options(const Session& session, const Call& call, HdrFlipOptions& 
         throw CommandError("encoding=, peak= and exact= need display= or view=");
     }
     read_exposures(call, options);
-    options.num_exposures = call.integer("numExposures", {1, 1024});
     options.max_luminance = call.number("maxluminance", luminance_range);
     options.median_luminance = call.number("medianluminance", luminance_range);
 }
 
-Thresholds thresholds_of(const Call& call) {
-    Thresholds thresholds;
-    thresholds.fail = call.number("fail", unit_range);
-    thresholds.warn = call.number("warn", unit_range);
-    auto quantity = call.choice("quantity", ToneAlgo::flip_quantities());
+Thresholds thresholds_of(const Call& call, const Strings& quantities, Range range) {
+    auto quantity = call.choice("quantity", quantities);
+    Thresholds thresholds{quantity.value_or(quantities.front()), call.number("fail", range),
+                          call.number("warn", range)};
+    (void)call.flag("print", true);
     if (quantity && !thresholds.fail && !thresholds.warn) {
         throw CommandError("quantity= needs fail= or warn=");
     }
-    thresholds.quantity = quantity.value_or(thresholds.quantity);
     return thresholds;
+}
+
+std::vector<Modifier> error_modifiers() {
+    Strings quantities = ToneAlgo::flip_quantities();
+    quantities.insert(quantities.begin(), "METRIC");
+    return concatenated(
+        {{{"metric", choices(ToneAlgo::error_metrics()), "which error"},
+          {"eps", "X", "of smape, rmae, relmse (0.01)"},
+          {"peak", "X", "of psnr (1)"},
+          {"startExposure", "STOPS", "of mpsnr: first exposure, as in hdrflip"},
+          {"stopExposure", "STOPS", "its last exposure"},
+          {"numExposures", "N", "number of its exposures"}},
+         pair_modifiers(),
+         threshold_modifiers(quantities, "at most X (psnr, mpsnr: at least X dB)")});
+}
+
+ErrorOptions error_options(const Session& session, const Call& call) {
+    ErrorOptions options;
+    read_pair_options(session, call, options);
+    options.metric = call.choice("metric", ToneAlgo::error_metrics()).value_or("");
+    if (options.metric.empty()) {
+        throw CommandError("needs metric= (valid: " + join(ToneAlgo::error_metrics(), ", ") + ")");
+    }
+    const std::pair<const char*, Strings> keys[] = {{"eps", {"smape", "rmae", "relmse"}},
+                                                    {"peak", {"psnr"}},
+                                                    {"startExposure", {"mpsnr"}},
+                                                    {"stopExposure", {"mpsnr"}},
+                                                    {"numExposures", {"mpsnr"}}};
+    for (const auto& [key, of] : keys) {
+        if (call.has(key) && std::find(of.begin(), of.end(), options.metric) == of.end()) {
+            throw CommandError(std::string(key) + "= goes with metric=" + join(of, ", ") +
+                               ", not with " + options.metric);
+        }
+    }
+    options.eps = call.number("eps", {1e-12, 1e12}).value_or(options.eps);
+    options.peak = call.number("peak", {1e-12, 1e12}).value_or(options.peak);
+    read_exposures(call, options);
+    return options;
 }
 
 std::vector<Modifier> flipdiff_modifiers() {
@@ -164,15 +209,17 @@ std::vector<Modifier> flipdiff_modifiers() {
         {"fail", "X", "exit status 3 unless the largest error is at most X (0 to 1)"}};
 }
 
-HdrFlipOptions flipdiff_options(const Call& call) {
+HdrFlipOptions flipdiff_options(const Session& session, const Call& call) {
     HdrFlipOptions options;
+    options.memory = session.memory;
     options.pixels = pixel_options(call);
     options.ppd = call.number("ppd", {1, 1000}).value_or(67.02);
     options.curve.name =
         call.choice("tonemapper", ToneAlgo::flip_tonemappers()).value_or(options.curve.name);
-    read_exposures(call, options);
-    int count = call.integer("numExposures", {0, 1024}).value_or(0);
-    options.num_exposures = count > 0 ? std::optional<int>(count) : std::nullopt;
+    read_exposures(call, options, 0);
+    if (options.num_exposures == 0) {
+        options.num_exposures.reset();
+    }
     double maximum = call.number("maxluminance", {-1e30, 1e30}).value_or(2.0);
     double median = call.number("medianluminance", {-1e30, 1e30}).value_or(0.18);
     if (maximum > 0) {

@@ -6,17 +6,6 @@ namespace tonetool::chain {
 
 namespace {
 
-// Lines of "label: name value".
-struct Lines {
-    std::string label, text;
-
-    void add(const std::string& name, const std::string& value) {
-        text += label + ": " + name + " " + value + "\n";
-    }
-    void add(const std::string& name, double value) { add(name, format_number(value)); }
-    void add(const std::string& name, int64_t value) { add(name, std::to_string(value)); }
-};
-
 std::string at(int x, int y) {
     return " at " + std::to_string(x) + "," + std::to_string(y);
 }
@@ -31,7 +20,7 @@ void add_side(Lines& lines, const std::string& side, const std::string& file,
     lines.add(side + "-uncovered", found.uncovered);
 }
 
-void add_hdr(Lines& lines, const FlipSummary& summary) {
+void add_tone(Lines& lines, const FlipSummary& summary) {
     lines.add("tonemapper", summary.tonemapper);
     if (summary.tonemapper == "coeffs") {
         Strings numbers;
@@ -47,14 +36,16 @@ void add_hdr(Lines& lines, const FlipSummary& summary) {
         lines.add("bake-error", "max " + format_number(summary.bake_error_max) + " mean " +
                                     format_number(summary.bake_error_mean));
     }
+}
+
+template <class Summary>
+void add_exposures(Lines& lines, const Summary& summary) {
     if (!summary.exposures.empty()) {
         lines.add("exposures", "start " + format_number(summary.exposures.front()) + " stop " +
                                    format_number(summary.exposures.back()) + " count " +
                                    std::to_string(summary.exposures.size()));
     }
-    if (summary.max_luminance > 0) {
-        lines.add("max-luminance", summary.max_luminance);
-    }
+    lines.add_positive("max-luminance", summary.max_luminance);
     if (summary.median_luminance > 0) {
         lines.add("median-luminance", format_number(summary.median_luminance) +
                                           (summary.median_of_lit ? " of lit pixels" : ""));
@@ -71,54 +62,90 @@ void add_pool(Lines& lines, const FlipPool& pool) {
     }
 }
 
-} // namespace
-
-std::string summary_text(const std::string& label, const FlipSummary& summary,
-                         const std::string& reference, const std::string& test) {
-    Lines lines{label, ""};
+void add_pair(Lines& lines, const PairSummary& summary, const std::string& reference,
+              const std::string& test) {
     add_side(lines, "reference", reference, summary.reference);
     add_side(lines, "test", test, summary.test);
     lines.add("nonfinite-in-both", summary.nonfinite_both);
     lines.add("pixels", summary.pool.pixels);
-    lines.add("ppd", summary.ppd);
-    if (summary.hdr) {
-        add_hdr(lines, summary);
-    }
+}
+
+void add_found(Lines& lines, const PairSummary& summary) {
     if (summary.alpha_compared) {
         lines.add("alpha-mean", summary.alpha_mean);
         lines.add("alpha-max",
                   format_number(summary.alpha_max) + at(summary.alpha_max_x, summary.alpha_max_y));
     }
     add_pool(lines, summary.pool);
+}
+
+} // namespace
+
+std::string summary_text(const std::string& label, const FlipSummary& summary,
+                         const std::string& first, const std::string& second) {
+    Lines lines(label);
+    add_pair(lines, summary, first, second);
+    lines.add("ppd", summary.ppd);
+    if (summary.hdr) {
+        add_tone(lines, summary);
+        add_exposures(lines, summary);
+    }
+    add_found(lines, summary);
     return lines.text;
 }
 
-bool judge(Session& session, const Call& call, const FlipPool& pool, const Thresholds& thresholds,
-           size_t test) {
-    const std::string label = call.row().label();
-    const std::string of = " (" + call.images.at(test + 1)->name() + ")";
-    auto value = ToneAlgo::flip_quantity(pool, thresholds.quantity);
-    if (!value) {
-        throw CommandError("unknown quantity \"" + thresholds.quantity + "\"");
+std::string summary_text(const std::string& label, const ErrorSummary& summary,
+                         const std::string& first, const std::string& second) {
+    Lines lines(label);
+    add_pair(lines, summary, first, second);
+    lines.add_positive("eps", summary.eps);
+    lines.add_positive("peak", summary.peak);
+    add_exposures(lines, summary);
+    lines.add(summary.metric, summary.value);
+    add_found(lines, summary);
+    return lines.text;
+}
+
+std::string summary_text(const std::string& label, const TmqiSummary& summary,
+                         const std::string& first, const std::string& second) {
+    Lines lines(label);
+    add_side(lines, "hdr", first, summary.hdr);
+    add_side(lines, "ldr", second, summary.ldr);
+    for (const std::string& name : ToneAlgo::tmqi_quantities()) {
+        lines.add(name, ToneAlgo::tmqi_quantity(summary.score, name).value());
     }
-    auto compared = [&](const char* sign, double limit) {
-        return thresholds.quantity + " " + format_apart(*value, limit) + sign +
-               format_apart(limit, *value) + of;
+    for (size_t i = 0; i < summary.score.scales.size(); ++i) {
+        lines.add("S" + std::to_string(i + 1), summary.score.scales[i]);
+    }
+    lines.add("ldr-mean", summary.score.mean);
+    lines.add("ldr-deviation", summary.score.deviation);
+    return lines.text;
+}
+
+bool judge(Session& session, const Call& call, const Thresholds& thresholds,
+           const Measured& measured, size_t test) {
+    const std::string label = call.row().label();
+    const double value = measured.value;
+    const bool up = measured.higher_is_better;
+    auto passes = [&](double limit) { return up ? value >= limit : value <= limit; };
+    auto compared = [&](double limit) {
+        const char* sign = passes(limit) ? (up ? " >= " : " <= ") : (up ? " < " : " > ");
+        return thresholds.quantity + " " + format_apart(value, limit) + sign +
+               format_apart(limit, value) + " (" + call.images.at(test + 1)->name() + ")";
     };
-    if (thresholds.warn && !(*value <= *thresholds.warn)) {
-        session.warning(label, compared(" > ", *thresholds.warn));
+    if (thresholds.warn && !passes(*thresholds.warn)) {
+        session.warning(label, compared(*thresholds.warn));
     }
     if (!thresholds.fail) {
         return false;
     }
-    bool passed = *value <= *thresholds.fail;
-    if (passed) {
-        session.report(label + ": PASS " + compared(" <= ", *thresholds.fail));
-    } else {
-        ++session.failures;
-        session.print(label + ": FAIL " + compared(" > ", *thresholds.fail));
+    if (passes(*thresholds.fail)) {
+        session.report(label + ": PASS " + compared(*thresholds.fail));
+        return false;
     }
-    return !passed;
+    ++session.failures;
+    session.print(label + ": FAIL " + compared(*thresholds.fail));
+    return true;
 }
 
 } // namespace tonetool::chain

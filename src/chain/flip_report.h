@@ -1,4 +1,4 @@
-// What a FLIP command prints, and what its thresholds say.
+// What the commands that compare print, and what their thresholds say.
 #pragma once
 
 #include <string>
@@ -9,13 +9,24 @@
 
 namespace tonetool::chain {
 
-/// The summary, one fact a line, each with "LABEL: " before it.
+// The summary, one fact a line, each with "LABEL: " before it. `first` and `second` are the names
+// of the images.
 std::string summary_text(const std::string& label, const FlipSummary& summary,
-                         const std::string& reference, const std::string& test);
+                         const std::string& first, const std::string& second);
+std::string summary_text(const std::string& label, const ErrorSummary& summary,
+                         const std::string& first, const std::string& second);
+std::string summary_text(const std::string& label, const TmqiSummary& summary,
+                         const std::string& first, const std::string& second);
 
-/// Prints PASS or FAIL with the name of the test image, warns, and counts in the session. Anything
-/// but value <= threshold fails. Returns whether a fail threshold was exceeded.
-bool judge(Session& session, const Call& call, const FlipPool& pool, const Thresholds& thresholds,
-           size_t test = 0);
+/// A measured quantity, and whether a threshold is what it must reach or what it may be at most.
+struct Measured {
+    double value = 0;
+    bool higher_is_better = false;
+};
+
+/// Prints PASS or FAIL with the name of the test image, warns, and counts in the session. Whatever
+/// is not on the good side of a threshold fails. Returns whether a fail threshold was missed.
+bool judge(Session& session, const Call& call, const Thresholds& thresholds,
+           const Measured& measured, size_t test = 0);
 
 } // namespace tonetool::chain

@@ -22,14 +22,18 @@ enum class Group { General, Read, Write, Print, Compare, Measure, Color, Channel
 inline constexpr int group_count = 9;
 std::string group_title(Group group);
 
-struct Command {
+/// What a command takes and leaves, and where help lists it.
+struct Shape {
     Strings names;  ///< without dashes; the first one is the one that messages use
     Strings args;   ///< names of the arguments; "[NAME]" may be left out, only as the last
     int pops = 0;   ///< images taken from the stack
     int pushes = 0; ///< images put on it
+    Group group = Group::General;
+};
+
+struct Command : Shape {
     std::vector<Modifier> modifiers;
     std::string help; ///< one line
-    Group group = Group::General;
     void (*run)(Session&, const Call&) = nullptr;
     /// Wait for images that are still to come, as oiiotool does with operators.
     bool postponable = true;

@@ -30,6 +30,23 @@ std::string format_apart(double value, double other);
 Strings split(const std::string& text, char separator);
 std::string join(const Strings& words, const std::string& separator);
 
+/// Lines of "label: name value".
+struct Lines {
+    explicit Lines(std::string name) : label(std::move(name)) {}
+    std::string label, text;
+
+    void add(const std::string& name, const std::string& value) {
+        text += (text.empty() ? "" : "\n") + label + ": " + name + " " + value;
+    }
+    void add(const std::string& name, double value) { add(name, format_number(value)); }
+    void add_positive(const std::string& name, double value) {
+        if (value > 0) {
+            add(name, value);
+        }
+    }
+    void add(const std::string& name, int64_t value) { add(name, std::to_string(value)); }
+};
+
 /// The argument as one would type it in a shell.
 std::string shell_quoted(const std::string& argument);
 

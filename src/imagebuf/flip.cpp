@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "imagebuf/deliver.h"
 #include "imagebuf/flip_run.h"
 #include "imagebuf/guard.h"
 #include "tonemap/curves.h"
@@ -13,24 +14,6 @@ namespace {
 
 using OIIO::ImageBuf;
 using OIIO::ROI;
-
-// An image the caller prepared takes the map's pixels in place; any other becomes the map.
-void deliver(ImageBuf& dst, ImageBuf&& map) {
-    const bool in_place = dst.initialized() && dst.nchannels() == 1 &&
-                          dst.pixeltype() == OIIO::TypeFloat && dst.localpixels() &&
-                          dst.roi().contains(map.roi());
-    if (!in_place) {
-        dst = std::move(map);
-        return;
-    }
-    if (map.localpixels() != dst.pixeladdr(map.xbegin(), map.ybegin()))
-        dst.set_pixels(map.roi(), OIIO::TypeFloat, map.localpixels());
-    OIIO::ImageSpec& spec = dst.specmod();
-    spec.erase_attribute("FLIP:.*");
-    for (const auto& attribute : map.spec().extra_attribs)
-        if (attribute.name().find("FLIP:") == 0)
-            spec.attribute(attribute.name(), attribute.type(), attribute.data());
-}
 
 // One test: `make_plan(plan, error)` turns the options into numbers.
 template <class MakePlan>
@@ -43,7 +26,7 @@ bool compare(const char* function, ImageBuf& dst, const ImageBuf& reference, con
         if (!make_plan(plan, error) ||
             !run_flip(plan, reference, {&test}, {&dst}, roi, nthreads, maps, results, error))
             return false;
-        deliver(dst, std::move(maps[0]));
+        deliver(dst, std::move(maps[0]), "FLIP:");
         if (result)
             *result = std::move(results[0]);
         return true;
@@ -68,7 +51,7 @@ bool compare_all(std::vector<ImageBuf>& dst, const ImageBuf& reference,
         !run_flip(plan, reference, tests, to, roi, nthreads, maps, found, error))
         return false;
     for (size_t t = 0; t < tests.size(); ++t)
-        deliver(dst[t], std::move(maps[t]));
+        deliver(dst[t], std::move(maps[t]), "FLIP:");
     if (results)
         *results = std::move(found);
     return true;

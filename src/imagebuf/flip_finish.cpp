@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "imagebuf/annotate.h"
+#include "imagebuf/pair.h"
 #include "imagebuf/parallel.h"
 #include "kernels/flip_tile.h"
 #include "metrics/pooling.h"
@@ -16,21 +17,12 @@ namespace {
 using OIIO::ImageBuf;
 using OIIO::ROI;
 
-FlipSide side_of(const ColorPlanes& planes) {
-    return {planes.choice.layer, planes.choice.space, planes.counts.nonfinite,
-            planes.counts.negative, planes.uncovered_count};
-}
-
 void collect_warnings(const ColorPlanes& reference, const ColorPlanes& test, FlipSummary& s) {
-    const auto say = [&s](int64_t n, const char* what) {
-        if (n > 0)
-            s.warnings.push_back(std::to_string(n) + " " + what);
-    };
-    say(s.reference.nonfinite, "pixel(s) of the reference are NaN or Inf");
-    say(s.test.nonfinite, "pixel(s) of the test are NaN or Inf");
-    say(s.nonfinite_both, "pixel(s) are NaN or Inf in both images and count as equal");
-    say(s.reference.uncovered, "compared pixel(s) lie outside the reference's data window");
-    say(s.test.uncovered, "compared pixel(s) lie outside the test's data window");
+    warn_of_holes(s.reference, "the reference", s.warnings);
+    warn_of_holes(s.test, "the test", s.warnings);
+    if (s.nonfinite_both > 0)
+        s.warnings.push_back(std::to_string(s.nonfinite_both) +
+                             " pixel(s) are NaN or Inf in both images and count as equal");
     if (s.median_of_lit)
         s.warnings.push_back(OIIO::Strutil::fmt::format(
             "more than half of the reference is black: the stop exposure follows the median "
@@ -39,6 +31,9 @@ void collect_warnings(const ColorPlanes& reference, const ColorPlanes& test, Fli
     if (s.alpha_compared && (reference.choice.a < 0 || test.choice.a < 0))
         s.warnings.emplace_back("only one image has alpha: the other counts as opaque");
 }
+
+// Marks the largest error while it is not known yet: below every error.
+constexpr float kLargest = -1;
 
 // Whether a map of these pixels can be computed in an image's own.
 bool takes_map(const ImageBuf& dst, const ROI& roi) {
@@ -65,6 +60,7 @@ FlipMaps::FlipMaps(const FlipPlan& plan, const Exposures& exposures, const ROI& 
       m_roi(roi),
       m_full(full),
       m_nthreads(nthreads),
+      m_unbounded(plan.pixel_error && !plan.pixel_error->bounded()),
       m_error(make_image(1)),
       m_alpha(plan.alpha() ? size_t(roi.height()) : 0) {
     if (takes_map(dst, roi)) {
@@ -148,14 +144,14 @@ void FlipMaps::compare_alpha(int y, const Sides& sides) {
     }
 }
 
-// Error 1 where one image alone is non-finite, 0 where both are.
+// The largest error where one image alone is non-finite, 0 where both are.
 void FlipMaps::override_nonfinite(int y, const Sides& sides) {
     const size_t at = sides.reference.at(y) + size_t(m_roi.xbegin - sides.reference.region.xbegin);
     for (size_t x = 0; x < size_t(m_roi.width()); ++x) {
         const bool r = sides.reference.nonfinite[at + x], t = sides.test.nonfinite[at + x];
         if (!r && !t)
             continue;
-        const float error = r != t ? 1.0f : 0.0f;
+        const float error = r == t ? 0.0f : m_unbounded ? kLargest : 1.0f;
         row(m_error, y)[x] = error;
         if (m_index.initialized())
             row(m_index, y)[x] = 0;
@@ -194,12 +190,14 @@ void FlipMaps::tone_map_row(int y, double stops, const ColorPlanes& planes, Imag
 
 // Images that differ although nothing shows must not look like equal ones.
 void FlipMaps::warn_of_unseen(const Sides& sides, FlipSummary& s) const {
-    constexpr double nothing_shows = 1e-6;
+    const double nothing_shows = m_plan.pixel_error ? 0 : 1e-6;
     if (s.pool.max > nothing_shows)
         return;
     if (m_differing > 0)
-        s.warnings.push_back(std::to_string(m_differing) +
-                             " pixel(s) differ, but none shows at the exposures compared");
+        s.warnings.push_back(std::to_string(m_differing) + " pixel(s) differ, but " +
+                             (m_plan.hdr || !m_plan.pixel_error
+                                  ? "none shows at the exposures compared"
+                                  : "by too little for the map's floats"));
     if (sides.reference.counts.negative_digest != sides.test.counts.negative_digest)
         s.warnings.emplace_back("the images differ in negative values, which count as 0");
 }
@@ -245,6 +243,13 @@ FlipSummary FlipMaps::summarize(const Sides& sides, int64_t both,
     return s;
 }
 
+// Puts the largest error in the place of its marks.
+void FlipMaps::resolve_largest() {
+    float* const first = row(m_error, m_roi.ybegin);
+    float* const last = first + int64_t(m_roi.width()) * m_roi.height();
+    std::replace(first, last, kLargest, std::max(1.0f, *std::max_element(first, last)));
+}
+
 void FlipMaps::make_stops() {
     m_stops = make_image(1);
     make_parallel(m_nthreads)(m_roi.height(), [&](int64_t i) {
@@ -256,8 +261,11 @@ void FlipMaps::make_stops() {
 
 void FlipMaps::finish(const ColorPlanes& reference, const ColorPlanes& test, int64_t nonfinite_both,
                       const std::vector<std::string>& notes, ImageBuf& map, FlipResult& result) {
+    if (m_unbounded && (reference.counts.nonfinite > 0 || test.counts.nonfinite > 0))
+        resolve_largest();
     result.summary = summarize({reference, test}, nonfinite_both, notes);
-    annotate(m_error.specmod(), result.summary);
+    if (!m_plan.pixel_error)
+        annotate(m_error.specmod(), result.summary);
     map = std::move(m_error);
     if (m_index.initialized()) {
         make_stops();

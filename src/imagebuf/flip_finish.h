@@ -46,12 +46,14 @@ private:
     void tone_map_row(int y, double stops, const ColorPlanes& planes, OIIO::ImageBuf& image) const;
     FlipSummary summarize(const Sides& sides, int64_t both, const std::vector<std::string>& notes);
     void warn_of_unseen(const Sides& sides, FlipSummary& summary) const;
+    void resolve_largest();
     void make_stops();
 
     const FlipPlan& m_plan;
     const Exposures& m_exposures;
     OIIO::ROI m_roi, m_full;
     int m_nthreads;
+    bool m_unbounded; ///< the largest error is known only in the end
     OIIO::ImageBuf m_error, m_index, m_stops;
     std::vector<FlipExposure> m_pictures;
     std::vector<AlphaRow> m_alpha;

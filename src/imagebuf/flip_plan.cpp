@@ -150,6 +150,17 @@ bool plan_hdr(const HdrFlipOptions& options, FlipPlan& plan, std::string& error)
            check_exposures(options, error);
 }
 
+bool plan_errors(const ErrorOptions& options, const metrics::PixelError& pixel_error, bool exposed,
+                 FlipPlan& plan, std::string& error) {
+    HdrFlipOptions all;
+    static_cast<PairOptions&>(all) = options;
+    all.start_exposure = options.start_exposure;
+    all.stop_exposure = options.stop_exposure;
+    all.num_exposures = options.num_exposures;
+    plan.pixel_error = pixel_error;
+    return exposed ? plan_hdr(all, plan, error) : plan_ldr(all, plan, error);
+}
+
 bool needs_luminance(const FlipPlan& plan) {
     const HdrFlipOptions& o = plan.hdr_options;
     return plan.hdr &&

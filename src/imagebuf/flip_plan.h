@@ -10,7 +10,9 @@
 #include "imagebuf/curve_plan.h"
 #include "imagebuf/planes.h"
 #include "imagebuf/view.h"
+#include "include/tonetool/errors.h"
 #include "include/tonetool/flip.h"
+#include "metrics/errors.h"
 #include "metrics/luminance.h"
 
 namespace tonetool {
@@ -21,12 +23,13 @@ struct FlipPlan {
     HdrFlipOptions hdr_options; ///< only meaningful when hdr
     bool hdr = false;
     double ppd = 0;
-    std::string tonemapper;       ///< "aces", ..., "coeffs", or "display/view"
-    CurvePlan curve;              ///< unless there is a view,
-    DisplayLight light;           ///< which is this
-    std::optional<double> bright; ///< scene value of a grey that is shown bright
-    int band_rows = 0;            ///< as in MemoryNeeds
-    flip::Evaluation evaluation;  ///< the stops of HDR-FLIP follow once the reference is read
+    std::string tonemapper;                         ///< "aces", ..., "coeffs", or "display/view"
+    CurvePlan curve;                                ///< unless there is a view,
+    DisplayLight light;                             ///< which is this
+    std::optional<double> bright;                   ///< scene value of a grey that is shown bright
+    int band_rows = 0;                              ///< as in MemoryNeeds
+    std::optional<metrics::PixelError> pixel_error; ///< instead of FLIP
+    flip::Evaluation evaluation; ///< the stops of HDR-FLIP follow once the reference is read
 
     bool baked() const { return hdr_options.view && !hdr_options.exact; }
     bool alpha() const { return common.alpha == AlphaPolicy::Error; }
@@ -34,6 +37,9 @@ struct FlipPlan {
 
 bool plan_ldr(const FlipOptions& options, FlipPlan& plan, std::string& error);
 bool plan_hdr(const HdrFlipOptions& options, FlipPlan& plan, std::string& error);
+/// `pixel_error` instead of FLIP, if `exposed` at the exposures that HDR-FLIP would take.
+bool plan_errors(const ErrorOptions& options, const metrics::PixelError& pixel_error, bool exposed,
+                 FlipPlan& plan, std::string& error);
 
 /// The exposures of one comparison and what they were derived from.
 struct Exposures {

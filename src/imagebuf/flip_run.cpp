@@ -8,6 +8,7 @@
 #include "imagebuf/measure.h"
 #include "imagebuf/pair.h"
 #include "imagebuf/parallel.h"
+#include "metrics/errors.h"
 #include "metrics/luminance.h"
 
 namespace tonetool {
@@ -38,7 +39,7 @@ public:
         : m_plan(plan),
           m_image(reference),
           m_nthreads(nthreads),
-          m_reach(flip::reach(plan.evaluation.taps)) {}
+          m_reach(plan.pixel_error ? 0 : flip::reach(plan.evaluation.taps)) {}
 
     /// `held`: bytes that earlier groups have made.
     bool run(const FittedTest* fitted, const std::vector<ImageBuf*>& dst, const ROI& roi,
@@ -96,29 +97,11 @@ private:
                 error = "alpha=error, but neither image has an alpha channel";
                 return false;
             }
-            if (!is_covered(m_reference, "the reference", error) ||
-                !is_covered(m_tests[t], "the test", error))
+            if (!check_covered(m_reference.planes, "the reference", error) ||
+                !check_covered(m_tests[t].planes, "the test", error))
                 return false;
         }
         return true;
-    }
-
-    int64_t pixels() const { return int64_t(m_region.width()) * m_region.height(); }
-
-    bool is_covered(const Side& side, const char* who, std::string& error) const {
-        if (side.planes.uncovered_count < pixels())
-            return true;
-        error = std::string(who) +
-                "'s data window covers none of the compared pixels: there is nothing to compare";
-        return false;
-    }
-
-    // Once every pixel has been read.
-    bool is_finite(const Side& side, const char* who, std::string& error) const {
-        if (side.planes.counts.nonfinite + side.planes.uncovered_count < pixels())
-            return true;
-        error = std::string(who) + " has no finite pixel: there is nothing to compare";
-        return false;
     }
 
     bool keeps_each() const { return m_plan.hdr && m_plan.hdr_options.want_exposures; }
@@ -135,7 +118,9 @@ private:
         m_needs = {};
         m_needs.reach = m_reach;
         m_needs.band_rows = m_plan.band_rows;
-        m_needs.thread = flip::work_bytes(bounded(), m_roi.width(), m_tests.size(), keeps_each());
+        if (!m_plan.pixel_error)
+            m_needs.thread =
+                flip::work_bytes(bounded(), m_roi.width(), m_tests.size(), keeps_each());
         m_needs.threads = oiio::threads_of(m_nthreads);
         m_needs.held = m_held;
         for (size_t i = 0; i <= m_tests.size(); ++i) {
@@ -184,7 +169,7 @@ private:
         }
         stats = metrics::exposure_statistics(luminance.data(), m_region.width(), m_region.height(),
                                              make_parallel(m_nthreads));
-        return is_finite(m_reference, "the reference", error);
+        return check_finite(m_reference.planes, "the reference", error);
     }
 
     void start_again() {
@@ -223,7 +208,9 @@ private:
             for (size_t i = t; i < t + step; ++i)
                 mend(i, fresh);
             measure_bakes(t, step, fresh);
-            evaluate(t, step, std::max(begin, m_roi.ybegin), std::min(end, m_roi.yend), maps);
+            if (const int from = std::max(begin, m_roi.ybegin), to = std::min(end, m_roi.yend);
+                from < to)
+                evaluate(t, step, from, to, maps);
             if (m_tests.size() > 1)
                 unmend(m_reference.planes);
         }
@@ -254,8 +241,8 @@ private:
     bool is_sound(std::string& error) const {
         double largest = m_reference.planes.counts.largest;
         for (const Side& test : m_tests) {
-            if (!is_finite(m_reference, "the reference", error) ||
-                !is_finite(test, "the test", error))
+            if (!check_finite(m_reference.planes, "the reference", error) ||
+                !check_finite(test.planes, "the test", error))
                 return false;
             largest = std::max(largest, double(test.planes.counts.largest));
         }
@@ -263,8 +250,27 @@ private:
     }
 
     void evaluate(size_t from, size_t count, int begin, int end, std::vector<FlipMaps>& maps) {
-        if (begin >= end)
-            return;
+        if (m_plan.pixel_error)
+            for (size_t t = from; t < from + count; ++t)
+                evaluate_pixels(t, begin, end, maps[t]);
+        else
+            evaluate_flip(from, count, begin, end, maps);
+        for (size_t t = from; t < from + count; ++t)
+            maps[t].take(begin, end, m_reference.planes, m_tests[t].planes);
+    }
+
+    void evaluate_pixels(size_t test, int begin, int end, FlipMaps& map) {
+        float* const out = map.output(begin).error;
+        make_parallel(m_bands.threads())(end - begin, [&](int64_t row) {
+            const float *r[3], *t[3];
+            m_reference.planes.row(m_roi.xbegin, begin + int(row), r);
+            m_tests[test].planes.row(m_roi.xbegin, begin + int(row), t);
+            metrics::error_row(*m_plan.pixel_error, m_exposures.stops, r, t,
+                               out + row * m_roi.width(), m_roi.width());
+        });
+    }
+
+    void evaluate_flip(size_t from, size_t count, int begin, int end, std::vector<FlipMaps>& maps) {
         flip::Evaluation evaluation = m_bands.one() ? m_plan.evaluation : bounded();
         evaluation.stops = m_exposures.stops;
         std::vector<flip::Output> outputs;
@@ -277,8 +283,6 @@ private:
                                      m_roi.width(), end - begin};
         flip::evaluate(evaluation, m_reference.planes.view(), views, window, outputs,
                        make_parallel(m_bands.threads()));
-        for (size_t t = from; t < from + count; ++t)
-            maps[t].take(begin, end, m_reference.planes, m_tests[t].planes);
     }
 
     const FlipPlan& m_plan;

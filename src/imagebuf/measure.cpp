@@ -4,7 +4,6 @@
 #include <limits>
 
 #include "imagebuf/parallel.h"
-#include "metrics/luminance.h"
 
 namespace tonetool {
 namespace {
@@ -12,11 +11,12 @@ namespace {
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 
 // One row: NaN where there is nothing to measure.
-void row_of_luminance(const ColorPlanes& planes, const OIIO::ROI& window, int y, float* out) {
+void row_of_luminance(const ColorPlanes& planes, const OIIO::ROI& window, int y,
+                      LuminanceRow luminances, float* out) {
     const int width = planes.width();
     const float* rgb[3];
     planes.row(planes.region.xbegin, y, rgb);
-    metrics::luminance_row(rgb[0], rgb[1], rgb[2], out, width);
+    luminances(rgb[0], rgb[1], rgb[2], out, width);
     const uint8_t* nonfinite = planes.nonfinite.data() + planes.at(y);
     const bool inside = y >= window.ybegin && y < window.yend;
     for (int i = 0; i < width; ++i) {
@@ -33,14 +33,14 @@ size_t luminance_bytes(const OIIO::ROI& region) {
 }
 
 bool read_luminance(ColorReader& reader, ColorPlanes& planes, int nthreads,
-                    PagedArray<float>& plane, std::string& error) {
+                    PagedArray<float>& plane, std::string& error, LuminanceRow luminances) {
     const OIIO::ROI& region = planes.region;
     const auto parallel = make_parallel(nthreads);
     plane.resize(luminance_bytes(region) / sizeof(float));
     const auto measure = [&](int begin, int end) {
         parallel(end - begin, [&](int64_t row) {
             const int y = begin + int(row);
-            row_of_luminance(planes, reader.window(), y,
+            row_of_luminance(planes, reader.window(), y, luminances,
                              plane.data() + size_t(y - region.ybegin) * size_t(region.width()));
         });
     };

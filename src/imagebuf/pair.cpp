@@ -65,6 +65,10 @@ ImageBuf interleaved(const ColorPlanes& planes, const ROI& full) {
     return image;
 }
 
+int64_t pixels_of(const ColorPlanes& planes) {
+    return int64_t(planes.width()) * planes.region.height();
+}
+
 // What resizing holds at most: planes and image, or images with and without holes before and after.
 uint64_t resize_bytes(const ROI& from, const ROI& to, bool alpha) {
     const auto pixels = [](const ROI& r) { return uint64_t(r.width()) * uint64_t(r.height()); };
@@ -72,7 +76,7 @@ uint64_t resize_bytes(const ROI& from, const ROI& to, bool alpha) {
     return std::max(pixels(from) * (2 * pixel + 1), 2 * pixel * (pixels(from) + pixels(to)));
 }
 
-bool resize_fits(const ROI& from, const ROI& to, const FlipOptions& options, std::string& error) {
+bool resize_fits(const ROI& from, const ROI& to, const PairOptions& options, std::string& error) {
     const uint64_t least = kSetAside + resize_bytes(from, to, options.alpha == AlphaPolicy::Error);
     if (options.memory == 0 || least <= options.memory)
         return true;
@@ -116,7 +120,7 @@ bool compared_region(const ImageBuf& reference, const ImageBuf& test, SizePolicy
     return false;
 }
 
-bool FittedTest::open(const ImageBuf& reference, const ImageBuf& test, const FlipOptions& options,
+bool FittedTest::open(const ImageBuf& reference, const ImageBuf& test, const PairOptions& options,
                       int nthreads, std::string& error) {
     if (!check_readable(reference, "reference", error) || !check_readable(test, "test", error))
         return false;
@@ -137,7 +141,7 @@ bool FittedTest::open(const ImageBuf& reference, const ImageBuf& test, const Fli
 
 // Only what is compared, in linear light and without its non-finite pixels, which stay what they
 // are where they were instead of spreading through the filter.
-bool FittedTest::resize(const ROI& window, const FlipOptions& options, int nthreads,
+bool FittedTest::resize(const ROI& window, const PairOptions& options, int nthreads,
                         std::string& error) {
     const bool alpha = options.alpha == AlphaPolicy::Error;
     ColorReader reader;
@@ -200,6 +204,35 @@ ColorPlanes FittedTest::planes(const ColorReader& reader) const {
     planes.choice.layer = m_choice.layer;
     planes.choice.space = m_choice.space;
     return planes;
+}
+
+FlipSide side_of(const ColorPlanes& planes) {
+    return {planes.choice.layer, planes.choice.space, planes.counts.nonfinite,
+            planes.counts.negative, planes.uncovered_count};
+}
+
+void warn_of_holes(const FlipSide& side, const std::string& who,
+                   std::vector<std::string>& warnings) {
+    if (side.nonfinite > 0)
+        warnings.push_back(std::to_string(side.nonfinite) + " pixel(s) of " + who +
+                           " are NaN or Inf");
+    if (side.uncovered > 0)
+        warnings.push_back(std::to_string(side.uncovered) + " compared pixel(s) lie outside " +
+                           who + "'s data window");
+}
+
+bool check_covered(const ColorPlanes& planes, const std::string& who, std::string& error) {
+    if (planes.uncovered_count < pixels_of(planes))
+        return true;
+    error = who + "'s data window covers none of the compared pixels: there is nothing to compare";
+    return false;
+}
+
+bool check_finite(const ColorPlanes& planes, const std::string& who, std::string& error) {
+    if (planes.counts.nonfinite + planes.uncovered_count < pixels_of(planes))
+        return true;
+    error = who + " has no finite pixel: there is nothing to compare";
+    return false;
 }
 
 int64_t mend_nonfinite(ColorPlanes& r, ColorPlanes& t, int begin, int end) {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "imagebuf/color_reader.h"
-#include "include/tonetool/flip.h"
+#include "include/tonetool/compare.h"
 
 namespace tonetool {
 
@@ -23,7 +23,7 @@ class FittedTest {
 public:
     /// Checks both images, resizes the test if that was asked for, finds the region.
     bool open(const OIIO::ImageBuf& reference, const OIIO::ImageBuf& test,
-              const FlipOptions& options, int nthreads, std::string& error);
+              const PairOptions& options, int nthreads, std::string& error);
     const OIIO::ROI& region() const { return m_region; }
     /// What a user must know of how the two go together.
     const std::vector<std::string>& notes() const { return m_notes; }
@@ -37,7 +37,7 @@ public:
     std::string name() const { return side_name("test", *m_test); }
 
 private:
-    bool resize(const OIIO::ROI& window, const FlipOptions& options, int nthreads,
+    bool resize(const OIIO::ROI& window, const PairOptions& options, int nthreads,
                 std::string& error);
     bool fill_window(const ColorPlanes& planes, OIIO::ROI window, int nthreads, std::string& error);
 
@@ -48,6 +48,17 @@ private:
     OIIO::ROI m_region;
     std::vector<std::string> m_notes;
 };
+
+/// How an image was read, once it has been.
+FlipSide side_of(const ColorPlanes& planes);
+/// Sentences about the pixels that a side ("the test") lacks.
+void warn_of_holes(const FlipSide& side, const std::string& who,
+                   std::vector<std::string>& warnings);
+
+/// Whether there is something to compare: pixels in the data window, which is known before they are
+/// read, and finite ones, once all of them have been.
+bool check_covered(const ColorPlanes& planes, const std::string& who, std::string& error);
+bool check_finite(const ColorPlanes& planes, const std::string& who, std::string& error);
 
 /// A pixel that is non-finite in one image takes the other's colour, so that the neighbourhood
 /// sees no difference there; non-finite in both it stays black. Works on rows that both hold and

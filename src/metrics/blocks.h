@@ -11,14 +11,19 @@
 
 namespace tonetool::metrics {
 
-/// Calls visit(first row, end row) for blocks of about kBlockPixels, in any order.
+/// Rows of a block, which has about 2^16 pixels.
+inline int64_t block_rows(int width) {
+    constexpr int64_t pixels = int64_t(1) << 16;
+    return std::max<int64_t>(1, pixels / std::max(width, 1));
+}
+
+/// Calls visit(first row, end row) for blocks, in any order.
 template <class Visit>
 void for_each_block(int width, int height, const kernels::ParallelFor& parallel,
                     const Visit& visit) {
-    constexpr int64_t kBlockPixels = int64_t(1) << 16;
     if (width <= 0 || height <= 0)
         return;
-    const int64_t rows = std::max<int64_t>(1, kBlockPixels / width);
+    const int64_t rows = block_rows(width);
     parallel((height + rows - 1) / rows, [&](int64_t block) {
         visit(int(block * rows), int(std::min<int64_t>(height, (block + 1) * rows)));
     });

@@ -7,33 +7,23 @@
 #pragma once
 
 #include <OpenImageIO/imagebuf.h>
-#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "tonetool/compare.h"
 #include "tonetool/export.h"
-#include "tonetool/numbers.h"
-#include "tonetool/pixels.h"
 #include "tonetool/tonemap.h"
 
 namespace tonetool {
 
 /// What LDR-FLIP and HDR-FLIP have in common.
-struct FlipOptions {
-    PixelOptions pixels;                 ///< layer and colour space, for both images
-    SizePolicy size = SizePolicy::Match; ///< different display windows
-    AlphaPolicy alpha = AlphaPolicy::Ignore;
+struct FlipOptions : PairOptions {
     /// Pixels per degree of visual angle, 1 to 1000. Unset: from the three numbers below.
     std::optional<double> ppd;
     double distance = 0.7;       ///< viewing distance in metres, > 0
     double width = 0.7;          ///< width of the screen in metres, > 0
     double pixels_across = 3840; ///< width of the screen in pixels, > 0
-    /// Bytes that a process with no other work needs at most for the call. Where the images as
-    /// planes (13 bytes per pixel and image) do not fit, they are read in bands of rows, twice if
-    /// the reference is measured: the same bits in more time. See "Memory" at ldr_flip. 0: bands
-    /// only where half of the physical memory is not enough.
-    uint64_t memory = 0;
 };
 
 /// HDR-FLIP: the exposures and the tone curve.
@@ -62,20 +52,8 @@ struct HdrFlipOptions : FlipOptions {
     bool want_exposures = false;            ///< fill FlipResult::exposures
 };
 
-/// How one image was read and what was found in it.
-struct FlipSide {
-    std::string layer;     ///< "" for plain R,G,B
-    std::string space;     ///< colour space the stored values were read in
-    int64_t nonfinite = 0; ///< pixels with NaN or Inf in R, G or B (or in a compared alpha)
-    int64_t negative = 0;  ///< pixels with a negative R, G or B in linear Rec.709, set to 0
-    int64_t uncovered = 0; ///< compared pixels outside this image's data window, black
-};
-
 /// Everything a reader needs to repeat and to trust the number.
-struct FlipSummary {
-    FlipPool pool;
-    FlipSide reference, test;
-    int64_t nonfinite_both = 0; ///< pixels that are non-finite in both images: error 0
+struct FlipSummary : PairSummary {
     double ppd = 0;
     bool hdr = false;
     std::string tonemapper;                   ///< "aces", ..., "coeffs", or "display/view"
@@ -90,12 +68,6 @@ struct FlipSummary {
     std::vector<double> exposures;                  ///< stops, ascending; empty for LDR-FLIP
     double max_luminance = 0, median_luminance = 0; ///< that gave the exposures, 0 if not used
     bool median_of_lit = false; ///< more than half the reference is black: median of the rest
-    OIIO::ROI region;           ///< pixels compared
-    bool alpha_compared = false;
-    double alpha_mean = 0, alpha_max = 0; ///< |alpha difference|
-    int alpha_max_x = 0, alpha_max_y = 0;
-    /// What a user must know, one sentence each (non-finite pixels, uncovered pixels, ...).
-    std::vector<std::string> warnings;
 };
 
 /// One exposure of HDR-FLIP: the pair as it was compared and its LDR-FLIP map.

@@ -36,4 +36,14 @@ struct LuminanceStats {
     std::string layer, space;
 };
 
+/// Tone-mapped image quality index, each figure 0 to 1 (the structure of a scale can fall below 0),
+/// higher is better.
+struct TmqiScore {
+    double q = 0;                   ///< 0.8012 s^0.3046 + 0.1988 n^0.7088
+    double s = 0;                   ///< structural fidelity
+    double n = 0;                   ///< statistical naturalness
+    std::array<double, 5> scales{}; ///< fidelity at each scale, the finest first
+    double mean = 0, deviation = 0; ///< of the display picture, 0 to 255, that n follows from
+};
+
 } // namespace tonetool

@@ -2,11 +2,14 @@
 #pragma once
 
 #include "tonetool/cgtmo.h"
+#include "tonetool/compare.h"
 #include "tonetool/display.h"
+#include "tonetool/errors.h"
 #include "tonetool/export.h"
 #include "tonetool/flip.h"
 #include "tonetool/luminance.h"
 #include "tonetool/lut.h"
 #include "tonetool/pixels.h"
+#include "tonetool/tmqi.h"
 #include "tonetool/tonemap.h"
 #include "tonetool/write.h"

@@ -89,8 +89,8 @@ bool read(const FittedTest& fitted, bool alpha, ColorPlanes& planes, std::string
     return reader.read(fitted.region().ybegin, fitted.region().yend, planes, error);
 }
 
-FlipOptions with_size(SizePolicy size) {
-    FlipOptions options;
+PairOptions with_size(SizePolicy size) {
+    PairOptions options;
     options.size = size;
     return options;
 }
@@ -101,7 +101,7 @@ TEST(FittedTest, ResizesToTheReferencesDisplayWindow) {
         constant(make_spec(10, 5, {"Z", "B", "G", "R", "A"}), {9, 0.25f, 0.5f, 0.75f, 0.5f});
     FittedTest fitted;
     std::string error;
-    FlipOptions options = with_size(SizePolicy::Resize);
+    PairOptions options = with_size(SizePolicy::Resize);
     options.alpha = AlphaPolicy::Error;
     ASSERT_TRUE(fitted.open(reference, test, options, 1, error)) << error;
     EXPECT_EQ(fitted.region(), rect(0, 20, 0, 10));

@@ -1,0 +1,13 @@
+// Where a finished map goes.
+#pragma once
+
+#include <OpenImageIO/imagebuf.h>
+#include <string>
+
+namespace tonetool {
+
+/// An image the caller prepared takes the map's pixels in place, and its attributes that begin with
+/// `prefix`; any other becomes the map.
+void deliver(OIIO::ImageBuf& dst, OIIO::ImageBuf&& map, const std::string& prefix);
+
+} // namespace tonetool

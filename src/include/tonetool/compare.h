@@ -1,0 +1,49 @@
+// What all comparisons of two images have in common.
+#pragma once
+
+#include <OpenImageIO/imagebuf.h>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "tonetool/numbers.h"
+#include "tonetool/pixels.h"
+
+namespace tonetool {
+
+/// How a reference and a test image are brought together.
+struct PairOptions {
+    PixelOptions pixels;                 ///< layer and colour space, for both images
+    SizePolicy size = SizePolicy::Match; ///< different display windows
+    AlphaPolicy alpha = AlphaPolicy::Ignore;
+    /// Bytes that a process with no other work needs at most for the call. Where the images as
+    /// planes (13 bytes per pixel and image) do not fit, they are read in bands of rows, twice if
+    /// the reference is measured: the same bits in more time. See "Memory" at
+    /// ldr_flip in flip.h. 0: bands
+    /// only where half of the physical memory is not enough.
+    uint64_t memory = 0;
+};
+
+/// How one image was read and what was found in it.
+struct FlipSide {
+    std::string layer;     ///< "" for plain R,G,B
+    std::string space;     ///< colour space the stored values were read in
+    int64_t nonfinite = 0; ///< pixels with NaN or Inf in R, G or B (or in a compared alpha)
+    int64_t negative = 0;  ///< pixels with a negative R, G or B in linear Rec.709, set to 0
+    int64_t uncovered = 0; ///< compared pixels outside this image's data window, black
+};
+
+/// What was compared, and what came of it.
+struct PairSummary {
+    FlipPool pool;
+    FlipSide reference, test;
+    int64_t nonfinite_both = 0; ///< pixels that are non-finite in both images: error 0
+    OIIO::ROI region;           ///< pixels compared
+    bool alpha_compared = false;
+    double alpha_mean = 0, alpha_max = 0; ///< |alpha difference|
+    int alpha_max_x = 0, alpha_max_y = 0;
+    /// What a user must know, one sentence each (non-finite pixels, uncovered pixels, ...).
+    std::vector<std::string> warnings;
+};
+
+} // namespace tonetool

@@ -1,0 +1,39 @@
+// TMQI: H. Yeganeh, Z. Wang, "Objective Quality Assessment of Tone-Mapped Images", IEEE
+// Transactions on Image Processing 22(2), 2013.
+#pragma once
+
+#include <cstddef>
+
+#include "include/tonetool/numbers.h"
+#include "kernels/views.h"
+
+namespace tonetool::metrics {
+
+/// The window of the statistics; smaller images have no TMQI.
+inline constexpr int kTmqiWindow = 11;
+
+/// An HDR image and the picture of it as planes of one size, row by row without padding.
+struct TmqiPair {
+    const float* hdr = nullptr; ///< linear luminance, in any unit
+    const float* ldr = nullptr; ///< luminance of the display-encoded values, 0 to 255
+    int width = 0, height = 0;
+};
+
+/// Smallest and largest of the finite values; both 0 if there are none.
+struct LightRange {
+    double low = 0, high = 0;
+};
+LightRange light_range(const float* plane, int width, int height,
+                       const kernels::ParallelFor& parallel);
+
+/// Scores the picture. `range`, not empty, is what the HDR image is scaled by; what is not finite
+/// enters as its low end, in the picture as 0, and has structure 0 in the finest scale where one of
+/// the two alone is not finite. `structure` receives the map of the finest scale, 1 where the
+/// picture keeps what the HDR image shows. The bits do not depend on how `parallel` schedules.
+TmqiScore tmqi(const TmqiPair& pair, const LightRange& range, float* structure,
+               const kernels::ParallelFor& parallel);
+
+/// Bytes of work space of each thread; beside these, tmqi() holds 5 bytes per pixel.
+size_t tmqi_work_bytes(int width, int height);
+
+} // namespace tonetool::metrics

@@ -1,0 +1,142 @@
+"""Error maps: what --errormap prints and pushes, and the status it ends with."""
+
+import math
+import os
+
+import numpy as np
+import pytest
+
+METRICS = ["smape", "rmae", "relmse", "mse", "mae", "psnr", "mpsnr"]
+
+
+def beauty(read, name):
+    pixels, spec = read(name)
+    names = list(spec.channelnames)
+    at = [names.index(f"ViewLayer.Combined.{c}") for c in "RGB"]
+    return np.maximum(pixels[:, :, at].astype(np.float64), 0)
+
+
+@pytest.mark.parametrize("metric, formula", [
+    ("smape", lambda r, t: abs(t - r) / (r + t + 0.01)),
+    ("rmae", lambda r, t: abs(t - r) / (r + 0.01)),
+    ("relmse", lambda r, t: (t - r) ** 2 / (r ** 2 + 0.01)),
+    ("mse", lambda r, t: (t - r) ** 2),
+    ("mae", lambda r, t: abs(t - r)),
+])
+def test_maps_are_their_formulas(tonetool, pair, read, metric, formula):
+    ran = tonetool(*pair, f"--errormap:metric={metric}", "-o", "x.exr")
+    expected = formula(beauty(read, pair[0]), beauty(read, pair[1])).mean(axis=2)
+    pixels, spec = read("x.exr")
+    np.testing.assert_allclose(pixels[:, :, 0], expected, rtol=1e-6)
+    assert float(ran.fact(metric)) == pytest.approx(expected.mean(), rel=1e-5)
+    assert ran.fact("mean") == ran.fact(metric)
+    assert spec.getattribute("Error:metric") == metric
+
+
+def test_psnr_and_mpsnr(tonetool, pair, read):
+    r, t = beauty(read, pair[0]), beauty(read, pair[1])
+    ran = tonetool(*pair, "--errormap:metric=psnr:peak=10")
+    assert float(ran.fact("psnr")) == pytest.approx(10 * math.log10(100 / ((t - r) ** 2).mean()),
+                                                    rel=1e-5)
+    ran = tonetool(*pair, "--errormap:metric=mpsnr:startExposure=-2:stopExposure=2:numExposures=5")
+    assert ran.fact("exposures") == "start -2 stop 2 count 5"
+
+    def photo(x, stops):
+        return np.floor(np.clip(255 * (2.0 ** stops * x) ** (1 / 2.2), 0, 255) + 0.5)
+
+    mse = np.mean([((photo(t, c) - photo(r, c)) ** 2).mean() for c in range(-2, 3)])
+    assert float(ran.fact("mpsnr")) == pytest.approx(10 * math.log10(255 ** 2 / mse), rel=1e-5)
+    flip = tonetool(*pair, "--hdrflip")
+    assert tonetool(*pair, "--errormap:metric=mpsnr").fact("exposures") == flip.fact("exposures")
+
+
+@pytest.mark.parametrize("metric", METRICS)
+def test_identical_images_give_exactly_zero(tonetool, pair, read, metric):
+    higher = metric.endswith("psnr")
+    limit = "1000" if higher else "0"
+    ran = tonetool(pair[0], pair[0], f"--errormap:metric={metric}:fail={limit}", "-o", "x.exr")
+    assert ran.fact(metric) == ("inf" if higher else "0")
+    assert f"errormap: PASS {metric} " in ran.out
+    assert not read("x.exr")[0].any()
+
+
+def test_threshold_statuses(tonetool, pair, tmp_path):
+    value = tonetool(*pair, "--errormap:metric=smape").fact("smape")
+    ran = tonetool(*pair, "--errormap:metric=smape:fail=0.01", "-o", "x.exr", status=3)
+    assert f"errormap: FAIL smape {value} > 0.01" in ran.out
+    assert (tmp_path / "x.exr").exists()
+    ran = tonetool(*pair, "--errormap:metric=smape:fail=0.9:warn=0.01")
+    assert f"errormap: PASS smape {value} <= 0.9" in ran.out
+    assert f"WARNING: errormap : smape {value} > 0.01" in ran.err
+    tonetool(*pair, "--errormap:metric=smape:warn=0.01", "--warnings-exit", status=2)
+
+
+@pytest.mark.parametrize("metric", ["psnr", "mpsnr"])
+def test_decibels_must_reach_their_threshold(tonetool, pair, metric):
+    value = tonetool(*pair, f"--errormap:metric={metric}").fact(metric)
+    ran = tonetool(*pair, f"--errormap:metric={metric}:fail=60", status=3)
+    assert f"errormap: FAIL {metric} {value} < 60" in ran.out
+    ran = tonetool(*pair, f"--errormap:metric={metric}:fail=-60")
+    assert f"errormap: PASS {metric} {value} >= -60" in ran.out
+    # The quantities of the map are errors all the same.
+    ran = tonetool(*pair, f"--errormap:metric={metric}:fail=0:quantity=max", status=3)
+    assert "errormap: FAIL max " in ran.out
+
+
+@pytest.mark.parametrize("metric", METRICS)
+def test_threads_do_not_change_the_numbers(tonetool, pair, read, metric):
+    one = tonetool("--threads", "1", *pair, f"--errormap:metric={metric}", "-o", "a.exr")
+    two = tonetool("--threads", "2", *pair, f"--errormap:metric={metric}", "-o", "b.exr")
+    assert one.out == two.out
+    assert np.array_equal(read("a.exr")[0], read("b.exr")[0])
+    bounded = tonetool("--memory", "110M", *pair, f"--errormap:metric={metric}")
+    assert bounded.out == one.out
+
+
+def test_nonfinite_pixels_are_the_largest_error(tonetool, testimages, read):
+    words = [testimages / "plain.exr", testimages / "nan_center.exr"]
+    ran = tonetool("--warnings-exit", *words, "--errormap:metric=relmse", "-o", "x.exr", status=2)
+    assert ran.fact("test-nonfinite") == "1" and ran.fact("max") == "1 at 32,24"
+    assert read("x.exr")[0][24, 32, 0] == 1
+    ran = tonetool(words[1], words[1], "--errormap:metric=relmse")
+    assert ran.fact("max").startswith("0 ") and ran.fact("nonfinite-in-both") == "1"
+
+
+def test_quiet_and_print(tonetool, pair):
+    assert tonetool("-q", *pair, "--errormap:metric=mae:fail=1e9").out == ""
+    ran = tonetool(*pair, "--errormap:metric=mae:fail=1e9:print=0")
+    assert ran.out.startswith("errormap: PASS mae") and len(ran.out.splitlines()) == 1
+
+
+@pytest.mark.parametrize("modifiers, text", [
+    ("", "needs metric= (valid: smape, rmae"),
+    (":metric=mspe", 'unknown metric "mspe"'),
+    (":metric=SMAPE", 'unknown metric "SMAPE"'),
+    (":metric=mse:eps=0.1", "eps= goes with metric=smape, rmae, relmse, not with mse"),
+    (":metric=mse:peak=1", "peak= goes with metric=psnr, not with mse"),
+    (":metric=psnr:numExposures=3", "numExposures= goes with metric=mpsnr"),
+    (":metric=smape:eps=0", "eps "),
+    (":metric=psnr:peak=-1", "peak "),
+    (":metric=mpsnr:numExposures=0", "numExposures "),
+    (":metric=smape:quantity=max", "quantity= needs fail= or warn="),
+    (":metric=smape:quantity=psnr:fail=1", 'unknown quantity "psnr"'),
+    (":metric=smape:fail=-1", "fail "),
+    (":metric=smape:print=2", "print "),
+    (":metric=smape:ppd=67", '"ppd"'),
+])
+def test_bad_values_are_errors_and_write_nothing(tonetool, pair, tmp_path, modifiers, text):
+    ran = tonetool(*pair, f"--errormap{modifiers}", "-o", "x.exr", status=1)
+    assert "tonetool ERROR: " in ran.err and text in ran.err
+    assert not os.listdir(tmp_path)
+
+
+def test_geometry_and_files(tonetool, pair, make_image, testimages):
+    small = make_image("a.exr", width=8, height=6)
+    ran = tonetool(make_image("b.exr"), small, "--errormap:metric=mae", status=1)
+    assert "display window" in ran.err
+    tonetool("b.exr", small, "--errormap:metric=mae:resize=1")
+    ran = tonetool("b.exr", small, "--errormap:metric=mae:crop=1")
+    assert ran.fact("pixels") == "48"
+    tonetool(pair[0], testimages / "not_an_image.exr", "--errormap:metric=mae", status=1)
+    tonetool(pair[0], testimages / "y_only.exr", "--errormap:metric=mae", status=1)
+    tonetool(pair[0], "--errormap:metric=mae", status=1)
