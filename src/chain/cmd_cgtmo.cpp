@@ -94,13 +94,9 @@ std::vector<Modifier> cgtmo_modifiers() {
 } // namespace
 
 std::vector<Command> cgtmo_commands() {
-    return {{{"cgtmo"},
-             {},
-             1,
-             1,
+    return {{{{"cgtmo"}, {}, 1, 1, Group::Color},
              cgtmo_modifiers(),
              "HDR to a display locally, guided by the render's position, normal and albedo",
-             Group::Color,
              run_cgtmo}};
 }
 
