@@ -1,0 +1,1 @@
+#include "imagebuf/gbuffer.h"
