@@ -72,29 +72,30 @@ private:
     std::vector<int64_t> m_sums;
 };
 
-// How far the nearest offset is from each place: squared, in the unit of the density there.
+// How far the nearest offset is from each place: squared, in the unit of the density there. No more
+// than half^2 times 2^13: roots are small where distances are not.
 class Distances {
 public:
     explicit Distances(const Density& density)
         : m_density(density),
-          m_squares(density.roots().size(), INT64_MAX) {}
+          m_squares(density.roots().size(), INT32_MAX) {}
 
-    int64_t operator[](int place) const { return m_squares[size_t(place)]; }
+    int32_t operator[](int place) const { return m_squares[size_t(place)]; }
 
     void take(int place) {
         const int side = m_density.side(), x0 = place % side, y0 = place / side;
-        const int64_t root = m_density.roots()[size_t(place)];
+        const int32_t root = m_density.roots()[size_t(place)];
         for (int y = 0; y < side; ++y)
             for (int x = 0; x < side; ++x) {
                 const auto i = size_t(y * side + x);
-                const int64_t square = (x - x0) * (x - x0) + (y - y0) * (y - y0);
+                const int32_t square = (x - x0) * (x - x0) + (y - y0) * (y - y0);
                 m_squares[i] = std::min(m_squares[i], square * root * m_density.roots()[i]);
             }
     }
 
 private:
     const Density& m_density;
-    std::vector<int64_t> m_squares;
+    std::vector<int32_t> m_squares;
 };
 
 int best_candidate(const Density& density, const Distances& distances, Random& random,
@@ -110,7 +111,7 @@ int best_candidate(const Density& density, const Distances& distances, Random& r
 }
 
 std::vector<Offset> make_set(int half, int count, const Density& density, unsigned seed) {
-    constexpr int kCandidatesEach = 4, kLeastCandidates = 16;
+    constexpr int kCandidatesEach = 1, kLeastCandidates = 16;
     Distances distances(density);
     Random random(seed + 1u);
     std::vector<Offset> out;
