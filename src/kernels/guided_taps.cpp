@@ -15,6 +15,10 @@ TapSets::TapSets(const std::vector<std::vector<Offset>>& sets, double sigma) : m
             taps.push_back({o.dx, o.dy, float(gaussian - std::log2(o.density))});
             m_half = std::max({m_half, std::abs(o.dx), std::abs(o.dy)});
         }
+        // Row by row: neighbours share lines of memory.
+        std::stable_sort(taps.begin(), taps.end(), [](const Tap& a, const Tap& b) {
+            return a.dy != b.dy ? a.dy < b.dy : a.dx < b.dx;
+        });
     }
 }
 
