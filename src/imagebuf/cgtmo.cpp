@@ -190,10 +190,13 @@ private:
         GBufferNames names;
         if (guided) {
             const GuideOptions asked{m_options.position, m_options.normal, m_options.albedo,
-                                     m_options.depth};
+                                     m_options.depth, summary.layer};
             if (!find_gbuffer(m_src.spec(), asked, names, error) ||
                 !read_gbuffer(m_src, names, m_region, m_nthreads, m_guides, error))
                 return false;
+            const ImageSpec& file = m_src.nativespec();
+            m_half_positions = names.position && file.nchannels == m_src.nchannels() &&
+                               file.channelformat(names.position->channel[0]) == OIIO::TypeHalf;
             summary.warnings.insert(summary.warnings.end(), m_guides.warnings.begin(),
                                     m_guides.warnings.end());
         }
@@ -257,7 +260,7 @@ private:
         if (!one_of("footprint", m_options.footprint, {"pixel", "global", "a number"}, error))
             return false;
         m_footprints.resize(size_t(m_region.width()) * size_t(m_region.height()));
-        tonemap::footprints(m_view, m_guides.half ? tonemap::kHalfStep : tonemap::kFloatStep,
+        tonemap::footprints(m_view, m_half_positions ? tonemap::kHalfStep : tonemap::kFloatStep,
                             m_footprints.data(), make_parallel(m_nthreads));
         summary.footprint =
             tonemap::median_footprint(m_footprints.data(), m_region.width(), m_region.height());
@@ -335,6 +338,7 @@ private:
     ColorReader m_reader;
     ColorPlanes m_planes;
     GBuffer m_guides;
+    bool m_half_positions = false;
     std::vector<float> m_footprints;
     kernels::GuidePlanes m_view;
 };

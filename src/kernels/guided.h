@@ -46,11 +46,14 @@ inline constexpr float kLargestGuidedValue = 1e35f, kFarthestPosition = 1e15f;
 /// Weights whose log2 is below this are 0.
 inline constexpr float kLeastLog2Weight = -126.5f;
 
+/// `density`: how many offsets there are about this one, in any unit; the fewer they are, the more
+/// each of them counts.
 struct Offset {
     int dx = 0, dy = 0;
+    double density = 1;
 };
 
-/// An offset of the window and log2 of its spatial weight.
+/// An offset of the window and log2 of its spatial weight, the Gaussian over the density.
 struct Tap {
     int dx, dy;
     float log2_weight;

@@ -11,9 +11,14 @@ TapSets::TapSets(const std::vector<std::vector<Offset>>& sets, double sigma) : m
     for (const auto& set : sets) {
         std::vector<Tap>& taps = m_sets.emplace_back();
         for (const Offset& o : set) {
-            taps.push_back({o.dx, o.dy, float(log2_of_step * (o.dx * o.dx + o.dy * o.dy))});
+            const double gaussian = log2_of_step * (o.dx * o.dx + o.dy * o.dy);
+            taps.push_back({o.dx, o.dy, float(gaussian - std::log2(o.density))});
             m_half = std::max({m_half, std::abs(o.dx), std::abs(o.dy)});
         }
+        // Row by row: neighbours share lines of memory.
+        std::stable_sort(taps.begin(), taps.end(), [](const Tap& a, const Tap& b) {
+            return a.dy != b.dy ? a.dy < b.dy : a.dx < b.dx;
+        });
     }
 }
 

@@ -111,8 +111,8 @@ double guided_twin(const GuidePlanes& image, const GuidedTerms& terms, const Tap
         const ptrdiff_t j = (ny - image.first_row) * image.stride + nx;
         if (!counts(image, terms, j) || is_surface(image, i) != is_surface(image, j))
             continue;
-        const double square = tap.dx * tap.dx + tap.dy * tap.dy;
-        const double exponent = share(square, taps.sigma()) + guide_exponent(image, terms, i, j);
+        const double exponent =
+            guide_exponent(image, terms, i, j) - double(tap.log2_weight) * std::log(2.0);
         if (-exponent < double(kLeastLog2Weight) * std::log(2.0))
             continue;
         const double w = std::exp(-exponent);

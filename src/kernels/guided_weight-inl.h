@@ -23,7 +23,7 @@ constexpr float kFarAway = 3e18f;
 constexpr int kTogether = HWY_MAX_BYTES == 64 ? 4 : 2;
 using Together = V[kTogether];
 
-/// 2^x for x <= 0, exactly 0 below kLeastLog2Weight; relative error below 2.8e-6. The polynomial
+/// 2^x for x < 127, exactly 0 below kLeastLog2Weight; relative error below 2.8e-6. The polynomial
 /// has the least relative error for its degree.
 HWY_INLINE void Weights2(Together& x) {
     const hn::RebindToSigned<D> di;

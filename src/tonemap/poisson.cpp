@@ -14,88 +14,137 @@ class Random {
 public:
     explicit Random(uint64_t seed) : m_state(seed * 0x632be59bd9b4e019u) {}
     /// In [0, n), n much less than 2^32.
-    int below(int n) {
+    int64_t below(int64_t n) {
         m_state += 0x9e3779b97f4a7c15u;
         uint64_t z = (m_state ^ (m_state >> 30)) * 0xbf58476d1ce4e5b9u;
         z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
         z ^= z >> 31;
-        return int((z >> 32) * uint64_t(n) >> 32);
+        return int64_t((z >> 32) * uint64_t(n) >> 32);
     }
 
 private:
     uint64_t m_state;
 };
 
-// The window as a torus, with each place's squared distance to the nearest offset taken.
-class Places {
+constexpr int32_t kOne = 256; // a share of 1
+
+// Root of the wanted density at each place of the window. No place is taken twice: where so many
+// offsets are wanted that it would have to be, the density is cut off.
+class Density {
 public:
-    explicit Places(int half)
-        : m_half(half),
-          m_side(2 * half + 1),
-          m_squares(size_t(m_side)),
-          m_nearest(size_t(m_side) * size_t(m_side), INT32_MAX) {}
+    Density(int half, int count) : m_side(2 * half + 1) {
+        const int64_t q = std::max(int64_t(half) * half, int64_t(1));
+        for (int dy = -half; dy <= half; ++dy)
+            for (int dx = -half; dx <= half; ++dx)
+                m_roots.push_back(int32_t(kOne * q / (q + 8 * (dx * dx + dy * dy))));
+        while (m_most > 1 && places(m_most) < count)
+            --m_most;
+        for (int32_t& root : m_roots)
+            root = std::clamp(root, 1, m_most);
+        int64_t sum = 0;
+        for (int32_t root : m_roots)
+            m_sums.push_back(sum += int64_t(root) * root);
+    }
 
-    int count() const { return int(m_nearest.size()); }
     int side() const { return m_side; }
-    int32_t nearest(int place) const { return m_nearest[size_t(place)]; }
-    Offset offset(int place) const { return {place % m_side - m_half, place / m_side - m_half}; }
-
-    void take(int place) {
-        const int x0 = place % m_side, y0 = place / m_side;
-        for (int x = 0; x < m_side; ++x)
-            m_squares[size_t(x)] = square(x - x0);
-        for (int y = 0; y < m_side; ++y) {
-            int32_t* const row = m_nearest.data() + y * m_side;
-            const int32_t down = square(y - y0);
-            for (int x = 0; x < m_side; ++x)
-                row[x] = std::min(row[x], m_squares[size_t(x)] + down);
-        }
+    const std::vector<int32_t>& roots() const { return m_roots; }
+    double at(int place) const {
+        const double share = double(m_roots[size_t(place)]) / m_most;
+        return share * share;
+    }
+    int draw(Random& random) const {
+        const int64_t at = random.below(m_sums.back());
+        return int(std::upper_bound(m_sums.begin(), m_sums.end(), at) - m_sums.begin());
     }
 
 private:
-    int32_t square(int step) const {
-        const int away = std::min(std::abs(step), m_side - std::abs(step));
-        return away * away;
+    // How many offsets there are if places of this root are taken once.
+    int64_t places(int32_t most) const {
+        int64_t sum = 0;
+        for (int32_t root : m_roots)
+            sum += int64_t(std::min(root, most)) * std::min(root, most);
+        return sum / (int64_t(most) * most);
     }
 
-    int m_half, m_side;
-    std::vector<int32_t> m_squares, m_nearest;
+    int m_side;
+    int32_t m_most = kOne;
+    std::vector<int32_t> m_roots;
+    std::vector<int64_t> m_sums;
 };
 
-int best_candidate(const Places& places, Random& random, int candidates) {
-    int best = random.below(places.count());
+// How far the nearest offset is from each place: squared, in the unit of the density there. No more
+// than half^2 times 2^13: roots are small where distances are not.
+class Distances {
+public:
+    explicit Distances(const Density& density)
+        : m_density(density),
+          m_squares(density.roots().size(), INT32_MAX) {}
+
+    int32_t operator[](int place) const { return m_squares[size_t(place)]; }
+
+    void take(int place) {
+        const int side = m_density.side(), x0 = place % side, y0 = place / side;
+        const int32_t root = m_density.roots()[size_t(place)];
+        for (int y = 0; y < side; ++y)
+            for (int x = 0; x < side; ++x) {
+                const auto i = size_t(y * side + x);
+                const int32_t square = (x - x0) * (x - x0) + (y - y0) * (y - y0);
+                m_squares[i] = std::min(m_squares[i], square * root * m_density.roots()[i]);
+            }
+    }
+
+private:
+    const Density& m_density;
+    std::vector<int32_t> m_squares;
+};
+
+int best_candidate(const Density& density, const Distances& distances, Random& random,
+                   int candidates) {
+    int best = density.draw(random);
     for (int i = 1; i < candidates; ++i)
-        if (const int other = random.below(places.count());
-            places.nearest(other) > places.nearest(best))
+        if (const int other = density.draw(random); distances[other] > distances[best])
             best = other;
     // All taken: the first that is free.
-    for (int place = 0; places.nearest(best) == 0 && place < places.count(); ++place)
+    for (int place = 0; distances[best] == 0; ++place)
         best = place;
     return best;
+}
+
+std::vector<Offset> make_set(int half, int count, const Density& density, unsigned seed) {
+    constexpr int kCandidatesEach = 1, kLeastCandidates = 16;
+    Distances distances(density);
+    Random random(seed + 1u);
+    std::vector<Offset> out;
+    int place = (density.side() * density.side()) / 2;
+    while (true) {
+        out.push_back(
+            {place % density.side() - half, place / density.side() - half, density.at(place)});
+        if (int(out.size()) == count)
+            return out;
+        distances.take(place);
+        place = best_candidate(density, distances, random,
+                               kLeastCandidates + kCandidatesEach * int(out.size()));
+    }
+}
+
+// At least the centre, at most every place.
+int possible(int half, int count) {
+    return std::clamp(count, 1, (2 * half + 1) * (2 * half + 1));
 }
 
 } // namespace
 
 std::vector<Offset> poisson_set(int half, int count, unsigned seed) {
-    Places places(half);
-    Random random(seed + 1u);
-    count = std::clamp(count, 1, places.count());
-    std::vector<Offset> out;
-    for (int place = places.count() / 2; int(out.size()) < count;) {
-        out.push_back(places.offset(place));
-        places.take(place);
-        constexpr int kCandidatesEach = 4, kLeastCandidates = 16;
-        if (int(out.size()) < count)
-            place = best_candidate(places, random,
-                                   kLeastCandidates + kCandidatesEach * int(out.size()));
-    }
-    return out;
+    count = possible(half, count);
+    return make_set(half, count, Density(half, count), seed);
 }
 
 std::vector<std::vector<Offset>> poisson_sets(int half, int count, int sets) {
+    count = possible(half, count);
+    const Density density(half, count);
     std::vector<std::vector<Offset>> out;
     for (int i = 0; i < sets; ++i)
-        out.push_back(poisson_set(half, count, unsigned(i)));
+        out.push_back(make_set(half, count, density, unsigned(i)));
     return out;
 }
 

@@ -13,9 +13,11 @@ inline constexpr int kPoissonSamples = 80, kPoissonSets = 64;
 
 /// `count` different offsets, |dx|, |dy| <= half, the first of them (0, 0), well apart from one
 /// another: each is the farthest from the others of several random candidates (D. P. Mitchell,
-/// "Spectrally Optimal Sampling for Distribution Ray Tracing", 1991). Opposite edges of the window
-/// count as neighbours, lest offsets crowd at them. The same on every machine. At most as many as
-/// the window holds.
+/// "Spectrally Optimal Sampling for Distribution Ray Tracing", 1991). The authors spread them
+/// evenly; most of them then get next to no weight from a Gaussian of sigma half / 2.5. Here their
+/// density falls as 1 / (1 + 8 r^2 / half^2)^2, like the product of that Gaussian with the one of
+/// positions, which leaves less than half of the error. The same on every machine: integers alone.
+/// At most as many as the window holds.
 std::vector<kernels::Offset> poisson_set(int half, int count, unsigned seed);
 
 /// As many sets, no two the same unless there are too few offsets for that.

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <set>
 
@@ -18,12 +19,14 @@ std::set<std::pair<int, int>> as_set(const std::vector<Offset>& offsets) {
     return out;
 }
 
-int least_square(const std::vector<Offset>& offsets) {
-    int least = 1 << 30;
+// Squared distance of the nearest two, in steps of the mean distance at their density.
+double least_square(const std::vector<Offset>& offsets) {
+    double least = 1e30;
     for (size_t i = 0; i < offsets.size(); ++i)
         for (size_t j = 0; j < i; ++j) {
             const int x = offsets[i].dx - offsets[j].dx, y = offsets[i].dy - offsets[j].dy;
-            least = std::min(least, x * x + y * y);
+            least = std::min(least, (x * x + y * y) * std::sqrt(offsets[i].density) *
+                                        std::sqrt(offsets[j].density));
         }
     return least;
 }
@@ -52,12 +55,12 @@ TEST(PoissonSets, AreAllDifferent) {
     }
 }
 
-// A square grid of as many points in 41 x 41 has steps of 41 / sqrt(count); a Poisson disk keeps
-// half of that at least, where random points come to touch.
+// The density is 1 at the centre and its integral 400 pi / 8 = 157: so much there is for each of
+// them. A Poisson disk keeps half the distance of a square grid at least; random points touch.
 TEST(PoissonSets, AreWellApart) {
-    for (int count : {32, 64, 80, 120})
+    for (int count : {16, 32, 64})
         for (const auto& set : poisson_sets(20, count))
-            EXPECT_GE(least_square(set) * 4, 41 * 41 / count) << count;
+            EXPECT_GE(least_square(set), 0.25 * 157 / count) << count;
 }
 
 // Nothing but integers: the same with every compiler and library.
@@ -66,22 +69,34 @@ TEST(PoissonSets, AreTheSameEverywhere) {
     for (const auto& set : poisson_sets(20, 80))
         for (const Offset& o : set)
             sum = sum * 31 + uint32_t(o.dx + 20) * 41 + uint32_t(o.dy + 20);
-    EXPECT_EQ(sum, 296769513u);
+    EXPECT_EQ(sum, 3626618291u);
 }
 
-// Every part of the window gets its share over all sets.
-TEST(PoissonSets, CoverTheWindowEvenly) {
-    int quarters[4] = {}, edges = 0, all = 0;
+// Over all sets every place has as many offsets as its density says, whatever the direction.
+TEST(PoissonSets, FollowTheirDensity) {
+    double x = 0, y = 0, near = 0, all = 0, expected = 0, sum = 0;
     for (const auto& set : poisson_sets(20, 80))
         for (const Offset& o : set) {
             ++all;
-            ++quarters[(o.dx > 0) + 2 * (o.dy > 0)];
-            edges += std::max(std::abs(o.dx), std::abs(o.dy)) == 20;
+            x += o.dx;
+            y += o.dy;
+            near += o.dx * o.dx + o.dy * o.dy <= 50;
         }
-    const double shares[4] = {21 * 21, 20 * 21, 20 * 21, 20 * 20};
-    for (int q = 0; q < 4; ++q)
-        EXPECT_NEAR(quarters[q] / double(all), shares[q] / 1681, 0.02);
-    EXPECT_NEAR(edges / double(all), 160 / 1681.0, 0.01);
+    for (const Offset& o : kernels::whole_window(20)) {
+        const int square = o.dx * o.dx + o.dy * o.dy;
+        const double density = 1 / std::pow(1 + square / 50.0, 2);
+        sum += density;
+        expected += square <= 50 ? density : 0;
+    }
+    EXPECT_NEAR(x / all, 0, 0.1);
+    EXPECT_NEAR(y / all, 0, 0.1);
+    // Whole pixels cannot lie as close as the density wants them to at the centre.
+    EXPECT_NEAR(near / all, expected / sum, 0.08);
+}
+
+TEST(PoissonSets, OfEveryPlaceAreEven) {
+    for (const Offset& o : poisson_set(4, 81, 0))
+        EXPECT_DOUBLE_EQ(o.density, 1);
 }
 
 } // namespace
