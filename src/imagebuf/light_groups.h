@@ -1,0 +1,20 @@
+// The layers that hold the light of one group of lights each.
+#pragma once
+
+#include <OpenImageIO/imageio.h>
+#include <string>
+#include <vector>
+
+namespace tonetool {
+
+struct LightGroup {
+    std::string name;  ///< "key" of "ViewLayer.Combined_key"
+    std::string layer; ///< the whole
+    int channel[3] = {-1, -1, -1};
+};
+
+/// The light groups of a picture ("": the plain R,G,B), by name, in the order of the file. Only one
+/// family of names is used, lest a light counts twice.
+std::vector<LightGroup> find_light_groups(const OIIO::ImageSpec& spec, const std::string& beauty);
+
+} // namespace tonetool
