@@ -18,8 +18,6 @@ using OIIO::ROI;
 constexpr int kRowsInMemory = 64;
 // What is read from a file at once. Decoders want enough rows for all threads.
 constexpr size_t kStep = size_t(32) << 20, kFrugalStep = size_t(2) << 20;
-// Channels as far apart as this are still read at once.
-constexpr int kGap = 2;
 
 // A hash of a pixel and its place; sums of these do not depend on the order.
 uint64_t digest(size_t place, const double (&v)[3]) {
@@ -31,18 +29,6 @@ uint64_t digest(size_t place, const double (&v)[3]) {
         h ^= h >> 31;
     }
     return h;
-}
-
-// The channels as few reads as are worth it, whatever their order in the file.
-std::vector<ChannelRun> runs_of(std::vector<int> channels) {
-    std::sort(channels.begin(), channels.end());
-    std::vector<ChannelRun> runs;
-    for (int channel : channels)
-        if (runs.empty() || channel > runs.back().end + kGap)
-            runs.push_back({channel, channel + 1});
-        else
-            runs.back().end = std::max(runs.back().end, channel + 1);
-    return runs;
 }
 
 void to_rec709(const ColorSpace& space, double (&v)[3]) {

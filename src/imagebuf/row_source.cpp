@@ -12,6 +12,9 @@ namespace {
 using OIIO::ImageBuf;
 using OIIO::ImageSpec;
 
+// Channels as far apart as this are still read at once.
+constexpr int kGap = 2;
+
 // What OpenEXR compresses together; chunks of whole blocks are not decoded twice.
 int rows_per_block(const std::string& compression) {
     const std::pair<const char*, int> known[] = {{"zips", 1},  {"none", 1},  {"rle", 1},
@@ -30,6 +33,17 @@ bool same_pixels(const ImageSpec& a, const ImageSpec& b) {
 }
 
 } // namespace
+
+std::vector<ChannelRun> runs_of(std::vector<int> channels) {
+    std::sort(channels.begin(), channels.end());
+    std::vector<ChannelRun> runs;
+    for (int channel : channels)
+        if (runs.empty() || channel > runs.back().end + kGap)
+            runs.push_back({channel, channel + 1});
+        else
+            runs.back().end = std::max(runs.back().end, channel + 1);
+    return runs;
+}
 
 bool RowSource::open(const ImageBuf& image, std::vector<ChannelRun> runs, std::string& error) {
     m_image = &image;

@@ -16,6 +16,9 @@ struct ChannelRun {
     int count() const { return end - begin; }
 };
 
+/// The channels in as few reads as are worth it, whatever their order in the file.
+std::vector<ChannelRun> runs_of(std::vector<int> channels);
+
 /// An ImageBuf that was opened with a file name and never read is taken from the file itself, by
 /// an ImageInput of its own: no pixel goes into an ImageCache. Any other is asked for its pixels.
 class RowSource {

@@ -1,0 +1,159 @@
+#include "imagebuf/gbuffer.h"
+
+#include <algorithm>
+
+#include "imagebuf/gbuffer_check.h"
+#include "imagebuf/parallel.h"
+#include "imagebuf/planes.h"
+#include "imagebuf/row_source.h"
+
+namespace tonetool {
+namespace {
+
+using OIIO::ImageBuf;
+using OIIO::ROI;
+
+// What is read at once.
+constexpr size_t kStep = size_t(32) << 20;
+
+struct Plane {
+    std::vector<float>* to;
+    int channel;
+};
+
+class Reader {
+public:
+    Reader(const ImageBuf& image, ROI region, int nthreads, GBuffer& out)
+        : m_image(image),
+          m_region(region),
+          m_parallel(make_parallel(nthreads)),
+          m_out(out) {}
+
+    void want(const char* guide, const std::optional<GuideChannels>& from,
+              std::vector<float>* planes, int count);
+    bool read(std::string& error);
+
+private:
+    bool fits(const char* guide, const GuideChannels& from, int count);
+    void cover(const ROI& window);
+    void copy_row(int y, int first, const ROI& window, const std::vector<std::vector<float>>& rows);
+
+    const ImageBuf& m_image;
+    ROI m_region;
+    kernels::ParallelFor m_parallel;
+    GBuffer& m_out;
+    std::vector<Plane> m_planes;
+    RowSource m_source;
+};
+
+// Integers are made 0..1 on reading: colours and encoded normals survive that, distances do not.
+bool Reader::fits(const char* guide, const GuideChannels& from, int count) {
+    const OIIO::ImageSpec& native = m_image.nativespec();
+    const bool known = native.nchannels == m_image.nchannels();
+    for (int c = 0; c < count; ++c) {
+        const OIIO::TypeDesc type = known ? native.channelformat(from.channel[c]) : OIIO::TypeFloat;
+        const bool measures = guide == std::string("position") || guide == std::string("depth");
+        if (type.is_floating_point() || (!measures && type.size() <= 2))
+            continue;
+        m_out.warnings.push_back(std::string(guide) + " layer \"" + from.layer +
+                                 "\" is not used: it is stored as " + type.c_str());
+        return false;
+    }
+    return true;
+}
+
+void Reader::want(const char* guide, const std::optional<GuideChannels>& from,
+                  std::vector<float>* planes, int count) {
+    if (!from || !fits(guide, *from, count))
+        return;
+    for (int c = 0; c < count; ++c) {
+        planes[c].assign(m_out.background.size(), 0.0f);
+        m_planes.push_back({&planes[c], from->channel[c]});
+    }
+}
+
+void Reader::cover(const ROI& window) {
+    for (int y = window.ybegin; y < window.yend; ++y) {
+        const size_t row = size_t(y - m_region.ybegin) * size_t(m_out.width);
+        const auto from = m_out.background.begin() + ptrdiff_t(row);
+        std::fill(from + (window.xbegin - m_region.xbegin), from + (window.xend - m_region.xbegin),
+                  uint8_t(0));
+    }
+}
+
+void Reader::copy_row(int y, int first, const ROI& window,
+                      const std::vector<std::vector<float>>& rows) {
+    for (const Plane& plane : m_planes)
+        for (size_t r = 0; r < rows.size(); ++r) {
+            const ChannelRun& run = m_source.runs()[r];
+            if (plane.channel < run.begin || plane.channel >= run.end)
+                continue;
+            const auto stride = size_t(run.count());
+            const float* from = rows[r].data() + size_t(plane.channel - run.begin) +
+                                (size_t(y - first) * size_t(m_source.width()) +
+                                 size_t(window.xbegin - m_source.left())) *
+                                    stride;
+            float* to = plane.to->data() + size_t(y - m_region.ybegin) * size_t(m_out.width) +
+                        size_t(window.xbegin - m_region.xbegin);
+            for (int x = window.xbegin; x < window.xend; ++x, from += stride)
+                *to++ = *from;
+        }
+}
+
+bool Reader::read(std::string& error) {
+    const ROI window = OIIO::roi_intersection(m_image.roi(), m_region);
+    if (m_planes.empty() || window.width() <= 0 || window.height() <= 0) {
+        if (window.width() > 0 && window.height() > 0)
+            cover(window);
+        return true;
+    }
+    cover(window);
+    std::vector<int> channels;
+    for (const Plane& plane : m_planes)
+        channels.push_back(plane.channel);
+    if (!m_source.open(m_image, runs_of(channels), error))
+        return false;
+    std::vector<std::vector<float>> rows(m_source.runs().size());
+    for (int first = window.ybegin; first < window.yend;) {
+        const int last = std::min(first + m_source.rows_at_once(first, kStep), window.yend);
+        for (size_t r = 0; r < rows.size(); ++r) {
+            rows[r].resize(size_t(last - first) * size_t(m_source.width()) *
+                           size_t(m_source.runs()[r].count()));
+            if (!m_source.read(first, last, r, rows[r].data(), error))
+                return false;
+        }
+        m_parallel(last - first,
+                   [&](int64_t row) { copy_row(first + int(row), first, window, rows); });
+        first = last;
+    }
+    return true;
+}
+
+} // namespace
+
+bool read_gbuffer(const ImageBuf& image, const GBufferNames& names, ROI region, int nthreads,
+                  GBuffer& out, std::string& error) {
+    out = {};
+    if (!check_readable(image, "guide", error))
+        return false;
+    if (region.width() <= 0 || region.height() <= 0) {
+        error = "the region holds no pixel";
+        return false;
+    }
+    out.width = region.width();
+    out.height = region.height();
+    out.background.assign(size_t(out.width) * size_t(out.height), 1);
+    Reader reader(image, region, nthreads, out);
+    reader.want("position", names.position, out.position, 3);
+    reader.want("normal", names.normal, out.normal, 3);
+    reader.want("albedo", names.albedo, out.albedo, 3);
+    reader.want("depth", names.depth, &out.depth, 1);
+    if (!reader.read(error)) {
+        error = side_name("guide", image) + error;
+        return false;
+    }
+    check_gbuffer(out, names, make_parallel(nthreads));
+    return true;
+}
+
+} // namespace tonetool
