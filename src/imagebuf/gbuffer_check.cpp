@@ -17,6 +17,8 @@ using OIIO::Strutil::fmt::format;
 constexpr double kNoDecodedNormal = 0.05;
 // Normals are averaged over a pixel, shorter at edges and on bumps: most of them must be near 1.
 constexpr double kNearUnit = 0.1;
+// Positions in so few places along each axis do not tell pixels apart.
+constexpr double kFewSteps = 8;
 // Albedo of metals may exceed 1 a little, filters overshoot; light goes far beyond.
 constexpr float kMostAlbedo = 1.5f;
 
@@ -60,11 +62,15 @@ private:
 void Check::depth() {
     if (!m_g.has_depth())
         return;
-    enum { Finite, Zero, Negative, Sky };
+    enum { Finite, Zero, Negative, Sky, Nan };
     const Tally t = look([&](size_t i, Tally& row) {
         const float d = m_g.depth[i];
-        if (m_g.background[i] || std::isnan(d))
+        if (m_g.background[i])
             return;
+        if (std::isnan(d)) {
+            ++row.count[Nan];
+            return;
+        }
         const bool sky = std::abs(d) >= kFar;
         ++row.count[sky ? Sky : Finite];
         if (sky)
@@ -77,7 +83,7 @@ void Check::depth() {
     const auto drop_depth = [&](const std::string& why) {
         drop(&m_g.depth, 1, "depth", m_names.depth, why);
     };
-    if (n == 0 && t.count[Sky] == 0)
+    if (n == 0 && t.count[Sky] == 0 && t.count[Nan] > 0)
         return drop_depth("it holds no number");
     if (n > 0 && t.count[Zero] == n)
         return drop_depth("it is zero everywhere");
@@ -159,24 +165,29 @@ void Check::positions() {
         row.count[Clipped] += at_end >= 2;
     });
     const int64_t n = t.count[Placed];
-    double side = 0;
-    for (int c = 0; c < 3; ++c)
-        side = std::max(side, double(t.high[c]) - double(t.low[c]));
+    const double rounding = rounding_of_positions(m_g);
+    double side = 0, steps = 0;
+    for (int c = 0; c < 3; ++c) {
+        const double along = double(t.high[c]) - double(t.low[c]);
+        const double most = double(std::max(-t.low[c], t.high[c]));
+        side = std::max(side, along);
+        steps = std::max(steps, along > 0 ? along / (2 * rounding * most) : 0);
+    }
     const auto drop_position = [&](const std::string& why) {
         drop(m_g.position, 3, "position", m_names.position, why);
     };
     // A whole wall of a room of side 1 has one component at an end, only its edges have two.
     const bool clipped = t.lowest() >= 0 && t.highest() <= 1 && 2 * t.count[Clipped] > n && n > 1;
-    const double most = double(std::max(-t.lowest(), t.highest()));
     if (t.count[Surface] > 0 && n == 0)
         drop_position("it is zero, huge or not finite everywhere");
     else if (clipped)
         drop_position(format("all values lie within 0..1 and {:.0f}% of the pixels are clipped",
                              percent(t.count[Clipped], n)));
-    else if (n > 1 && side <= 16 * rounding_of_positions(m_g) * most)
-        drop_position(format("its longest side is {:g} at values up to {:g}: too few steps to tell "
-                             "pixels apart",
-                             side, most));
+    else if (n > 1 && steps <= kFewSteps)
+        drop_position(
+            format("its longest side is {:g} at values from {:g} to {:g}: {:.0f} steps of "
+                   "what it is stored in",
+                   side, t.lowest(), t.highest(), steps));
 }
 
 void Check::albedo() {
