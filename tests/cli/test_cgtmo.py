@@ -1,0 +1,99 @@
+"""--cgtmo: laws of the operator, its guides, and what is refused."""
+
+import numpy as np
+import OpenImageIO as oiio
+import pytest
+from conftest import TESTIMAGES
+
+CORNELL = TESTIMAGES / "cornell_ref.exr"
+
+
+def color(path):
+    image = oiio.ImageBuf(str(path))
+    assert not image.has_error, image.geterror()
+    names = list(image.spec().channelnames)
+    layer = "" if "R" in names else "ViewLayer.Combined."
+    return image.get_pixels(oiio.FLOAT)[..., [names.index(layer + c) for c in "RGB"]]
+
+
+def test_without_a_filter_it_is_global_drago(tonetool, tmp_path):
+    tonetool(CORNELL, "--cgtmo:filter=none:encode=none:clamp=0", "-d", "float", "-o", "local.exr")
+    tonetool(CORNELL, "--tonemap:curve=drago:method=mean:key=1:white=max:encode=none:clamp=0",
+             "-d", "float", "-o", "global.exr")
+    a, b = color(tmp_path / "local.exr"), color(tmp_path / "global.exr")
+    assert np.abs(a - b).max() <= 1e-5 * b.max()
+
+
+def test_a_constant_image_is_global_drago(tonetool, make_image, tmp_path):
+    source = make_image("flat.exr", 50, 40, pixels=np.full((40, 50, 3), 0.3, np.float32))
+    tonetool(source, "--cgtmo:encode=none:lmax=5", "-d", "float", "-o", "local.exr")
+    tonetool(source, "--cgtmo:encode=none:lmax=5:filter=none", "-d", "float", "-o", "global.exr")
+    assert np.abs(color(tmp_path / "local.exr") - color(tmp_path / "global.exr")).max() <= 1e-6
+
+
+@pytest.mark.parametrize("bias", [0.7, 0.85, 0.95])
+def test_the_brightest_becomes_white(tonetool, tmp_path, bias):
+    tonetool(CORNELL, f"--cgtmo:filter=none:encode=none:clamp=0:bias={bias}:ldmax=80", "-d",
+             "float", "-o", "out.exr")
+    shown = color(tmp_path / "out.exr") @ np.array([0.2126, 0.7152, 0.0722])
+    assert shown.max() == pytest.approx(0.8, abs=2e-6)
+
+
+def test_the_guides_are_found_and_named(tonetool, tmp_path):
+    ran = tonetool(CORNELL, "--cgtmo", "-o", "out.exr")
+    assert ran.fact("position") == "ViewLayer.Position"
+    assert ran.fact("normal") == "ViewLayer.Normal"
+    assert ran.fact("albedo") == "ViewLayer.DiffCol"
+    spec = oiio.ImageBuf(str(tmp_path / "out.exr")).spec()
+    assert spec.get_string_attribute("tonemap:curve") == "cgtmo"
+    assert spec.get_string_attribute("tonemap:normal") == "ViewLayer.Normal"
+
+
+def test_the_picture_is_local_and_keeps_its_edges(tonetool, tmp_path):
+    tonetool(CORNELL, "--cgtmo:encode=none", "-d", "float", "-o", "guided.exr")
+    tonetool(CORNELL, "--cgtmo:encode=none:filter=none", "-d", "float", "-o", "none.exr")
+    a, b = color(tmp_path / "guided.exr"), color(tmp_path / "none.exr")
+    assert np.abs(a - b).mean() > 1e-3
+    assert np.isfinite(a).all() and a.min() >= 0 and a.max() <= 1
+
+
+def test_nothing_depends_on_threads(tonetool, tmp_path):
+    for n in (1, 3):
+        tonetool("--threads", n, CORNELL, "--cgtmo:encode=none", "-d", "float", "-o", f"{n}.exr")
+    assert np.array_equal(color(tmp_path / "1.exr"), color(tmp_path / "3.exr"))
+
+
+def test_without_guides_luminance_tells_edges(tonetool, make_image):
+    source = make_image("plain.exr", 40, 30)
+    ran = tonetool(source, "--cgtmo:preset=paper", "-o", "out.exr")
+    for name in ("position", "normal", "albedo"):
+        assert f"no {name} among the layers" in ran.err
+    assert "lumsigma=0.4" in ran.err
+    ran = tonetool(source, "--cgtmo:strict=1", "-o", "strict.exr", status=1)
+    assert "position" in ran.err
+    tonetool(source, "--cgtmo:position=none:normal=none:albedo=none:strict=1", "-o", "out.exr")
+
+
+def test_one_pixel_and_black(tonetool, make_image):
+    one = make_image("one.exr", 1, 1, pixels=np.full((1, 1, 3), 2, np.float32))
+    tonetool(one, "--cgtmo", "-o", "out.exr")
+    black = make_image("black.exr", 8, 8, pixels=np.zeros((8, 8, 3), np.float32))
+    assert "black" in tonetool(black, "--cgtmo", "-o", "out.exr", status=1).err
+
+
+BAD = [
+    ("preset=best", ["best", "default", "paper"]), ("domain=ln", ["ln", "log"]),
+    ("filter=wsl", ["wsl", "guided"]), ("normaldist=angle", ["angle", "dot"]),
+    ("footprint=auto", ["auto", "global"]), ("lwa=mode", ["mode", "geometric"]),
+    ("lwa=0", ["lwa"]), ("lmax=0", ["lmax"]), ("bias=2", ["bias"]), ("sigma=0", ["sigma"]),
+    ("samples=2", ["samples", "4"]), ("position=Pos", ["Pos", "Position"]),
+    ("encode=rec709", ["rec709", "srgb"]),
+]
+
+
+@pytest.mark.parametrize("modifiers,words", BAD)
+def test_what_is_wrong_is_said(tonetool, tmp_path, modifiers, words):
+    ran = tonetool(CORNELL, f"--cgtmo:{modifiers}", "-o", "out.exr", status=1)
+    for word in words:
+        assert word in ran.err, ran.err
+    assert not (tmp_path / "out.exr").exists()
