@@ -35,8 +35,10 @@ def test_a_constant_image_is_global_drago(tonetool, make_image, tmp_path):
 def test_the_brightest_becomes_white(tonetool, tmp_path, bias):
     tonetool(CORNELL, f"--cgtmo:filter=none:encode=none:clamp=0:bias={bias}:ldmax=80", "-d",
              "float", "-o", "out.exr")
-    shown = color(tmp_path / "out.exr") @ np.array([0.2126, 0.7152, 0.0722])
-    assert shown.max() == pytest.approx(0.8, abs=2e-6)
+    weights = np.array([0.2126, 0.7152, 0.0722])
+    # The curve of a low bias is above its end before it gets there.
+    brightest = np.argmax(color(CORNELL) @ weights)
+    assert (color(tmp_path / "out.exr") @ weights).flat[brightest] == pytest.approx(0.8, abs=2e-6)
 
 
 def test_the_guides_are_found_and_named(tonetool, tmp_path):
