@@ -15,7 +15,7 @@ using OIIO::Strutil::fmt::format;
 
 // A decoded vector as short as this points nowhere: the middle grey of 8 bits has a length of .007.
 constexpr double kNoDecodedNormal = 0.05;
-// Normals are averaged over a pixel, shorter at edges and on bumps: most of them must be near 1.
+// Normals are averaged over a pixel, shorter at edges and on bumps: most of them should be near 1.
 constexpr double kNearUnit = 0.1;
 // Positions in so few places along each axis do not tell pixels apart.
 constexpr double kFewSteps = 8;
@@ -104,7 +104,7 @@ void Check::depth() {
 void Check::normals() {
     if (!m_g.has_normal())
         return;
-    enum { Surface, Pointing, Unit, DecodedPointing, DecodedUnit };
+    enum { Surface, Pointing, Unit, Long, DecodedPointing, DecodedUnit };
     const Tally t = look([&](size_t i, Tally& row) {
         if (m_g.background[i] || is_far(m_g, i))
             return;
@@ -116,6 +116,7 @@ void Check::normals() {
         const double stored = length(m_g.normal, i), decoded = length(m_g.normal, i, 2, -1);
         ++row.count[Pointing];
         row.count[Unit] += std::abs(stored - 1) <= kNearUnit;
+        row.count[Long] += stored > 1 + kNearUnit;
         row.count[DecodedPointing] += decoded >= kNoDecodedNormal;
         row.count[DecodedUnit] += std::abs(decoded - 1) <= kNearUnit;
     });
@@ -123,11 +124,13 @@ void Check::normals() {
         return;
     const double unit = percent(t.count[Unit], t.count[Pointing]);
     const double decoded = percent(t.count[DecodedUnit], t.count[DecodedPointing]);
+    // Where a pixel sees leaves or a whole object, nearly all are short; none is long all the same.
+    const bool averaged = t.lowest() < -kNearUnit && 100 * t.count[Long] <= t.count[Pointing];
     if (t.count[Pointing] == 0)
         drop(m_g.normal, 3, "normal", m_names.normal, "it is zero or not finite everywhere");
     else if (t.lowest() >= 0 && t.highest() <= 1 && decoded >= 50 && decoded > unit)
         decode_normals();
-    else if (unit < 50)
+    else if (unit < 50 && !averaged)
         drop(
             m_g.normal, 3, "normal", m_names.normal,
             format("{:.0f}% of its vectors have a length near 1, with components from {:g} to {:g}",

@@ -62,7 +62,7 @@ std::vector<LightGroup> find_light_groups(const OIIO::ImageSpec& spec, const std
           std::string("beauty"), std::string("lightselect"), std::string("vraylightselect"),
           std::string("lightmix"), std::string("light id"), std::string("lightgroup"),
           std::string("light"), std::string("lg")}) {
-        const auto groups = family(layers, home, prefix);
+        auto groups = family(layers, home, prefix);
         if (!groups.empty())
             return groups;
     }

@@ -232,6 +232,16 @@ TEST(GBuffer, NormalsAreMadeUnitVectors) {
     EXPECT_THAT(g.warnings, IsEmpty());
 }
 
+// Leaves: what a pixel sees points everywhere.
+TEST(GBuffer, AveragedNormalsAreShort) {
+    const GBuffer g = read(scene([](Pixel& p, int x, int y) {
+        for (float& n : p.n)
+            n *= (x + y) % 2 == 0 ? 0.4f : -0.7f;
+    }));
+    EXPECT_TRUE(g.has_normal());
+    EXPECT_THAT(g.warnings, IsEmpty());
+}
+
 TEST(GBuffer, NormalsStoredAsColoursAreDecoded) {
     for (const auto& format : {OIIO::TypeFloat, OIIO::TypeHalf}) {
         const GBuffer g = read(scene(
