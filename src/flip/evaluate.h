@@ -16,7 +16,7 @@ struct Evaluation {
     std::vector<double> stops; ///< {0} with ToneKind::None is LDR-FLIP
     /// Instruction set to run on; null: the best of this machine.
     const kernels::FlipRows* functions = nullptr;
-    int most_tile_rows = 0; ///< to take less memory; 0: as many as is fast
+    int most_tile_rows = 0;           ///< to take less memory; 0: as many as is fast
     kernels::ToneRows rows = nullptr; ///< instead of the curve
 };
 

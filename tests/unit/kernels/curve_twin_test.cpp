@@ -118,8 +118,8 @@ TEST(CurveTwin, Uchimura) {
     for (const auto& s : samples)
         EXPECT_NEAR(at(s.x, "uchimura"), s.y, kExact) << s.x;
     EXPECT_NEAR(at(0.1, "uchimura", {{"pedestal", 0.02}}), 0.0983473864884, kExact);
-    EXPECT_NEAR(at(2, "uchimura", {{"maximum", 2}, {"contrast", 1.2}, {"length", 0.3}}), 1.65553950390,
-                kExact);
+    EXPECT_NEAR(at(2, "uchimura", {{"maximum", 2}, {"contrast", 1.2}, {"length", 0.3}}),
+                1.65553950390, kExact);
 }
 
 TEST(CurveTwin, CurvesThatMixChannels) {
