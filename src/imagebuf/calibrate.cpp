@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "imagebuf/checks.h"
 #include "imagebuf/guard.h"
 #include "imagebuf/measure.h"
 #include "imagebuf/parallel.h"
@@ -16,13 +17,6 @@ namespace {
 using OIIO::ImageBuf;
 using OIIO::ROI;
 using OIIO::Strutil::fmt::format;
-
-bool in_range(double value, double low, double high, const char* name, std::string& error) {
-    if (value >= low && value <= high)
-        return true;
-    error = format("{} is {}: must be {} to {}", name, value, low, high);
-    return false;
-}
 
 bool check(const CalibrationOptions& options, const ImageBuf& image, std::string& error) {
     const OIIO::ImageSpec& spec = image.spec();

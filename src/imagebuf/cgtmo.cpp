@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "imagebuf/checks.h"
 #include "imagebuf/color_reader.h"
 #include "imagebuf/gbuffer.h"
 #include "imagebuf/guard.h"
@@ -30,13 +31,6 @@ using OIIO::Strutil::fmt::format;
 
 // As the authors' programs have it: 2.5 sigma to each side.
 constexpr double kWindowOfSigma = 2.5;
-
-bool in_range(double value, double low, double high, const char* name, std::string& error) {
-    if (value >= low && value <= high)
-        return true;
-    error = format("{} is {}: must be {} to {}", name, value, low, high);
-    return false;
-}
 
 bool one_of(const char* what, const std::string& value, const std::vector<std::string>& valid,
             std::string& error) {

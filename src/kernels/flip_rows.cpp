@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "kernels/flip_constants.h"
+#include "kernels/whole_vectors.h"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "kernels/flip_rows.cpp"
@@ -347,18 +348,10 @@ const FlipRows& flip_rows() {
 void tone_map_pixels(const float* const in[3], float* const out[3], ptrdiff_t count,
                      const ToneCurve& curve, float scale) {
     const FlipRows& rows = flip_rows();
-    const ptrdiff_t whole = count - count % rows.lanes;
-    rows.tone_map(in, out, whole, curve, scale);
-    if (whole == count)
-        return;
-    // The rest goes through the same instructions in a buffer of whole vectors.
-    float rest[3][kMostLanes] = {};
-    for (int c = 0; c < 3; ++c)
-        std::copy(in[c] + whole, in[c] + count, rest[c]);
-    float* at[3] = {rest[0], rest[1], rest[2]};
-    rows.tone_map(at, at, count - whole, curve, scale);
-    for (int c = 0; c < 3; ++c)
-        std::copy(rest[c], rest[c] + (count - whole), out[c] + whole);
+    in_whole_vectors(in, out, count, rows.lanes,
+                     [&](const float* const from[3], float* const to[3], ptrdiff_t n) {
+                         rows.tone_map(from, to, n, curve, scale);
+                     });
 }
 
 } // namespace tonetool::kernels

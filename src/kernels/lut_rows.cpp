@@ -5,6 +5,7 @@
 #include "kernels/flip_rows.h"
 #include "kernels/lut_rows.h"
 #include "kernels/tone_curve.h"
+#include "kernels/whole_vectors.h"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "kernels/lut_rows.cpp"
@@ -169,19 +170,10 @@ HWY_EXPORT(LanesHere);
 
 void light_cube_rows(const LightCube& cube, const float* const in[3], float* const out[3],
                      ptrdiff_t count, float scale) {
-
-    const ptrdiff_t whole = count - count % HWY_DYNAMIC_DISPATCH(LanesHere)();
-    HWY_DYNAMIC_DISPATCH(MapRows)(cube, in, out, whole, scale);
-    if (whole == count)
-        return;
-    // The rest goes through the same instructions in a buffer of whole vectors.
-    float rest[3][kMostLanes] = {};
-    for (int c = 0; c < 3; ++c)
-        std::copy(in[c] + whole, in[c] + count, rest[c]);
-    float* at[3] = {rest[0], rest[1], rest[2]};
-    HWY_DYNAMIC_DISPATCH(MapRows)(cube, at, at, count - whole, scale);
-    for (int c = 0; c < 3; ++c)
-        std::copy(rest[c], rest[c] + (count - whole), out[c] + whole);
+    in_whole_vectors(in, out, count, HWY_DYNAMIC_DISPATCH(LanesHere)(),
+                     [&](const float* const from[3], float* const to[3], ptrdiff_t n) {
+                         HWY_DYNAMIC_DISPATCH(MapRows)(cube, from, to, n, scale);
+                     });
 }
 
 } // namespace tonetool::kernels
