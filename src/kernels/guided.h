@@ -36,6 +36,9 @@ struct GuidedTerms {
     double range = 0.4; ///< in the unit of its plane
     NormalTerm normal_term = NormalTerm::Distance;
     float least = 0; ///< values below it are no luminance; lower for a plane of logarithms
+    /// Normals (not their angles) and albedo in steps of 1 / 8191 from -1 to 1, two to a word: less
+    /// memory to look through, with weights within a hundredth. For subsets of the window.
+    bool in_steps = false;
 };
 
 /// Footprints are kept within these, values below this, and positions are no surface beyond it:

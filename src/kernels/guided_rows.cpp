@@ -76,8 +76,7 @@ struct Prepare {
         return valid;
     }
 
-    // Returns where there is a surface.
-    HWY_INLINE Mask StorePosition(Mask valid) const {
+    HWY_INLINE void StorePosition(Mask valid) const {
         Mask surface = hn::Eq(hn::Zero(d), hn::Zero(d));
         if (image.background)
             surface = hn::Not(load.IsSet(image.background));
@@ -90,10 +89,9 @@ struct Prepare {
         }
         const V kind = hn::IfThenElse(surface, p.c0, hn::Set(d, kFarAway));
         Store(1, hn::IfThenElse(valid, kind, hn::Set(d, -kFarAway)));
-        return surface;
     }
 
-    HWY_INLINE void StoreNormal(Mask surface, int first, float scale) const {
+    HWY_INLINE Color Normal(Mask surface, float scale) const {
         Color n = Load3(image.normal);
         V sum = hn::Mul(n.c0, n.c0);
         sum = hn::MulAdd(n.c1, n.c1, sum);
@@ -102,25 +100,80 @@ struct Prepare {
         const Mask some = hn::And(
             surface, hn::And(hn::Gt(sum, hn::Set(d, 1e-30f)), hn::Lt(sum, hn::Set(d, 1e30f))));
         const V length = hn::Div(hn::Set(d, scale), hn::Sqrt(sum));
-        Store(first, hn::IfThenElseZero(some, hn::Mul(n.c0, length)));
-        Store(first + 1, hn::IfThenElseZero(some, hn::Mul(n.c1, length)));
-        Store(first + 2, hn::IfThenElseZero(some, hn::Mul(n.c2, length)));
+        return {hn::IfThenElseZero(some, hn::Mul(n.c0, length)),
+                hn::IfThenElseZero(some, hn::Mul(n.c1, length)),
+                hn::IfThenElseZero(some, hn::Mul(n.c2, length))};
     }
 
-    HWY_INLINE void operator()() const {
-        const Mask valid = StoreValue(), surface = StorePosition(valid);
+    HWY_INLINE Color Albedo(Mask surface, float scale) const {
+        const V factor = hn::Set(d, scale);
+        const Color a = Load3(image.albedo);
+        return {hn::Mul(hn::IfThenElseZero(surface, FiniteOrZero(a.c0)), factor),
+                hn::Mul(hn::IfThenElseZero(surface, FiniteOrZero(a.c1)), factor),
+                hn::Mul(hn::IfThenElseZero(surface, FiniteOrZero(a.c2)), factor)};
+    }
+
+    HWY_INLINE void Store3(int plane, const Color& c) const {
+        Store(plane, c.c0);
+        Store(plane + 1, c.c1);
+        Store(plane + 2, c.c2);
+    }
+
+    HWY_INLINE void StorePair(int plane, V low, V high) const {
+        Store(plane, hn::BitCast(d, PairUp(low, high)));
+    }
+
+    static HWY_INLINE Color Within(const Color& c, float most) {
+        const V high = hn::Set(d, most), low = hn::Set(d, -most);
+        return {hn::Min(hn::Max(c.c0, low), high), hn::Min(hn::Max(c.c1, low), high),
+                hn::Min(hn::Max(c.c2, low), high)};
+    }
+
+    HWY_INLINE void StorePairs(Mask surface) const {
+        const Color zero{hn::Zero(d), hn::Zero(d), hn::Zero(d)};
+        const Color a =
+            image.albedo[0] ? Within(Albedo(surface, scales.albedo), scales.albedo) : zero;
+        const Color n = image.normal[0] ? Normal(surface, scales.normal) : a;
+        const int first = layout.first_pair();
+        StorePair(first, n.c0, n.c1);
+        if (layout.pairs == 2)
+            return StorePair(first + 1, n.c2, zero.c2);
+        StorePair(first + 1, n.c2, a.c0);
+        StorePair(first + 2, a.c1, a.c2);
+    }
+
+    HWY_INLINE void StorePlain(Mask surface) const {
         int plane = layout.first_plain();
-        if (image.normal[0]) {
-            StoreNormal(surface, layout.angle ? layout.first_angle() : plane,
-                        layout.angle ? 1.0f : scales.normal);
-            plane += layout.angle ? 0 : 3;
+        if (layout.angle) {
+            Store3(layout.first_angle(), Normal(surface, 1));
+        } else if (image.normal[0]) {
+            Store3(plane, Normal(surface, scales.normal));
+            plane += 3;
         }
         if (image.albedo[0])
-            for (const float* albedo : image.albedo)
-                Store(plane++, hn::Mul(hn::IfThenElseZero(surface, FiniteOrZero(load(albedo))),
-                                       hn::Set(d, scales.albedo)));
+            Store3(plane, Albedo(surface, scales.albedo));
+    }
+
+    // Where the position was stored before: where there is a surface, but for pixels that count for
+    // nothing anyway.
+    HWY_INLINE Mask StoredSurface() const {
+        const V kind = hn::LoadU(d, to + layout.pitch);
+        return hn::Lt(hn::Abs(kind), hn::Set(d, kFarAway / 2));
+    }
+
+    HWY_INLINE void Values() const { StorePosition(StoreValue()); }
+
+    HWY_INLINE void Surfaces() const {
+        if (layout.pairs > 0)
+            StorePairs(StoredSurface());
+        else
+            StorePlain(StoredSurface());
+    }
+
+    HWY_INLINE void RangeAndNearness() const {
         if (image.range && !layout.range_of_value)
-            Store(plane++, hn::Mul(FiniteOrZero(load(image.range)), hn::Set(d, scales.range)));
+            Store(layout.range(),
+                  hn::Mul(FiniteOrZero(load(image.range)), hn::Set(d, scales.range)));
         const V given = image.footprint ? load(image.footprint) : hn::Set(d, scales.footprint);
         const V least = hn::Set(d, kLeastFootprint), most = hn::Set(d, kMostFootprint);
         const V f = hn::IfThenElse(hn::Gt(given, least), hn::Min(given, most), least);
@@ -128,14 +181,23 @@ struct Prepare {
     }
 };
 
+// The planes of an image often lie at equal distances from whole pages, so that a cache holds lines
+// of few of them at once: a few planes at a time.
+template <class Load>
+HWY_INLINE void PrepareSome(const Prepare<Load>& first, int step) {
+    step == 0 ? first.Values() : step == 1 ? first.Surfaces() : first.RangeAndNearness();
+}
+
 void PrepareRow(const GuidePlanes& image, const GuidedLayout& layout, const GuidedScales& scales,
                 ptrdiff_t from, ptrdiff_t count, float* to) {
     const auto lanes = ptrdiff_t(hn::Lanes(d));
-    ptrdiff_t i = 0;
-    for (; i + lanes <= count; i += lanes)
-        Prepare<WholeVector>{image, layout, scales, {from + i}, to + i}();
-    if (i < count)
-        Prepare<Rest>{image, layout, scales, {from + i, count - i}, to + i}();
+    for (int step = 0; step < 3; ++step) {
+        ptrdiff_t i = 0;
+        for (; i + lanes <= count; i += lanes)
+            PrepareSome(Prepare<WholeVector>{image, layout, scales, {from + i}, to + i}, step);
+        if (i < count)
+            PrepareSome(Prepare<Rest>{image, layout, scales, {from + i, count - i}, to + i}, step);
+    }
 }
 
 // Asks for the lines of memory of a part of a row.
@@ -231,24 +293,40 @@ void WithPlain(const GuidedLayout& layout, const GuidedScales& scales, const Gui
                float* out) {
     switch (layout.plain) {
     case 0:
-        return FilterRun<Terms<kPosition, 0, kAngle, kRangeOfValue>>(layout, scales, run, out);
+        return FilterRun<Terms<kPosition, 0, 0, kAngle, kRangeOfValue>>(layout, scales, run, out);
     case 1:
-        return FilterRun<Terms<kPosition, 1, kAngle, kRangeOfValue>>(layout, scales, run, out);
+        return FilterRun<Terms<kPosition, 1, 0, kAngle, kRangeOfValue>>(layout, scales, run, out);
     case 3:
-        return FilterRun<Terms<kPosition, 3, kAngle, kRangeOfValue>>(layout, scales, run, out);
+        return FilterRun<Terms<kPosition, 3, 0, kAngle, kRangeOfValue>>(layout, scales, run, out);
     case 4:
-        return FilterRun<Terms<kPosition, 4, kAngle, kRangeOfValue>>(layout, scales, run, out);
+        return FilterRun<Terms<kPosition, 4, 0, kAngle, kRangeOfValue>>(layout, scales, run, out);
     case 6:
-        return FilterRun<Terms<kPosition, 6, kAngle, kRangeOfValue>>(layout, scales, run, out);
+        return FilterRun<Terms<kPosition, 6, 0, kAngle, kRangeOfValue>>(layout, scales, run, out);
     default:
-        return FilterRun<Terms<kPosition, 7, kAngle, kRangeOfValue>>(layout, scales, run, out);
+        return FilterRun<Terms<kPosition, 7, 0, kAngle, kRangeOfValue>>(layout, scales, run, out);
     }
+}
+
+// Beside pairs there is no plane but the range.
+template <bool kPosition, int kPairs>
+void WithPairs(const GuidedLayout& layout, const GuidedScales& scales, const GuidedRun& run,
+               float* out) {
+    if (layout.range_of_value)
+        FilterRun<Terms<kPosition, 0, kPairs, false, true>>(layout, scales, run, out);
+    else if (layout.plain > 0)
+        FilterRun<Terms<kPosition, 1, kPairs, false, false>>(layout, scales, run, out);
+    else
+        FilterRun<Terms<kPosition, 0, kPairs, false, false>>(layout, scales, run, out);
 }
 
 template <bool kPosition>
 void WithPosition(const GuidedLayout& layout, const GuidedScales& scales, const GuidedRun& run,
                   float* out) {
-    if (layout.angle && layout.range_of_value)
+    if (layout.pairs == 3)
+        WithPairs<kPosition, 3>(layout, scales, run, out);
+    else if (layout.pairs == 2)
+        WithPairs<kPosition, 2>(layout, scales, run, out);
+    else if (layout.angle && layout.range_of_value)
         WithPlain<kPosition, true, true>(layout, scales, run, out);
     else if (layout.angle)
         WithPlain<kPosition, true, false>(layout, scales, run, out);
@@ -279,6 +357,9 @@ HWY_AFTER_NAMESPACE();
 namespace tonetool::kernels {
 namespace {
 
+// From 0 to 1: sums of six squared differences are whole numbers of 32 bits.
+constexpr double kSteps = 8191;
+
 // log2 of exp(-x^2 / 2 sigma^2) is minus this times x^2.
 double exponent(double sigma) {
     return 1 / (2 * sigma * sigma * std::log(2.0));
@@ -290,8 +371,10 @@ GuidedLayout::GuidedLayout(const GuidePlanes& image, const GuidedTerms& terms)
     : position(image.position[0] != nullptr),
       angle(image.normal[0] != nullptr && terms.normal_term == NormalTerm::Angle),
       range_of_value(image.range != nullptr && image.range == image.value) {
-    plain = (image.normal[0] && !angle ? 3 : 0) + (image.albedo[0] ? 3 : 0) +
-            (image.range && !range_of_value ? 1 : 0);
+    const int both = (image.normal[0] && !angle ? 3 : 0) + (image.albedo[0] ? 3 : 0);
+    if (terms.in_steps && !angle)
+        pairs = (both + 1) / 2;
+    plain = (pairs > 0 ? 0 : both) + (image.range && !range_of_value ? 1 : 0);
 }
 
 GuidedScales::GuidedScales(const GuidePlanes& image, const GuidedTerms& terms)
@@ -302,7 +385,15 @@ GuidedScales::GuidedScales(const GuidePlanes& image, const GuidedTerms& terms)
       range(float(std::sqrt(exponent(terms.range)))),
       angle(float(exponent(terms.normal))),
       range_of_value(float(exponent(terms.range))),
-      least(terms.least) {}
+      least(terms.least),
+      square_of_steps(0) {
+    if (GuidedLayout(image, terms).pairs == 0)
+        return;
+    const double sigma = std::min(terms.normal, terms.albedo);
+    normal = float(kSteps * sigma / terms.normal);
+    albedo = float(kSteps * sigma / terms.albedo);
+    square_of_steps = float(exponent(sigma) / (kSteps * kSteps));
+}
 
 HWY_EXPORT(GuidedTable);
 

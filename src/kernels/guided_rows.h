@@ -9,16 +9,19 @@ namespace tonetool::kernels {
 /// How a prepared row lies in memory: planes of `pitch` floats, one after the other. First the
 /// value; then the position, of which the first plane also says what kind of pixel it is (the only
 /// plane there is without positions); then planes whose differences count as they are: normal,
-/// albedo, range; then the normal whose angle counts; last, log2 e / 2 s1^2.
+/// albedo, range; then those of them that are two to a word; then the normal whose angle counts;
+/// last, log2 e / 2 s1^2.
 struct GuidedLayout {
     GuidedLayout(const GuidePlanes& image, const GuidedTerms& terms);
 
     bool position, angle, range_of_value;
-    int plain = 0;
+    int plain = 0, pairs = 0;
     ptrdiff_t pitch = 0;
 
     int first_plain() const { return position ? 4 : 2; }
-    int first_angle() const { return first_plain() + plain; }
+    int first_pair() const { return first_plain() + plain; }
+    int range() const { return first_pair() - 1; } ///< if it has a plane of its own
+    int first_angle() const { return first_pair() + pairs; }
     int nearness() const { return first_angle() + (angle ? 3 : 0); }
     int planes() const { return nearness() + 1; }
 };
@@ -28,6 +31,7 @@ struct GuidedScales {
     GuidedScales(const GuidePlanes& image, const GuidedTerms& terms);
 
     float nearness, footprint, normal, albedo, range, angle, range_of_value, least;
+    float square_of_steps; ///< what a squared difference of pairs is multiplied by
 };
 
 /// Pixels [column, column + kGuidedRun) of a row and their neighbours: rows[dy] is the prepared row

@@ -47,16 +47,44 @@ HWY_INLINE void Weights2(Together& x) {
         x[i] = hn::Mul(p[i], hn::BitCast(d, hn::ShiftLeft<23>(hn::BitCast(di, sum[i]))));
 }
 
+using Int = hn::RebindToSigned<D>;
+using Pairs = hn::Vec<Int>;
+
+/// Two numbers to a word, of at most 8191 each.
+HWY_INLINE Pairs PairUp(V low, V high) {
+    const Int di;
+    const Pairs mask = hn::Set(di, 0xffff);
+    return hn::Or(hn::And(hn::NearestInt(low), mask), hn::ShiftLeft<16>(hn::NearestInt(high)));
+}
+
+/// `sum` and the squares of both differences.
+HWY_INLINE Pairs AddSquares(Pairs a, Pairs b, Pairs sum) {
+#if HWY_ARCH_X86 && HWY_TARGET != HWY_SCALAR && HWY_TARGET != HWY_EMU128
+    // Here it adds neighbours to their own word, which it does not promise everywhere.
+    const Int di;
+    const hn::Repartition<int16_t, D> halves;
+    Pairs unused = hn::Zero(di);
+    const auto away = hn::Sub(hn::BitCast(halves, a), hn::BitCast(halves, b));
+    return hn::ReorderWidenMulAccumulate(di, away, away, sum, unused);
+#else
+    const Pairs high = hn::Sub(hn::ShiftRight<16>(a), hn::ShiftRight<16>(b));
+    const Pairs low =
+        hn::Sub(hn::ShiftRight<16>(hn::ShiftLeft<16>(a)), hn::ShiftRight<16>(hn::ShiftLeft<16>(b)));
+    return hn::Add(sum, hn::Add(hn::Mul(high, high), hn::Mul(low, low)));
+#endif
+}
+
 /// One vector of pixels, against which others are weighed. Each combination of terms is a type, so
 /// that the loop holds no branch.
-template <bool kPosition, int kPlain, bool kAngle_, bool kRangeOfValue>
+template <bool kPosition, int kPlain, int kPairs, bool kAngle_, bool kRangeOfValue>
 struct Terms {
     static constexpr bool kAngle = kAngle_;
     static constexpr int kWhere = kPosition ? 3 : 1, kFirstPlain = 1 + kWhere;
-    static constexpr int kFirstAngle = kFirstPlain + kPlain;
+    static constexpr int kFirstPair = kFirstPlain + kPlain, kFirstAngle = kFirstPair + kPairs;
     static constexpr int kNearness = kFirstAngle + (kAngle ? 3 : 0);
 
-    V value, where[kWhere], plain[kPlain + 1], angle[3], nearness, slope, range;
+    V value, where[kWhere], plain[kPlain + 1], angle[3], nearness, slope, range, steps;
+    Pairs pair[kPairs + 1];
 
     HWY_INLINE Terms(const GuidedLayout& layout, const GuidedScales& scales, const float* at) {
         const auto load = [&](int p) HWY_ATTR { return hn::LoadU(d, at + p * layout.pitch); };
@@ -65,12 +93,15 @@ struct Terms {
             where[i] = load(1 + i);
         for (int i = 0; i < kPlain; ++i)
             plain[i] = load(kFirstPlain + i);
+        for (int i = 0; i < kPairs; ++i)
+            pair[i] = hn::BitCast(Int(), load(kFirstPair + i));
         if constexpr (kAngle)
             for (int i = 0; i < 3; ++i)
                 angle[i] = load(kFirstAngle + i);
         nearness = load(kNearness);
         slope = hn::Set(d, scales.angle);
         range = hn::Set(d, scales.range_of_value);
+        steps = hn::Set(d, scales.square_of_steps);
     }
 
     /// The weights of the pixels at `at`; `start` is log2 of the spatial ones.
@@ -94,6 +125,8 @@ struct Terms {
                 away[i] = hn::Sub(plain[p], hn::LoadU(d, at[i] + x + (kFirstPlain + p) * pitch));
                 weights[i] = hn::NegMulAdd(away[i], away[i], weights[i]);
             }
+        if constexpr (kPairs > 0)
+            TakePairs(at, x, pitch, weights);
         if constexpr (kAngle)
             AddAngles(at, x, pitch, weights);
         if constexpr (kRangeOfValue)
@@ -102,6 +135,20 @@ struct Terms {
                 weights[i] = hn::NegMulAdd(hn::Mul(away[i], away[i]), range, weights[i]);
             }
         Weights2(weights);
+    }
+
+    HWY_INLINE void TakePairs(const float* const* at, ptrdiff_t x, ptrdiff_t pitch,
+                              Together& weights) const {
+        Pairs square[kTogether];
+        for (Pairs& s : square)
+            s = hn::Zero(Int());
+        for (int p = 0; p < kPairs; ++p)
+            for (int i = 0; i < kTogether; ++i) {
+                const V other = hn::LoadU(d, at[i] + x + (kFirstPair + p) * pitch);
+                square[i] = AddSquares(pair[p], hn::BitCast(Int(), other), square[i]);
+            }
+        for (int i = 0; i < kTogether; ++i)
+            weights[i] = hn::NegMulAdd(hn::ConvertTo(d, square[i]), steps, weights[i]);
     }
 
     HWY_INLINE void AddAngles(const float* const* at, ptrdiff_t x, ptrdiff_t pitch,

@@ -16,7 +16,7 @@ using kernels::Window;
 
 // The rows of a tile must stay in a core's L2 cache; the rows above and beside it are prepared for
 // it alone. Low enough that all threads end at the same time.
-constexpr int kTileWidth = 5 * kGuidedRun, kTileHeight = 540;
+constexpr int kTileWidth = 7 * kGuidedRun, kTileHeight = 540;
 
 // Filters tiles, several at a time: each takes a work space that is free, or makes one.
 class Tiles {

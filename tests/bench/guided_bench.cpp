@@ -104,13 +104,15 @@ void guided(benchmark::State& state) {
         samples > 0 ? tonemap::poisson_sets(kHalf, samples)
                     : std::vector<std::vector<kernels::Offset>>{kernels::whole_window(kHalf)},
         kSigma);
+    kernels::GuidedTerms terms;
+    terms.in_steps = samples > 0;
     const auto parallel = make_parallel(threads);
     std::vector<float> out(size_t(kWidth) * size_t(kHeight));
     std::vector<std::vector<float>> copies(Scene::kPlanes, out);
     double filter = std::numeric_limits<double>::infinity(), copy = filter;
     for ([[maybe_unused]] auto _ : state) {
         filter = std::min(filter, milliseconds([&] {
-                              tonemap::filter_base(scene().view(with_range), {}, taps,
+                              tonemap::filter_base(scene().view(with_range), terms, taps,
                                                    {0, 0, kWidth, kHeight}, out.data(), kWidth,
                                                    parallel);
                           }));

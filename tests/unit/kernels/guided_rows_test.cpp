@@ -114,6 +114,34 @@ TEST(GuidedRows, AreCloseToTheTwinOnEveryTarget) {
         });
 }
 
+// Half a step of 1 / 8191 in each of two numbers moves an exponent of up to 8, which is where
+// weights count, by less than 0.006, to both sides.
+TEST(GuidedRows, InStepsAreCloseToTheTwinOnEveryTarget) {
+    constexpr double kCloseInSteps = 1e-3;
+    const GuidedScene scene(90, 47, 3);
+    GuidedTerms terms;
+    terms.in_steps = true;
+    for (int choice : {kP | kN | kA, kP | kN, int(kA), kN | kA | kL | kOwnRange, kP | kA | kL,
+                       kP | kN | kA | kL | kAngles})
+        on_every_target([&] {
+            SCOPED_TRACE(choice);
+            terms.range = choice & kOwnRange ? 0.4 : 2;
+            terms.normal_term = choice & kAngles ? NormalTerm::Angle : NormalTerm::Distance;
+            const auto image = chosen(scene.view(), choice);
+            const double worst = worst_of(image, terms, some(), kCloseInSteps);
+            std::printf("  %s: worst %.3g\n", guided_rows().name, worst);
+        });
+}
+
+TEST(GuidedRows, InStepsOfUnlikeSigmas) {
+    const GuidedScene scene(50, 30, 8);
+    GuidedTerms terms;
+    terms.in_steps = true;
+    terms.normal = 0.5;
+    terms.albedo = 0.1;
+    worst_of(scene.view(), terms, some(), 2e-3);
+}
+
 TEST(GuidedRows, OfImagesSmallerThanTheWindow) {
     for (const auto& [w, h] : {std::pair{1, 1}, {2, 1}, {1, 3}, {5, 4}, {64, 2}, {65, 1}, {3, 70}})
         on_every_target([&, w = w, h = h] {
