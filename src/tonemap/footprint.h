@@ -10,11 +10,6 @@ namespace tonetool::tonemap {
 /// half, and a few of float. Footprints are at least as large.
 inline constexpr double kHalfStep = 1.0 / 1024, kFloatStep = 4.0 / 8388608;
 
-/// How far from the local median a footprint may be, as a factor; and the neighbourhood of that
-/// median, 5 x 5 pixels.
-inline constexpr float kFootprintSpread = 4;
-inline constexpr int kFootprintReach = 2;
-
 /// The footprint of each pixel: the geometric mean of the steps along x and y to the nearer of the
 /// two neighbours in space, lest silhouettes count; of one where the other has no neighbours. It is
 /// kept within 1/4 to 4 times the median of its neighbourhood, and is that median where it is not
