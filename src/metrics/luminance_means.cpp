@@ -1,0 +1,35 @@
+#include "metrics/luminance_means.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "kernels/luminance_sums.h"
+#include "metrics/blocks.h"
+
+namespace tonetool::metrics {
+
+LuminanceMeans luminance_means(const float* plane, int width, int height, double epsilon,
+                               const kernels::ParallelFor& parallel) {
+    std::vector<kernels::LuminanceSums> rows(size_t(std::max(height, 0)));
+    for_each_block(width, height, parallel, [&](int first, int end) {
+        for (int y = first; y < end; ++y)
+            rows[size_t(y)] =
+                kernels::luminance_sums(plane + int64_t(y) * width, width, float(epsilon));
+    });
+    kernels::LuminanceSums all;
+    for (const kernels::LuminanceSums& row : rows) {
+        all.counted += row.counted;
+        all.values += row.values;
+        all.logs += row.logs;
+        all.reciprocals += row.reciprocals;
+        all.most = std::max(all.most, row.most);
+    }
+    if (all.counted == 0)
+        return {};
+    const auto n = double(all.counted);
+    return {all.counted, double(all.most), all.values / n, std::exp(all.logs / n),
+            n / all.reciprocals};
+}
+
+} // namespace tonetool::metrics
