@@ -25,6 +25,8 @@ CgTmoOptions options_of(const Call& call) {
     options.lmax = call.number("lmax", {1e-30, 1e30});
     options.sigma = call.number("sigma", {1, 20}).value_or(options.sigma);
     options.samples = call.integer("samples", {0, 400}).value_or(options.samples);
+    options.wlsalpha = call.number("wlsalpha", {0, 4});
+    options.wlslambda = call.number("wlslambda", {0, 100});
     options.bias = call.number("bias", {0.01, 1}).value_or(options.bias);
     options.ldmax = call.number("ldmax", {1, 10000}).value_or(options.ldmax);
     options.saturation = call.number("saturation", {0, 4}).value_or(options.saturation);
@@ -79,7 +81,10 @@ std::vector<Modifier> cgtmo_modifiers() {
           {"samples", "N", "of the window, 4 to 400; 0: all (80)"},
           {"normaldist", "euclid|dot", "how normals differ (euclid)"},
           {"footprint", "pixel|global|X", "of a pixel in the scene (pixel)"},
-          {"filter", "guided|bilateral|none", "bilateral: luminance alone (guided)"},
+          {"filter", "guided|bilateral|wls|none",
+           "bilateral: luminance alone; wls: weighted least squares of it (guided)"},
+          {"wlsalpha", "X", "sensitivity of filter=wls to edges, 0 to 4 (1.2)"},
+          {"wlslambda", "X", "smoothness of filter=wls, 0 to 100 (0.125)"},
           {"lwa", "NAME|X",
            "adaptation luminance: geometric, harmonic, arithmetic, median (geometric)"},
           {"lmax", "X", "luminance that becomes white (the image's maximum)"},

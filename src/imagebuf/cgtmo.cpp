@@ -20,6 +20,7 @@
 #include "tonemap/footprint.h"
 #include "tonemap/local.h"
 #include "tonemap/poisson.h"
+#include "tonemap/wls.h"
 
 namespace tonetool {
 namespace {
@@ -87,16 +88,16 @@ private:
             o.domain.empty() ? (o.preset == "paper" ? "linear" : "log") : o.domain;
         if (!one_of("preset", o.preset, {"default", "paper"}, error) ||
             !one_of("domain", domain, {"log", "linear"}, error) ||
-            !one_of("filter", o.filter, {"guided", "bilateral", "none"}, error) ||
+            !one_of("filter", o.filter, {"guided", "bilateral", "wls", "none"}, error) ||
             !one_of("normaldist", o.normaldist, {"euclid", "dot"}, error) ||
             !in_range(o.sigma, 1, 20, "sigma", error) ||
             !in_range(o.bias, 0.01, 1, "bias", error) ||
             !in_range(o.ldmax, 1, 10000, "ldmax", error) ||
             !in_range(o.saturation, 0, 4, "saturation", error) ||
             !in_range(o.lumsigma.value_or(0), 0, 10, "lumsigma", error) ||
-            (o.samples != 0 && !in_range(o.samples, 4, 400, "samples", error)))
+            (o.samples != 0 && !in_range(o.samples, 4, 400, "samples", error)) || !plan_wls(error))
             return false;
-        m_what.logarithmic = domain == "log";
+        m_what.logarithmic = m_wls.logarithmic = domain == "log";
         m_what.luminance_sigma = o.lumsigma.value_or(o.preset == "paper" ? 0 : kLuminanceSigma);
         if (o.filter == "bilateral" && m_what.luminance_sigma == 0)
             m_what.luminance_sigma = kLuminanceSigma;
@@ -107,6 +108,21 @@ private:
         m_what.curve.display_maximum = o.ldmax;
         m_what.curve.saturation = o.saturation;
         return true;
+    }
+
+    bool plan_wls(std::string& error) {
+        const std::pair<const char*, const std::optional<double>&> given[] = {
+            {"wlsalpha", m_options.wlsalpha}, {"wlslambda", m_options.wlslambda}};
+        for (const auto& [name, value] : given)
+            if (value && m_options.filter != "wls") {
+                error =
+                    format("{} is of filter=wls, and this is filter={}", name, m_options.filter);
+                return false;
+            }
+        m_wls.alpha = m_options.wlsalpha.value_or(m_wls.alpha);
+        m_wls.lambda = m_options.wlslambda.value_or(m_wls.lambda);
+        return in_range(m_wls.alpha, 0, 4, "wlsalpha", error) &&
+               in_range(m_wls.lambda, 0, 100, "wlslambda", error);
     }
 
     bool read_color(std::string& error) {
@@ -276,6 +292,21 @@ private:
         return {tonemap::poisson_sets(half, m_options.samples), m_options.sigma};
     }
 
+    // Weighted least squares have no window: theirs is the base of the whole image.
+    tonemap::LocalBase find_base(const kernels::Window& window) {
+        const auto parallel = make_parallel(m_nthreads);
+        if (m_options.filter == "wls") {
+            const ptrdiff_t width = m_region.width();
+            m_base = tonemap::luminance_plane(m_what, m_planes.view(), parallel);
+            tonemap::wls_base(m_wls, m_base.data(), int(width), m_region.height(), m_base.data());
+            return {m_base.data() + window.y0 * width + window.x0, width};
+        }
+        m_base.resize(size_t(window.width) * size_t(window.height));
+        tonemap::guided_base(m_what, m_planes.view(), m_view, taps(), window, m_base.data(),
+                             window.width, parallel);
+        return {m_base.data(), window.width};
+    }
+
     void map(ImageBuf& out) {
         const ImageSpec& spec = out.spec();
         const kernels::Window window{spec.x - m_region.xbegin, spec.y - m_region.ybegin, spec.width,
@@ -289,7 +320,8 @@ private:
         }
         output.stride = spec.width;
         const auto parallel = make_parallel(m_nthreads);
-        tonemap::tone_map_local(m_what, m_planes.view(), m_view, taps(), window, output, parallel);
+        tonemap::tone_map_local(m_what, m_planes.view(), find_base(window), window, output,
+                                parallel);
         const int to[3] = {m_planes.choice.r, m_planes.choice.g, m_planes.choice.b};
         auto* pixels = static_cast<float*>(out.localpixels());
         parallel(spec.height, [&](int64_t y) {
@@ -335,6 +367,8 @@ private:
     bool m_half_positions = false;
     std::vector<float> m_footprints;
     kernels::GuidePlanes m_view;
+    tonemap::WlsTerms m_wls;
+    std::vector<float> m_base;
 };
 
 } // namespace

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <vector>
 
 #include "tonemap/base.h"
 
@@ -19,6 +18,14 @@ const double kLn2 = std::log(2.0), kLn10 = std::log(10.0);
 struct Rows {
     int first, end; // of the image
 };
+
+// `y` counts from the first row of the planes.
+void luminance_row(const LocalOperator& what, const ConstRgb& image, ptrdiff_t y, float* out) {
+    const float* rgb[3];
+    for (size_t c = 0; c < 3; ++c)
+        rgb[c] = image.plane[c] + y * image.stride;
+    kernels::luminance_rows(what.curve.weights, rgb, out, image.width);
+}
 
 // What is filtered, and what the luminance term compares, as planes beside the guides.
 class Values {
@@ -47,10 +54,7 @@ public:
 private:
     static void fill(const LocalOperator& what, const ConstRgb& image, ptrdiff_t y, float* value,
                      float* range) {
-        const float* rgb[3];
-        for (size_t c = 0; c < 3; ++c)
-            rgb[c] = image.plane[c] + y * image.stride;
-        kernels::luminance_rows(what.curve.weights, rgb, value, image.width);
+        luminance_row(what, image, y, value);
         const auto least = float(what.least_luminance);
         if (range)
             kernels::log_rows(value, range, image.width, least, float(kLn2 / kLn10));
@@ -72,20 +76,29 @@ kernels::GuidedTerms terms_of(const LocalOperator& what) {
 
 } // namespace
 
-void tone_map_local(const LocalOperator& what, const ConstRgb& image, const GuidePlanes& guides,
-                    const kernels::TapSets& taps, const Window& window, const LocalOutput& output,
-                    const kernels::ParallelFor& parallel) {
+std::vector<float> luminance_plane(const LocalOperator& what, const ConstRgb& image,
+                                   const kernels::ParallelFor& parallel) {
+    std::vector<float> plane(size_t(image.width) * size_t(image.height));
+    parallel(image.height, [&](int64_t y) {
+        luminance_row(what, image, y - image.first_row, plane.data() + y * image.width);
+    });
+    return plane;
+}
+
+void guided_base(const LocalOperator& what, const ConstRgb& image, const GuidePlanes& guides,
+                 const kernels::TapSets& taps, const Window& window, float* base, ptrdiff_t stride,
+                 const kernels::ParallelFor& parallel) {
     if (window.width <= 0 || window.height <= 0)
         return;
     const Rows rows{std::max(0, window.y0 - taps.half()),
                     std::min(image.height, window.y0 + window.height + taps.half())};
     const Values values(what, image, guides, rows, parallel);
-    std::vector<float> kept;
-    if (!output.base)
-        kept.resize(size_t(window.width) * size_t(window.height));
-    float* const base = output.base ? output.base : kept.data();
-    const ptrdiff_t stride = output.base ? output.stride : window.width;
     filter_base(values.planes(), terms_of(what), taps, window, base, stride, parallel);
+}
+
+void tone_map_local(const LocalOperator& what, const ConstRgb& image, const LocalBase& base,
+                    const Window& window, const LocalOutput& output,
+                    const kernels::ParallelFor& parallel) {
     kernels::LocalCurve curve = what.curve;
     curve.log_base = what.logarithmic;
     parallel(window.height, [&](int64_t y) {
@@ -96,7 +109,7 @@ void tone_map_local(const LocalOperator& what, const ConstRgb& image, const Guid
             in[c] = image.plane[c] + at;
             out[c] = output.rgb[c] + y * output.stride;
         }
-        kernels::local_rows(curve, base + y * stride, in, out, window.width);
+        kernels::local_rows(curve, base.plane + y * base.stride, in, out, window.width);
     });
 }
 

@@ -1,6 +1,8 @@
-// CG-TMO: Drago's curve on a base that the G-buffer guides. F. Banterle et al., Eq. 2 to 4; here
+// CG-TMO: Drago's curve on a base, which the G-buffer guides. F. Banterle et al., Eq. 2 to 4; here
 // everything is a number or a plane.
 #pragma once
+
+#include <vector>
 
 #include "kernels/guided.h"
 #include "kernels/local_rows.h"
@@ -18,20 +20,34 @@ struct LocalOperator {
     double least_luminance = 1e-6; ///< darker pixels count as this in logarithms
 };
 
-/// Where the results go: planes of the window's size, row stride in floats.
-struct LocalOutput {
-    float* rgb[3] = {nullptr, nullptr, nullptr}; ///< display light, not clamped
-    float* base = nullptr; ///< linear or, if logarithmic, its logarithm; may be null
+/// The base of a window: luminance or, if logarithmic, its natural logarithm. Row stride in floats.
+struct LocalBase {
+    const float* plane = nullptr;
     ptrdiff_t stride = 0;
 };
 
-/// Tone maps a window of an image. `guides` are of the same size and first row, or have no planes
-/// at all; their value and range are not looked at. Luminance that is not finite or negative takes
-/// no part, and becomes black. The bits depend neither on the window nor on how `parallel`
+/// Where the results go: planes of the window's size, row stride in floats.
+struct LocalOutput {
+    float* rgb[3] = {nullptr, nullptr, nullptr}; ///< display light, not clamped
+    ptrdiff_t stride = 0;
+};
+
+/// Luminance of every pixel, packed, for a base that is made of the whole image.
+std::vector<float> luminance_plane(const LocalOperator& what, const kernels::ConstRgb& image,
+                                   const kernels::ParallelFor& parallel);
+
+/// The base of a window by the guided filter. `guides` are of the size and first row of the image,
+/// or have no planes at all; their value and range are not looked at. Luminance that is not finite
+/// or negative takes no part. The bits depend neither on the window nor on how `parallel`
 /// schedules.
+void guided_base(const LocalOperator& what, const kernels::ConstRgb& image,
+                 const kernels::GuidePlanes& guides, const kernels::TapSets& taps,
+                 const kernels::Window& window, float* base, ptrdiff_t stride,
+                 const kernels::ParallelFor& parallel);
+
+/// Tone maps a window on its base: Eq. 2. Luminance that is not finite or negative becomes black.
 void tone_map_local(const LocalOperator& what, const kernels::ConstRgb& image,
-                    const kernels::GuidePlanes& guides, const kernels::TapSets& taps,
-                    const kernels::Window& window, const LocalOutput& output,
+                    const LocalBase& base, const kernels::Window& window, const LocalOutput& output,
                     const kernels::ParallelFor& parallel);
 
 } // namespace tonetool::tonemap

@@ -32,9 +32,12 @@ struct CgTmoOptions {
     /// "pixel": of each pixel, from its neighbours' positions; "global": the median of those; or a
     /// number, in the unit of the positions.
     std::string footprint = "pixel";
-    /// "guided"; "bilateral": the luminance term alone (Durand and Dorsey 2002); "none": Drago's
-    /// curve on each pixel.
+    /// "guided"; "bilateral": the luminance term alone (Durand and Dorsey 2002); "wls": weighted
+    /// least squares of luminance (Farbman et al. 2008); "none": Drago's curve on each pixel.
     std::string filter = "guided";
+    /// Of weighted least squares, and given with them alone: how sensitive they are to edges, 0 to
+    /// 4 (1.2), and how smooth the base is, 0 to 100 (0.125).
+    std::optional<double> wlsalpha, wlslambda;
     /// Adaptation luminance: "geometric", "harmonic", "arithmetic", "median" of the image, or a
     /// number.
     std::string lwa = "geometric";
@@ -51,7 +54,7 @@ struct CgTmoSummary {
     std::string position, normal, albedo, depth; ///< layers that were used; empty: none
     double adaptation = 0, maximum = 0;          ///< Lwa and Lmax
     double footprint = 0;                        ///< median, in the unit of positions; 0: unknown
-    int samples = 0;                             ///< neighbours of each pixel
+    int samples = 0;                             ///< neighbours of each pixel; 0: all (wls)
     int64_t background = 0;                      ///< pixels without a surface
     int64_t nonfinite = 0, negative = 0;
     std::vector<std::string> warnings;
@@ -67,7 +70,10 @@ namespace ToneAlgo {
 /// Missing guides: without a position, normal or albedo the term is left out, with a warning; with
 ///   none of them the luminance term alone remains.
 /// Background (no surface): neighbours of background only.
-/// NaN, Inf, negative colour: as tonemap; such pixels take no part in the base.
+/// NaN, Inf, negative colour: as tonemap; such pixels take no part in the base, nor do black ones
+///   in that of weighted least squares.
+/// Weighted least squares hold to 1e-7 of the base, or there is an error and no picture. They take
+///   WLSMEM.
 /// Results do not depend on the ROI, tiles or threads to the bit.
 TONETOOL_API bool cg_tmo(OIIO::ImageBuf& dst, const OIIO::ImageBuf& src,
                          const CgTmoOptions& options = {}, CgTmoSummary* summary = nullptr,

@@ -1,0 +1,35 @@
+// The base of WLS tone mapping: Z. Farbman et al., "Edge-Preserving Decompositions for Multi-Scale
+// Tone and Detail Manipulation" (2008), section 3.
+#pragma once
+
+namespace tonetool::tonemap {
+
+/// Minimises sum (u - g)^2 + lambda sum w |u_p - u_q|^2 over neighbours p, q in a row or column,
+/// w = 1 / (|l_p - l_q|^alpha + 1e-4), l the natural logarithm of luminance.
+struct WlsTerms {
+    double alpha = 1.2, lambda = 0.125; ///< not negative
+    bool logarithmic = false;           ///< g and u are l, not luminance
+};
+
+/// How the system of equations is solved: by factorisation or, in less memory, by conjugate
+/// gradients; by factorisation up to kDirectPixels.
+enum class WlsSolver { BySize, Direct, Iterative };
+
+inline constexpr int kDirectPixels = 2'000'000;
+
+/// The equations hold to this, of u or, if logarithmic, absolutely. So does u, then: the matrix has
+/// rows of sum 1 and an inverse without negative elements, whose rows are of sum 1, too.
+inline constexpr double kWlsTolerance = 1e-7;
+
+struct WlsMethod {
+    WlsSolver solver = WlsSolver::BySize;
+    int iterations = 2000; ///< of conjugate gradients, before they start anew
+};
+
+/// The base of a whole image; planes are packed and may be the same. Pixels whose luminance is not
+/// a finite positive number take no part: they are neither data nor anyone's neighbour, and NaN in
+/// `base`. Where the tolerance cannot be reached std::runtime_error. Runs on the calling thread.
+void wls_base(const WlsTerms& terms, const float* luminance, int width, int height, float* base,
+              const WlsMethod& method = {});
+
+} // namespace tonetool::tonemap
