@@ -2,6 +2,7 @@
 #include "chain/error.h"
 #include "chain/first_part.h"
 #include "chain/flip_args.h"
+#include "chain/light_args.h"
 
 namespace tonetool::chain {
 
@@ -17,12 +18,16 @@ CgTmoOptions options_of(const Call& call) {
         {"albedo", &options.albedo},         {"depth", &options.depth},
         {"normaldist", &options.normaldist}, {"footprint", &options.footprint},
         {"filter", &options.filter},         {"lwa", &options.lwa},
-        {"encode", &options.encode}};
+        {"encode", &options.encode},         {"env", &options.env},
+        {"weight", &options.weight},         {"maximum", &options.maximum}};
     for (const auto& [key, text] : texts) {
         *text = call.text(key).value_or(*text);
     }
     options.lumsigma = call.number("lumsigma", {0, 10});
     options.lmax = call.number("lmax", {1e-30, 1e30});
+    options.max_percentile = call.number("maxpercentile", {50, 100}).value_or(100);
+    options.lights = light_options(call);
+    options.lights.layer = call.text("lightindex").value_or("");
     options.sigma = call.number("sigma", {1, 20}).value_or(options.sigma);
     options.samples = call.integer("samples", {0, 400}).value_or(options.samples);
     options.wlsalpha = call.number("wlsalpha", {0, 4});
@@ -47,7 +52,10 @@ void report_summary(Session& session, const std::string& label, const CgTmoSumma
     line("background", std::to_string(found.background));
     line("footprint", format_number(found.footprint));
     line("adaptation", format_number(found.adaptation));
+    line("adaptation-from", found.adaptation_from);
     line("maximum", format_number(found.maximum));
+    line("maximum-from",
+         found.maximum_from + (found.maximum_light.empty() ? "" : " " + found.maximum_light));
 }
 
 void run_cgtmo(Session& session, const Call& call) {
@@ -76,7 +84,7 @@ std::vector<Modifier> cgtmo_modifiers() {
           {"normal", "LAYER", "normal (found)"},
           {"albedo", "LAYER", "albedo (found)"},
           {"depth", "LAYER", "depth, which tells the sky (found)"},
-          {"strict", "0|1", "a missing guide is an error (0)"},
+          {"strict", "0|1", "a missing guide, light or panorama is an error (0)"},
           {"sigma", "X", "of the window in pixels, 1 to 20 (8)"},
           {"samples", "N", "of the window, 4 to 400; 0: all (80)"},
           {"normaldist", "euclid|dot", "how normals differ (euclid)"},
@@ -87,8 +95,16 @@ std::vector<Modifier> cgtmo_modifiers() {
           {"wlslambda", "X", "smoothness of filter=wls, 0 to 100 (0.125)"},
           {"lwa", "NAME|X",
            "adaptation luminance: geometric, harmonic, arithmetic, median (geometric)"},
-          {"lmax", "X", "luminance that becomes white (the image's maximum)"},
-          {"bias", "X", "of Drago's curve (0.85)"},
+          {"env", "FILE", "latitude-longitude panorama at the camera, for lwa (the image)"},
+          {"weight", "solidangle|none", "of the panorama's pixels (solidangle)"},
+          {"lmax", "X", "luminance that becomes white (as maximum says)"},
+          {"maximum", "auto|lights|groups|env|image",
+           "lmax of the lights in the picture, their groups, the panorama, the image (the first "
+           "there is)"},
+          {"maxpercentile", "X", "of groups and image, instead of their largest (100)"},
+          {"lightindex", "LAYER", "index of each pixel's light; groups: by the groups (found)"}},
+         light_modifiers(),
+         {{"bias", "X", "of Drago's curve (0.85)"},
           {"ldmax", "X", "cd/m2 of the display (100)"},
           {"saturation", "X", "0 to 4 (1)"},
           {"encode", join(ToneAlgo::display_encodings(), "|"), "of the result (srgb)"},

@@ -64,5 +64,6 @@ std::vector<Command> channel_commands();
 std::vector<Command> stack_commands();
 std::vector<Command> tone_commands();
 std::vector<Command> cgtmo_commands();
+std::vector<Command> light_commands();
 
 } // namespace tonetool::chain

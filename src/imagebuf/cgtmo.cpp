@@ -10,13 +10,11 @@
 #include "imagebuf/color_reader.h"
 #include "imagebuf/gbuffer.h"
 #include "imagebuf/guard.h"
-#include "imagebuf/measure.h"
 #include "imagebuf/names.h"
 #include "imagebuf/parallel.h"
+#include "imagebuf/scene_stats.h"
 #include "imagebuf/tone_rows.h"
 #include "include/tonetool/tonemap.h"
-#include "metrics/luminance.h"
-#include "tonemap/calibration.h"
 #include "tonemap/footprint.h"
 #include "tonemap/local.h"
 #include "tonemap/poisson.h"
@@ -32,23 +30,6 @@ using OIIO::Strutil::fmt::format;
 
 // As the authors' programs have it: 2.5 sigma to each side.
 constexpr double kWindowOfSigma = 2.5;
-
-bool one_of(const char* what, const std::string& value, const std::vector<std::string>& valid,
-            std::string& error) {
-    if (std::find(valid.begin(), valid.end(), value) != valid.end())
-        return true;
-    error = unknown_name(what, value, valid);
-    return false;
-}
-
-// A number where a name could be; nullopt for a name.
-std::optional<double> number_of(const std::string& text) {
-    double value = 0;
-    if (!OIIO::Strutil::string_is_float(text))
-        return std::nullopt;
-    value = OIIO::Strutil::stof(text);
-    return value;
-}
 
 // One call: what is checked, read and measured, then the operator.
 class LocalMapping {
@@ -143,56 +124,17 @@ private:
 
     // Lwa and Lmax.
     bool measure(std::string& error) {
-        PagedArray<float> luminance;
-        if (!read_luminance(m_reader, m_planes, m_nthreads, luminance, error))
+        SceneStats scene;
+        if (!measure_scene(m_src, m_options, m_reader, m_planes, m_nthreads, scene, error))
             return false;
-        const auto parallel = make_parallel(m_nthreads);
-        const LuminanceStats stats =
-            metrics::luminance(luminance.data(), m_region.width(), m_region.height(), parallel);
-        const double maximum = m_options.lmax.value_or(stats.max);
-        if (!(maximum > 0 && std::isfinite(maximum))) {
-            error = m_options.lmax
-                        ? format("lmax is {}: must be positive and finite", maximum)
-                        : "the image is black: there is nothing to tone map (or pass lmax)";
-            return false;
-        }
-        const auto given = number_of(m_options.lwa);
-        double adaptation = given.value_or(0);
-        if (m_options.lwa == "geometric")
-            adaptation = tonemap::LocalMeans(luminance.data(), m_region.width(), m_region.height(),
-                                             0, kEpsilon, parallel)
-                             .mean();
-        else if (m_options.lwa == "arithmetic")
-            adaptation = stats.mean;
-        else if (m_options.lwa == "median")
-            adaptation = stats.median;
-        else if (m_options.lwa == "harmonic")
-            adaptation = harmonic(luminance);
-        else if (!given) {
-            error = unknown_name("lwa", m_options.lwa,
-                                 {"geometric", "harmonic", "arithmetic", "median", "a number"});
-            return false;
-        }
-        if (!(adaptation > 0 && std::isfinite(adaptation))) {
-            error = format("the adaptation luminance (lwa={}) is {}: must be positive and finite",
-                           m_options.lwa, adaptation);
-            return false;
-        }
-        summary.adaptation = m_what.curve.adaptation = adaptation;
-        summary.maximum = m_what.curve.maximum = maximum;
+        summary.adaptation = m_what.curve.adaptation = scene.adaptation;
+        summary.maximum = m_what.curve.maximum = scene.maximum;
+        summary.adaptation_from = scene.adaptation_from;
+        summary.maximum_from = scene.maximum_from;
+        summary.maximum_light = scene.maximum_light;
+        summary.warnings.insert(summary.warnings.end(), scene.warnings.begin(),
+                                scene.warnings.end());
         return true;
-    }
-
-    double harmonic(const PagedArray<float>& luminance) const {
-        double sum = 0;
-        int64_t count = 0;
-        const size_t size = luminance_bytes(m_region) / sizeof(float);
-        for (size_t i = 0; i < size; ++i)
-            if (const double l = luminance.data()[i]; std::isfinite(l)) {
-                sum += 1 / (l + kEpsilon);
-                ++count;
-            }
-        return count > 0 ? double(count) / sum : 0;
     }
 
     bool read_guides(std::string& error) {
@@ -350,10 +292,14 @@ private:
             if (!layer.empty())
                 spec.attribute(name, layer);
         spec.attribute("tonemap:adaptation", float(summary.adaptation));
+        spec.attribute("tonemap:adaptation_from", summary.adaptation_from);
         spec.attribute("tonemap:maximum", float(summary.maximum));
+        spec.attribute("tonemap:maximum_from", summary.maximum_from);
+        if (!summary.maximum_light.empty())
+            spec.attribute("tonemap:maximum_light", summary.maximum_light);
     }
 
-    static constexpr double kLuminanceSigma = 0.4, kEpsilon = 1e-6;
+    static constexpr double kLuminanceSigma = 0.4;
 
     const ImageBuf& m_src;
     const CgTmoOptions& m_options;

@@ -1,8 +1,13 @@
-// Options that are numbers, checked at the border.
+// Options that are numbers or names, checked at the border.
 #pragma once
 
 #include <OpenImageIO/strutil.h>
+#include <algorithm>
+#include <optional>
 #include <string>
+#include <vector>
+
+#include "imagebuf/names.h"
 
 namespace tonetool {
 
@@ -12,6 +17,21 @@ inline bool in_range(double value, double low, double high, const char* name, st
         return true;
     error = OIIO::Strutil::fmt::format("{} is {}: must be {} to {}", name, value, low, high);
     return false;
+}
+
+inline bool one_of(const char* what, const std::string& value,
+                   const std::vector<std::string>& valid, std::string& error) {
+    if (std::find(valid.begin(), valid.end(), value) != valid.end())
+        return true;
+    error = unknown_name(what, value, valid);
+    return false;
+}
+
+/// A number where a name could be; nullopt for a name.
+inline std::optional<double> number_of(const std::string& text) {
+    if (!OIIO::Strutil::string_is_float(text))
+        return std::nullopt;
+    return OIIO::Strutil::stod(text);
 }
 
 } // namespace tonetool

@@ -69,4 +69,33 @@ std::vector<LightGroup> find_light_groups(const OIIO::ImageSpec& spec, const std
     return {};
 }
 
+bool choose_light_groups(const OIIO::ImageSpec& spec, const std::string& beauty,
+                         const std::vector<std::string>& names, std::vector<LightGroup>& groups,
+                         std::string& error) {
+    const std::vector<LightGroup> found = find_light_groups(spec, beauty);
+    groups = names.empty() ? found : std::vector<LightGroup>{};
+    std::vector<LightGroup> known = found;
+    for (const AovLayer& layer : aov_layers(spec))
+        if (layer.has_rgb() && !layer.plain)
+            known.push_back({layer.token, layer.name, {layer.rgb[0], layer.rgb[1], layer.rgb[2]}});
+    for (const std::string& name : names) {
+        const auto is = [&](const LightGroup& g) { return g.name == name || g.layer == name; };
+        const auto it = std::find_if(known.begin(), known.end(), is);
+        if (it == known.end()) {
+            std::vector<std::string> valid;
+            for (const LightGroup& group : known)
+                valid.push_back(group.name);
+            error = unknown_name("light group", name, valid);
+            return false;
+        }
+        const auto same = [&](const LightGroup& g) { return g.layer == it->layer; };
+        if (std::any_of(groups.begin(), groups.end(), same)) {
+            error = "light group \"" + name + "\" is given twice";
+            return false;
+        }
+        groups.push_back(*it);
+    }
+    return true;
+}
+
 } // namespace tonetool

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "tonetool/export.h"
+#include "tonetool/lights.h"
 #include "tonetool/pixels.h"
 
 namespace tonetool {
@@ -25,7 +26,8 @@ struct CgTmoOptions {
     std::optional<double> lumsigma; ///< of the luminance term in log10, 0: none, to 10
     /// Guides by the name of their layer; "none": without; empty: found by the names and contents.
     std::string position, normal, albedo, depth;
-    bool strict = false;               ///< a missing guide is an error, not a warning
+    /// A missing guide, light, or panorama that was asked for is an error, not a warning.
+    bool strict = false;
     double sigma = 8;                  ///< of the window in pixels, 1 to 20; its half is 2.5 sigma
     int samples = 80;                  ///< of the window, 4 to 400; 0: all
     std::string normaldist = "euclid"; ///< |n - m|^2, or "dot": 1 - |n m|
@@ -38,10 +40,19 @@ struct CgTmoOptions {
     /// Of weighted least squares, and given with them alone: how sensitive they are to edges, 0 to
     /// 4 (1.2), and how smooth the base is, 0 to 100 (0.125).
     std::optional<double> wlsalpha, wlslambda;
-    /// Adaptation luminance: "geometric", "harmonic", "arithmetic", "median" of the image, or a
-    /// number.
+    /// Adaptation luminance: "geometric", "harmonic", "arithmetic", "median" of the panorama, or
+    /// of the image without one; or a number.
     std::string lwa = "geometric";
-    std::optional<double> lmax;  ///< luminance that becomes white; unset: the image's maximum
+    std::string env; ///< file of a latitude-longitude panorama at the camera, in the image's unit
+    std::string weight = "solidangle"; ///< PanoramaOptions::weight
+    std::optional<double> lmax;        ///< luminance that becomes white; unset: as `maximum` says
+    /// "lights": of the lights that light the image the largest luminance in `lights.table`;
+    /// "groups": the largest luminance in the layers of the light groups; "env": in the panorama;
+    /// "image": in the image. What cannot be had is followed by the next. "auto": the first that
+    /// was given, groups only if they add up to the image.
+    std::string maximum = "auto";
+    double max_percentile = 100; ///< of groups and image, instead of their largest; 50 to 100
+    LightOptions lights;
     double bias = 0.85;          ///< of Drago's curve, 0.01 to 1
     double ldmax = 100;          ///< cd/m2 of the display, 1 to 10000; 100 counts as 1
     double saturation = 1;       ///< C' = (C / L)^saturation Ld, 0 to 4
@@ -53,6 +64,9 @@ struct CgTmoSummary {
     std::string layer, space;
     std::string position, normal, albedo, depth; ///< layers that were used; empty: none
     double adaptation = 0, maximum = 0;          ///< Lwa and Lmax
+    std::string adaptation_from;                 ///< "lwa", "env", "image"
+    std::string maximum_from;                    ///< "lmax", "lights", "groups", "env", "image"
+    std::string maximum_light;                   ///< whose maximum it is, of lights and groups
     double footprint = 0;                        ///< median, in the unit of positions; 0: unknown
     int samples = 0;                             ///< neighbours of each pixel; 0: all (wls)
     int64_t background = 0;                      ///< pixels without a surface

@@ -1,0 +1,170 @@
+#include "imagebuf/light_maximum.h"
+
+#include <OpenImageIO/strutil.h>
+
+namespace tonetool {
+namespace {
+
+using OIIO::Strutil::fmt::format;
+
+// Takes the light if it is brighter.
+void take(LightMaximum::Found& found, double luminance, const std::string& light, bool measured) {
+    if (luminance <= found.luminance)
+        return;
+    found.luminance = luminance;
+    found.light = light;
+    found.measured = measured;
+}
+
+} // namespace
+
+bool LightMaximum::read_table(std::string& error) {
+    return m_options.table.empty() || m_table.read(m_options.table, m_options.unit, error);
+}
+
+bool LightMaximum::by_table(std::optional<Found>& out, std::string& why, std::string& error) {
+    std::optional<IndexLayer> layer;
+    ColorChoice choice;
+    if (!ToneAlgo::find_color(deciding_spec(m_image), m_beauty, choice, error) ||
+        (m_options.layer != "groups" &&
+         !find_index_layer(m_image.spec(), m_options.layer, choice.layer, layer, error)))
+        return false;
+    return layer ? by_layer(*layer, out, why, error) : by_named_groups(out, why, error);
+}
+
+// By the names that light_index() left, where there are some.
+const Light* LightMaximum::light_at(int index) const {
+    std::vector<std::string> names;
+    const std::string all = m_image.spec().get_string_attribute("lightindex:names");
+    if (!all.empty())
+        OIIO::Strutil::split(all, names, ",");
+    const Light* light =
+        size_t(index) < names.size() ? m_table.find(names[size_t(index)]) : nullptr;
+    return light ? light : m_table.find(index);
+}
+
+bool LightMaximum::by_layer(const IndexLayer& layer, std::optional<Found>& out, std::string& why,
+                            std::string& error) {
+    IndexCounts counts;
+    if (!count_indices(m_image, layer, counts, error))
+        return false;
+    Found found;
+    for (const auto& [index, pixels] : counts.pixels) {
+        const Light* light = light_at(index);
+        if (light && light->luminance)
+            take(found, *light->luminance, light->shown(), false);
+        else
+            found.lacks.push_back(
+                light ? format("light {} has no luminance: {}", light->shown(), light->lacks)
+                      : format("index {} of \"{}\" ({} pixels) is not in \"{}\" ({})", index,
+                               layer.layer, pixels, m_table.file(), m_table.list()));
+    }
+    constexpr size_t most = 4;
+    if (const size_t all = found.lacks.size(); all > most) {
+        found.lacks.resize(most);
+        found.lacks.push_back(format("and so are {} more indices", all - most));
+    }
+    if (counts.invalid > 0)
+        found.warnings.push_back(format("{} pixel(s) of \"{}\" are not an index and are left out",
+                                        counts.invalid, layer.layer));
+    if (counts.between > 0)
+        found.warnings.push_back(format("{} pixel(s) of \"{}\" are not whole numbers: an index "
+                                        "must not be filtered",
+                                        counts.between, layer.layer));
+    return finish(std::move(found), out, why,
+                  counts.pixels.empty() ? "the index layer holds no index"
+                                        : "no index of the image has a luminance");
+}
+
+bool LightMaximum::scan(std::string& error) {
+    if (m_scan)
+        return true;
+    LightScan scan;
+    if (!open_scan(m_image, m_beauty, m_options, table(), m_image.roi(), m_nthreads, scan, error) ||
+        (!scan.groups().empty() && !scan.run(nullptr, error)))
+        return false;
+    m_scan = std::move(scan);
+    return true;
+}
+
+bool LightMaximum::maximum_of(size_t group, double& value, std::string& error) const {
+    value = m_scan->groups()[group].maximum;
+    return m_percentile >= 100 || m_scan->percentile(group, m_percentile / 100, value, error);
+}
+
+bool LightMaximum::by_named_groups(std::optional<Found>& out, std::string& why,
+                                   std::string& error) {
+    if (!scan(error))
+        return false;
+    const auto& groups = m_scan->groups();
+    if (groups.empty()) {
+        why = "no light index and no light groups among the layers";
+        return true;
+    }
+    Found found;
+    const auto lights = lights_of(m_table, groups);
+    bool known = false;
+    for (size_t g = 0; g < groups.size(); ++g) {
+        known = known || lights[g];
+        if (groups[g].pixels == 0)
+            continue;
+        const std::string& name = groups[g].group.name;
+        if (lights[g] && lights[g]->luminance) {
+            take(found, *lights[g]->luminance, name, false);
+            continue;
+        }
+        double measured = 0;
+        if (!maximum_of(g, measured, error))
+            return false;
+        take(found, measured, name, true);
+        found.lacks.push_back(
+            (lights[g] ? format("light {} has no luminance in \"{}\", {}", name, m_table.file(),
+                                lights[g]->lacks)
+                       : format("light group \"{}\" is not in \"{}\"", name, m_table.file())) +
+            format(": the maximum of its layer, {:.6g}, is taken", measured));
+    }
+    found.warnings = m_scan->warnings();
+    if (known)
+        return finish(std::move(found), out, why, "no light group has a luminance");
+    std::vector<std::string> names;
+    for (const ScannedGroup& group : groups)
+        names.push_back(group.group.name);
+    why = format("none of the light groups ({}) is in \"{}\" ({})",
+                 OIIO::Strutil::join(names, ", "), m_table.file(), m_table.list());
+    return true;
+}
+
+bool LightMaximum::by_groups(std::optional<Found>& out, std::string& why, std::string& error) {
+    if (!scan(error))
+        return false;
+    if (m_scan->groups().empty()) {
+        why = "no light groups among the layers";
+        return true;
+    }
+    Found found;
+    for (size_t g = 0; g < m_scan->groups().size(); ++g) {
+        double measured = 0;
+        if (m_scan->groups()[g].pixels == 0)
+            continue;
+        if (!maximum_of(g, measured, error))
+            return false;
+        take(found, measured, m_scan->groups()[g].group.name, true);
+    }
+    found.warnings = m_scan->warnings();
+    found.additive = m_scan->additive();
+    return finish(std::move(found), out, why, "all light groups are black");
+}
+
+bool LightMaximum::finish(Found found, std::optional<Found>& out, std::string& why,
+                          const char* none) const {
+    if (found.luminance > 0) {
+        out = std::move(found);
+        return true;
+    }
+    why = none;
+    if (!found.lacks.empty())
+        why += " (" + found.lacks.front() + ")";
+    return true;
+}
+
+} // namespace tonetool

@@ -1,0 +1,23 @@
+// What the curve of CG-TMO follows from: the adaptation luminance and the largest one, from the
+// image, its lights and a panorama of the scene.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "imagebuf/color_reader.h"
+#include "include/tonetool/cgtmo.h"
+
+namespace tonetool {
+
+struct SceneStats {
+    double adaptation = 0, maximum = 0;
+    std::string adaptation_from, maximum_from, maximum_light;
+    std::vector<std::string> warnings;
+};
+
+/// `planes` hold the colour of the whole image, as `reader` reads it.
+bool measure_scene(const OIIO::ImageBuf& image, const CgTmoOptions& options, ColorReader& reader,
+                   ColorPlanes& planes, int nthreads, SceneStats& out, std::string& error);
+
+} // namespace tonetool
