@@ -44,12 +44,18 @@ public:
         if (!check_readable(m_src, "source", error) || !plan(error) || !read_color(error) ||
             !measure(error) || !read_guides(error))
             return false;
+        const ROI part = roi.defined() ? OIIO::roi_intersection(roi, m_region) : m_region;
+        if (part.npixels() == 0) {
+            error = "the region holds no pixel of the image";
+            return false;
+        }
+        map(part);
         ImageBuf out;
-        if (!OIIO::ImageBufAlgo::copy(out, m_src, OIIO::TypeFloat, roi, m_nthreads)) {
+        if (!OIIO::ImageBufAlgo::copy(out, m_src, OIIO::TypeFloat, part, m_nthreads)) {
             error = out.geterror();
             return false;
         }
-        map(out);
+        place(out);
         tag(out.specmod());
         dst = std::move(out);
         return true;
@@ -83,6 +89,7 @@ private:
         if (o.filter == "bilateral" && m_what.luminance_sigma == 0)
             m_what.luminance_sigma = kLuminanceSigma;
         m_what.terms.position = o.sigma;
+        m_what.terms.in_steps = o.samples != 0;
         m_what.terms.normal_term =
             o.normaldist == "dot" ? kernels::NormalTerm::Angle : kernels::NormalTerm::Distance;
         m_what.curve.bias = o.bias;
@@ -134,6 +141,7 @@ private:
         summary.maximum_light = scene.maximum_light;
         summary.warnings.insert(summary.warnings.end(), scene.warnings.begin(),
                                 scene.warnings.end());
+        m_luminance = std::move(scene.luminance);
         return true;
     }
 
@@ -235,42 +243,52 @@ private:
     }
 
     // Weighted least squares have no window: theirs is the base of the whole image.
-    tonemap::LocalBase find_base(const kernels::Window& window) {
-        const auto parallel = make_parallel(m_nthreads);
-        if (m_options.filter == "wls") {
-            const ptrdiff_t width = m_region.width();
-            m_base = tonemap::luminance_plane(m_what, m_planes.view(), parallel);
-            tonemap::wls_base(m_wls, m_base.data(), int(width), m_region.height(), m_base.data());
-            return {m_base.data() + window.y0 * width + window.x0, width};
-        }
-        m_base.resize(size_t(window.width) * size_t(window.height));
-        tonemap::guided_base(m_what, m_planes.view(), m_view, taps(), window, m_base.data(),
-                             window.width, parallel);
-        return {m_base.data(), window.width};
+    tonemap::LocalBase wls_base(const kernels::Window& window) {
+        const ptrdiff_t width = m_region.width();
+        tonemap::wls_base(m_wls, m_luminance.data(), int(width), m_region.height(),
+                          m_luminance.data());
+        return {m_luminance.data() + window.y0 * width + window.x0, width};
     }
 
-    void map(ImageBuf& out) {
-        const ImageSpec& spec = out.spec();
-        const kernels::Window window{spec.x - m_region.xbegin, spec.y - m_region.ybegin, spec.width,
-                                     spec.height};
-        const size_t size = size_t(spec.width) * size_t(spec.height);
-        std::vector<float> mapped[3];
-        tonemap::LocalOutput output;
-        for (size_t c = 0; c < 3; ++c) {
-            mapped[c].resize(size);
-            output.rgb[c] = mapped[c].data();
-        }
-        output.stride = spec.width;
+    void map_window(const kernels::Window& window, const tonemap::LocalOutput& output) {
         const auto parallel = make_parallel(m_nthreads);
-        tonemap::tone_map_local(m_what, m_planes.view(), find_base(window), window, output,
-                                parallel);
+        const kernels::ConstRgb color = m_planes.view();
+        if (m_options.filter == "wls")
+            return tonemap::tone_map_local(m_what, color, wls_base(window), window, output,
+                                           parallel);
+        tonemap::take_logarithms(m_what, m_luminance.data(), m_region.width(), m_region.height(),
+                                 parallel);
+        m_view.value = m_luminance.data();
+        tonemap::tone_map_guided(m_what, color, m_view, taps(), window, output, parallel);
+    }
+
+    // The colours of a part of the region become display light.
+    void map(const ROI& part) {
+        const ptrdiff_t stride = m_region.width();
+        const kernels::Window window{part.xbegin - m_region.xbegin, part.ybegin - m_region.ybegin,
+                                     part.width(), part.height()};
+        tonemap::LocalOutput output;
+        output.stride = stride;
+        for (size_t c = 0; c < 3; ++c)
+            output.rgb[c] = m_planes.plane[c].data() + window.y0 * stride + window.x0;
+        map_window(window, output);
+        m_guides = {};
+        m_luminance = {};
+        m_footprints = {};
+    }
+
+    // Display light of the pixels of `out` into its colour channels.
+    void place(ImageBuf& out) const {
+        const ImageSpec& spec = out.spec();
         const int to[3] = {m_planes.choice.r, m_planes.choice.g, m_planes.choice.b};
         auto* pixels = static_cast<float*>(out.localpixels());
-        parallel(spec.height, [&](int64_t y) {
+        make_parallel(m_nthreads)(spec.height, [&](int64_t y) {
+            const float* rgb[3];
+            m_planes.row(spec.x, spec.y + int(y), rgb);
             float* pixel = pixels + y * spec.width * spec.nchannels;
             for (int x = 0; x < spec.width; ++x, pixel += spec.nchannels)
                 for (size_t c = 0; c < 3; ++c)
-                    pixel[to[c]] = finished(mapped[c][size_t(y) * size_t(spec.width) + size_t(x)]);
+                    pixel[to[c]] = finished(rgb[c][x]);
         });
     }
 
@@ -311,10 +329,9 @@ private:
     ColorPlanes m_planes;
     GBuffer m_guides;
     bool m_half_positions = false;
-    std::vector<float> m_footprints;
+    PagedArray<float> m_luminance, m_footprints;
     kernels::GuidePlanes m_view;
     tonemap::WlsTerms m_wls;
-    std::vector<float> m_base;
 };
 
 } // namespace

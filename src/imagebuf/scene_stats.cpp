@@ -9,9 +9,8 @@
 #include "imagebuf/light_maximum.h"
 #include "imagebuf/measure.h"
 #include "imagebuf/parallel.h"
-#include "metrics/luminance.h"
 #include "metrics/order_statistics.h"
-#include "tonemap/calibration.h"
+#include "tonemap/luminance_means.h"
 
 namespace tonetool {
 namespace {
@@ -28,17 +27,6 @@ constexpr const char* kSourceNames[kSources] = {"lights", "groups", "env", "imag
 constexpr const char* kSourceTitles[kSources] = {"the lights", "the light groups", "the panorama",
                                                  "the image"};
 
-double harmonic(const PagedArray<float>& luminance, size_t size) {
-    double sum = 0;
-    int64_t count = 0;
-    for (size_t i = 0; i < size; ++i)
-        if (const double l = luminance[i]; std::isfinite(l)) {
-            sum += 1 / (l + kEpsilon);
-            ++count;
-        }
-    return count > 0 ? double(count) / sum : 0;
-}
-
 class SceneMeasure {
 public:
     SceneMeasure(const ImageBuf& image, const CgTmoOptions& options, int nthreads, SceneStats& out)
@@ -50,11 +38,11 @@ public:
 
     bool measure(ColorReader& reader, ColorPlanes& planes, std::string& error) {
         if (!check(error) || !m_lights.read_table(error) || !read_panorama(error) ||
-            !read_luminance(reader, planes, m_nthreads, m_luminance, error))
+            !read_luminance(reader, planes, m_nthreads, m_out.luminance, error))
             return false;
         m_region = planes.region;
-        m_stats = metrics::luminance(m_luminance.data(), m_region.width(), m_region.height(),
-                                     make_parallel(m_nthreads));
+        m_means = tonemap::luminance_means(m_out.luminance.data(), m_region.width(),
+                                           m_region.height(), kEpsilon, make_parallel(m_nthreads));
         if (!find_maximum(error) || !find_adaptation(error))
             return false;
         compare();
@@ -71,6 +59,7 @@ private:
     double image_mean() const;
     double panorama_mean() const;
     double image_maximum() const;
+    double image_percentile(metrics::Wanted wanted) const;
     bool asked(Source source) const;
     void compare();
 
@@ -82,8 +71,7 @@ private:
     std::optional<PanoramaStats> m_panorama;
     std::string m_no_panorama; ///< why it is not used
     OIIO::ROI m_region;
-    PagedArray<float> m_luminance;
-    LuminanceStats m_stats;
+    tonemap::LuminanceMeans m_means; ///< of the image
 };
 
 bool SceneMeasure::check(std::string& error) {
@@ -220,24 +208,25 @@ bool SceneMeasure::take_lights(Source source, std::string& why, std::string& err
     return true;
 }
 
+double SceneMeasure::image_percentile(metrics::Wanted wanted) const {
+    const metrics::OrderStatistics order(m_out.luminance.data(), m_region.width(),
+                                         m_region.height(), m_region.width(),
+                                         make_parallel(m_nthreads));
+    return order.count() > 0 ? order.find({wanted})[0] : 0;
+}
+
 double SceneMeasure::image_maximum() const {
     if (m_options.max_percentile >= 100)
-        return m_stats.max;
-    const metrics::OrderStatistics order(m_luminance.data(), m_region.width(), m_region.height(),
-                                         m_region.width(), make_parallel(m_nthreads));
-    return order.find({metrics::Wanted::percentile(m_options.max_percentile / 100)})[0];
+        return m_means.max;
+    return image_percentile(metrics::Wanted::percentile(m_options.max_percentile / 100));
 }
 
 double SceneMeasure::image_mean() const {
     if (m_options.lwa == "arithmetic")
-        return m_stats.mean;
+        return m_means.arithmetic;
     if (m_options.lwa == "median")
-        return m_stats.median;
-    if (m_options.lwa == "harmonic")
-        return harmonic(m_luminance, luminance_bytes(m_region) / sizeof(float));
-    return tonemap::LocalMeans(m_luminance.data(), m_region.width(), m_region.height(), 0, kEpsilon,
-                               make_parallel(m_nthreads))
-        .mean();
+        return image_percentile(metrics::Wanted::rank(m_means.counted / 2));
+    return m_options.lwa == "harmonic" ? m_means.harmonic : m_means.geometric;
 }
 
 double SceneMeasure::panorama_mean() const {
@@ -264,10 +253,10 @@ bool SceneMeasure::find_adaptation(std::string& error) {
 // Tables and panoramas in another unit, or at another exposure.
 void SceneMeasure::compare() {
     const auto far = [](double a, double b) { return b > 0 && (a > kFar * b || b > kFar * a); };
-    if (m_out.maximum_from == "lights" && far(m_out.maximum, m_stats.max))
+    if (m_out.maximum_from == "lights" && far(m_out.maximum, m_means.max))
         m_out.warnings.push_back(format("by the table light {} has {:.6g}, the brightest pixel "
                                         "{:.6g}: lightunit= brings them to one unit",
-                                        m_out.maximum_light, m_out.maximum, m_stats.max));
+                                        m_out.maximum_light, m_out.maximum, m_means.max));
     if (m_out.adaptation_from != "env")
         return;
     if (const double own = image_mean(); far(m_out.adaptation, own))

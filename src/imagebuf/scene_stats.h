@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "imagebuf/color_reader.h"
+#include "imagebuf/paged_array.h"
 #include "include/tonetool/cgtmo.h"
 
 namespace tonetool {
@@ -14,6 +15,7 @@ struct SceneStats {
     double adaptation = 0, maximum = 0;
     std::string adaptation_from, maximum_from, maximum_light;
     std::vector<std::string> warnings;
+    PagedArray<float> luminance; ///< packed; NaN where the colour was not finite
 };
 
 /// `planes` hold the colour of the whole image, as `reader` reads it.

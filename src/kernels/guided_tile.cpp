@@ -45,7 +45,8 @@ GuidedTile::GuidedTile(const GuidePlanes& image, const GuidedTerms& terms, const
       m_scales(image, terms),
       m_lead(whole_lines(taps.half())),
       m_data(hwy::AllocateAligned<float>(floats(m_layout, taps))),
-      m_table(size_t(2 * taps.half() + 1)) {}
+      m_table(size_t(2 * taps.half() + 1)),
+      m_filtered(size_t(columns)) {}
 
 size_t GuidedTile::bytes(const GuidePlanes& image, const GuidedTerms& terms, const TapSets& taps,
                          int columns) {
@@ -72,7 +73,7 @@ void GuidedTile::prepare(int y, int x0, int columns) {
     m_rows.prepare_outside(m_layout, end - to, row + (to - first));
 }
 
-void GuidedTile::filter(const Window& window, float* out, ptrdiff_t stride) {
+void GuidedTile::filter(const Window& window, const GuidedRow& row) {
     const int half = m_taps.half(), x0 = window.x0 / kGuidedRun * kGuidedRun;
     const int runs = (window.x0 + window.width - x0 + kGuidedRun - 1) / kGuidedRun;
     for (int y = window.y0 - half; y < window.y0 + half; ++y)
@@ -81,7 +82,8 @@ void GuidedTile::filter(const Window& window, float* out, ptrdiff_t stride) {
         prepare(y + half, x0, runs * kGuidedRun);
         for (int dy = -half; dy <= half; ++dy)
             m_table[size_t(dy + half)] = row_of(y + dy) + m_lead;
-        filter_row(y, window, x0, out + (y - window.y0) * stride);
+        filter_row(y, window, x0, m_filtered.data());
+        row(window.x0, y, window.width, m_filtered.data());
     }
 }
 

@@ -1,6 +1,7 @@
 // Columns of an image, from which the cross bilateral filter makes one row after the other.
 #pragma once
 
+#include <functional>
 #include <hwy/aligned_allocator.h>
 #include <vector>
 
@@ -8,6 +9,9 @@
 #include "kernels/views.h"
 
 namespace tonetool::kernels {
+
+/// Takes `count` pixels of row y from x0 on.
+using GuidedRow = std::function<void(int x0, int y, int count, const float* base)>;
 
 /// Work space of one thread: as many prepared rows as the window of the filter is high, so that a
 /// core's L2 cache holds them.
@@ -17,9 +21,9 @@ public:
     GuidedTile(const GuidePlanes& image, const GuidedTerms& terms, const TapSets& taps,
                int columns);
 
-    /// Filters a window of the image; row stride of `out` in floats. Where the value itself is not
-    /// one to be averaged it is copied.
-    void filter(const Window& window, float* out, ptrdiff_t stride);
+    /// Filters a window of the image and hands out its rows from the top. Where the value itself is
+    /// not one to be averaged it is copied.
+    void filter(const Window& window, const GuidedRow& row);
 
     static size_t bytes(const GuidePlanes& image, const GuidedTerms& terms, const TapSets& taps,
                         int columns);
@@ -39,6 +43,7 @@ private:
     ptrdiff_t m_lead; ///< columns before the first one
     hwy::AlignedFreeUniquePtr<float[]> m_data;
     std::vector<const float*> m_table; ///< the rows around the one that is filtered
+    std::vector<float> m_filtered;     ///< a row
 };
 
 } // namespace tonetool::kernels

@@ -22,13 +22,12 @@ constexpr int kTileWidth = 7 * kGuidedRun, kTileHeight = 540;
 class Tiles {
 public:
     Tiles(const kernels::GuidePlanes& image, const kernels::GuidedTerms& terms,
-          const kernels::TapSets& taps, const Window& window, float* out, ptrdiff_t stride)
+          const kernels::TapSets& taps, const Window& window, const kernels::GuidedRow& row)
         : m_image(image),
           m_terms(terms),
           m_taps(taps),
           m_window(window),
-          m_out(out),
-          m_stride(stride),
+          m_row(row),
           m_first(window.x0 / kGuidedRun * kGuidedRun),
           m_across((window.x0 + window.width - m_first + kTileWidth - 1) / kTileWidth),
           m_down((window.height + kTileHeight - 1) / kTileHeight),
@@ -43,8 +42,7 @@ public:
         const int y0 = int(i / m_across) * m_height;
         const int y1 = std::min(y0 + m_height, m_window.height);
         auto space = take();
-        space->filter({x0, m_window.y0 + y0, x1 - x0, y1 - y0},
-                      m_out + y0 * m_stride + (x0 - m_window.x0), m_stride);
+        space->filter({x0, m_window.y0 + y0, x1 - x0, y1 - y0}, m_row);
         const std::lock_guard<std::mutex> hold(m_lock);
         m_free.push_back(std::move(space));
     }
@@ -66,8 +64,7 @@ private:
     const kernels::GuidedTerms& m_terms;
     const kernels::TapSets& m_taps;
     Window m_window;
-    float* m_out;
-    ptrdiff_t m_stride;
+    const kernels::GuidedRow& m_row;
     int m_first; ///< column that tiles are counted from
     int m_across, m_down, m_height;
     std::mutex m_lock;
@@ -77,12 +74,21 @@ private:
 } // namespace
 
 void filter_base(const kernels::GuidePlanes& image, const kernels::GuidedTerms& terms,
-                 const kernels::TapSets& taps, const Window& window, float* out, ptrdiff_t stride,
+                 const kernels::TapSets& taps, const Window& window, const kernels::GuidedRow& row,
                  const kernels::ParallelFor& parallel) {
     if (window.width <= 0 || window.height <= 0)
         return;
-    Tiles tiles(image, terms, taps, window, out, stride);
+    Tiles tiles(image, terms, taps, window, row);
     parallel(tiles.count(), [&tiles](int64_t i) { tiles.run(i); });
+}
+
+void filter_base(const kernels::GuidePlanes& image, const kernels::GuidedTerms& terms,
+                 const kernels::TapSets& taps, const Window& window, float* out, ptrdiff_t stride,
+                 const kernels::ParallelFor& parallel) {
+    const auto copy = [&](int x0, int y, int count, const float* base) {
+        std::copy_n(base, count, out + (y - window.y0) * stride + (x0 - window.x0));
+    };
+    filter_base(image, terms, taps, window, copy, parallel);
 }
 
 } // namespace tonetool::tonemap

@@ -2,9 +2,15 @@
 #pragma once
 
 #include "kernels/guided.h"
+#include "kernels/guided_tile.h"
 #include "kernels/views.h"
 
 namespace tonetool::tonemap {
+
+/// Filters a window of the image. `row` gets pieces of rows, several at a time, in any order.
+void filter_base(const kernels::GuidePlanes& image, const kernels::GuidedTerms& terms,
+                 const kernels::TapSets& taps, const kernels::Window& window,
+                 const kernels::GuidedRow& row, const kernels::ParallelFor& parallel);
 
 /// Filters a window of the image into `out`, row stride in floats. The bits depend neither on the
 /// window nor on how `parallel` schedules.

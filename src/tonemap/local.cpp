@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <vector>
 
 #include "tonemap/base.h"
 
@@ -15,55 +16,35 @@ using kernels::Window;
 
 const double kLn2 = std::log(2.0), kLn10 = std::log(10.0);
 
-struct Rows {
-    int first, end; // of the image
-};
-
-// `y` counts from the first row of the planes.
-void luminance_row(const LocalOperator& what, const ConstRgb& image, ptrdiff_t y, float* out) {
-    const float* rgb[3];
-    for (size_t c = 0; c < 3; ++c)
-        rgb[c] = image.plane[c] + y * image.stride;
-    kernels::luminance_rows(what.curve.weights, rgb, out, image.width);
-}
-
-// What is filtered, and what the luminance term compares, as planes beside the guides.
-class Values {
+// The value and, if there is a luminance term, what it compares.
+class Planes {
 public:
-    Values(const LocalOperator& what, const ConstRgb& image, const GuidePlanes& guides,
-           const Rows& rows, const kernels::ParallelFor& parallel)
-        : m_planes(guides) {
-        m_planes.stride = std::max<ptrdiff_t>(m_planes.stride, image.width);
-        m_planes.width = image.width;
-        m_planes.height = image.height;
-        m_planes.first_row = image.first_row;
-        const auto size = size_t(m_planes.stride) * size_t(rows.end - image.first_row);
-        const bool two = !what.logarithmic && what.luminance_sigma > 0;
-        m_value.resize(size);
-        m_range.resize(two ? size : 0);
-        parallel(rows.end - rows.first, [&](int64_t i) {
-            const ptrdiff_t y = rows.first - image.first_row + i, at = y * m_planes.stride;
-            fill(what, image, y, m_value.data() + at, two ? m_range.data() + at : nullptr);
+    Planes(const LocalOperator& what, const GuidePlanes& image, const kernels::TapSets& taps,
+           const Window& window, const kernels::ParallelFor& parallel)
+        : m_planes(image) {
+        m_planes.range = nullptr;
+        if (what.luminance_sigma == 0)
+            return;
+        m_planes.range = image.value;
+        if (what.logarithmic)
+            return;
+        const ptrdiff_t first = std::max(0, window.y0 - taps.half()) - image.first_row;
+        const ptrdiff_t end =
+            std::min(image.height, window.y0 + window.height + taps.half()) - image.first_row;
+        m_range.resize(size_t(image.stride) * size_t(end));
+        parallel(end - first, [&](int64_t i) {
+            const ptrdiff_t at = (first + i) * image.stride;
+            kernels::log_rows(image.value + at, m_range.data() + at, image.width,
+                              float(what.least_luminance), float(kLn2 / kLn10));
         });
-        m_planes.value = m_value.data();
-        m_planes.range = two ? m_range.data() : what.luminance_sigma > 0 ? m_value.data() : nullptr;
+        m_planes.range = m_range.data();
     }
 
-    const GuidePlanes& planes() const { return m_planes; }
+    const GuidePlanes& view() const { return m_planes; }
 
 private:
-    static void fill(const LocalOperator& what, const ConstRgb& image, ptrdiff_t y, float* value,
-                     float* range) {
-        luminance_row(what, image, y, value);
-        const auto least = float(what.least_luminance);
-        if (range)
-            kernels::log_rows(value, range, image.width, least, float(kLn2 / kLn10));
-        if (what.logarithmic)
-            kernels::log_rows(value, value, image.width, least, float(kLn2));
-    }
-
     GuidePlanes m_planes;
-    std::vector<float> m_value, m_range;
+    std::vector<float> m_range;
 };
 
 kernels::GuidedTerms terms_of(const LocalOperator& what) {
@@ -74,42 +55,73 @@ kernels::GuidedTerms terms_of(const LocalOperator& what) {
     return terms;
 }
 
-} // namespace
+// Pixels to display light, on their base.
+class Recombination {
+public:
+    Recombination(const LocalOperator& what, const ConstRgb& color, const Window& window,
+                  const LocalOutput& output)
+        : m_curve(what.curve),
+          m_color(color),
+          m_window(window),
+          m_output(output) {
+        m_curve.log_base = what.logarithmic;
+    }
 
-std::vector<float> luminance_plane(const LocalOperator& what, const ConstRgb& image,
-                                   const kernels::ParallelFor& parallel) {
-    std::vector<float> plane(size_t(image.width) * size_t(image.height));
-    parallel(image.height, [&](int64_t y) {
-        luminance_row(what, image, y - image.first_row, plane.data() + y * image.width);
-    });
-    return plane;
-}
-
-void guided_base(const LocalOperator& what, const ConstRgb& image, const GuidePlanes& guides,
-                 const kernels::TapSets& taps, const Window& window, float* base, ptrdiff_t stride,
-                 const kernels::ParallelFor& parallel) {
-    if (window.width <= 0 || window.height <= 0)
-        return;
-    const Rows rows{std::max(0, window.y0 - taps.half()),
-                    std::min(image.height, window.y0 + window.height + taps.half())};
-    const Values values(what, image, guides, rows, parallel);
-    filter_base(values.planes(), terms_of(what), taps, window, base, stride, parallel);
-}
-
-void tone_map_local(const LocalOperator& what, const ConstRgb& image, const LocalBase& base,
-                    const Window& window, const LocalOutput& output,
-                    const kernels::ParallelFor& parallel) {
-    kernels::LocalCurve curve = what.curve;
-    curve.log_base = what.logarithmic;
-    parallel(window.height, [&](int64_t y) {
-        const ptrdiff_t at = (window.y0 - image.first_row + y) * image.stride + window.x0;
+    void operator()(int x0, int y, int count, const float* base) const {
+        const ptrdiff_t from = (y - m_color.first_row) * m_color.stride + x0;
+        const ptrdiff_t to = (y - m_window.y0) * m_output.stride + (x0 - m_window.x0);
         const float* in[3];
         float* out[3];
         for (size_t c = 0; c < 3; ++c) {
-            in[c] = image.plane[c] + at;
-            out[c] = output.rgb[c] + y * output.stride;
+            in[c] = m_color.plane[c] + from;
+            out[c] = m_output.rgb[c] + to;
         }
-        kernels::local_rows(curve, base.plane + y * base.stride, in, out, window.width);
+        kernels::local_rows(m_curve, base, in, out, count);
+    }
+
+private:
+    kernels::LocalCurve m_curve;
+    const ConstRgb& m_color;
+    const Window& m_window;
+    const LocalOutput& m_output;
+};
+
+} // namespace
+
+void take_logarithms(const LocalOperator& what, float* luminance, int width, int height,
+                     const kernels::ParallelFor& parallel) {
+    if (!what.logarithmic)
+        return;
+    parallel(height, [&](int64_t y) {
+        float* const row = luminance + y * width;
+        kernels::log_rows(row, row, width, float(what.least_luminance), float(kLn2));
+    });
+}
+
+void guided_base(const LocalOperator& what, const GuidePlanes& image, const kernels::TapSets& taps,
+                 const Window& window, float* base, ptrdiff_t stride,
+                 const kernels::ParallelFor& parallel) {
+    const Planes planes(what, image, taps, window, parallel);
+    filter_base(planes.view(), terms_of(what), taps, window, base, stride, parallel);
+}
+
+void tone_map_guided(const LocalOperator& what, const ConstRgb& color, const GuidePlanes& image,
+                     const kernels::TapSets& taps, const Window& window, const LocalOutput& output,
+                     const kernels::ParallelFor& parallel) {
+    const Planes planes(what, image, taps, window, parallel);
+    const Recombination recombine(what, color, window, output);
+    filter_base(
+        planes.view(), terms_of(what), taps, window,
+        [&](int x0, int y, int count, const float* base) { recombine(x0, y, count, base); },
+        parallel);
+}
+
+void tone_map_local(const LocalOperator& what, const ConstRgb& color, const LocalBase& base,
+                    const Window& window, const LocalOutput& output,
+                    const kernels::ParallelFor& parallel) {
+    const Recombination recombine(what, color, window, output);
+    parallel(window.height, [&](int64_t y) {
+        recombine(window.x0, window.y0 + int(y), window.width, base.plane + y * base.stride);
     });
 }
 

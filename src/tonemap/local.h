@@ -2,8 +2,6 @@
 // everything is a number or a plane.
 #pragma once
 
-#include <vector>
-
 #include "kernels/guided.h"
 #include "kernels/local_rows.h"
 #include "kernels/views.h"
@@ -26,27 +24,33 @@ struct LocalBase {
     ptrdiff_t stride = 0;
 };
 
-/// Where the results go: planes of the window's size, row stride in floats.
+/// Where the results go: planes of the window's size, row stride in floats. They may be those of
+/// the image.
 struct LocalOutput {
     float* rgb[3] = {nullptr, nullptr, nullptr}; ///< display light, not clamped
     ptrdiff_t stride = 0;
 };
 
-/// Luminance of every pixel, packed, for a base that is made of the whole image.
-std::vector<float> luminance_plane(const LocalOperator& what, const kernels::ConstRgb& image,
-                                   const kernels::ParallelFor& parallel);
+/// Makes a plane of luminance, packed, what bases are means of: its natural logarithm, if they are
+/// logarithmic. NaN stays where luminance is not finite or negative.
+void take_logarithms(const LocalOperator& what, float* luminance, int width, int height,
+                     const kernels::ParallelFor& parallel);
 
-/// The base of a window by the guided filter. `guides` are of the size and first row of the image,
-/// or have no planes at all; their value and range are not looked at. Luminance that is not finite
-/// or negative takes no part. The bits depend neither on the window nor on how `parallel`
-/// schedules.
-void guided_base(const LocalOperator& what, const kernels::ConstRgb& image,
-                 const kernels::GuidePlanes& guides, const kernels::TapSets& taps,
-                 const kernels::Window& window, float* base, ptrdiff_t stride,
-                 const kernels::ParallelFor& parallel);
+/// The base of a window by the guided filter. The value of `image` is luminance after
+/// take_logarithms; its range is not looked at. What is NaN there takes no part. The bits depend
+/// neither on the window nor on how `parallel` schedules.
+void guided_base(const LocalOperator& what, const kernels::GuidePlanes& image,
+                 const kernels::TapSets& taps, const kernels::Window& window, float* base,
+                 ptrdiff_t stride, const kernels::ParallelFor& parallel);
+
+/// Tone maps a window on the base that guided_base would make, which is not kept.
+void tone_map_guided(const LocalOperator& what, const kernels::ConstRgb& color,
+                     const kernels::GuidePlanes& image, const kernels::TapSets& taps,
+                     const kernels::Window& window, const LocalOutput& output,
+                     const kernels::ParallelFor& parallel);
 
 /// Tone maps a window on its base: Eq. 2. Luminance that is not finite or negative becomes black.
-void tone_map_local(const LocalOperator& what, const kernels::ConstRgb& image,
+void tone_map_local(const LocalOperator& what, const kernels::ConstRgb& color,
                     const LocalBase& base, const kernels::Window& window, const LocalOutput& output,
                     const kernels::ParallelFor& parallel);
 

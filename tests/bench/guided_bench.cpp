@@ -14,10 +14,10 @@
 
 #include "imagebuf/parallel.h"
 #include "kernels/guided_rows.h"
-#include "metrics/luminance_means.h"
 #include "tonemap/base.h"
 #include "tonemap/footprint.h"
 #include "tonemap/local.h"
+#include "tonemap/luminance_means.h"
 #include "tonemap/poisson.h"
 
 namespace {
@@ -178,14 +178,15 @@ void whole_operator(const Scene& from, bool paper, const kernels::TapSets& taps,
             row[c] = color.plane[c] + y * from.width;
         kernels::luminance_rows(what.curve.weights, row, luminance + y * from.width, from.width);
     });
-    const auto means = metrics::luminance_means(luminance, from.width, from.height, 1e-6, parallel);
+    const auto means = tonemap::luminance_means(luminance, from.width, from.height, 1e-6, parallel);
     what.curve.adaptation = means.geometric;
     what.curve.maximum = means.max;
     what.logarithmic = !paper;
     what.luminance_sigma = paper ? 0 : 0.4;
     what.terms.in_steps = true;
+    tonemap::take_logarithms(what, luminance, from.width, from.height, parallel);
     kernels::GuidePlanes guides = from.view(false);
-    guides.value = nullptr;
+    guides.value = luminance;
     float* const footprint = to.plane[Scene::kFootprint].data();
     tonemap::footprints(guides, tonemap::kFloatStep, footprint, parallel);
     guides.footprint = footprint;
@@ -193,8 +194,8 @@ void whole_operator(const Scene& from, bool paper, const kernels::TapSets& taps,
     for (int c = 0; c < 3; ++c)
         out.rgb[c] = to.plane[Scene::kColor + c].data();
     out.stride = from.width;
-    tonemap::tone_map_local(what, color, guides, taps, {0, 0, from.width, from.height}, out,
-                            parallel);
+    tonemap::tone_map_guided(what, color, guides, taps, {0, 0, from.width, from.height}, out,
+                             parallel);
 }
 
 // Arguments: columns (16 by 9), the paper's preset, threads (0: all).

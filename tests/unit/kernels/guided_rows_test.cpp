@@ -61,7 +61,11 @@ std::vector<float> filtered(const GuidePlanes& image, const GuidedTerms& terms, 
     if (window.width == 0)
         window = {0, 0, image.width, image.height};
     std::vector<float> out(size_t(window.width) * size_t(window.height));
-    GuidedTile(image, terms, taps, window.width).filter(window, out.data(), window.width);
+    GuidedTile(image, terms, taps, window.width)
+        .filter(window, [&](int x0, int y, int count, const float* base) {
+            std::copy_n(base, count,
+                        out.data() + (y - window.y0) * window.width + (x0 - window.x0));
+        });
     return out;
 }
 

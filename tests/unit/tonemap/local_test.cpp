@@ -30,6 +30,16 @@ struct Result {
     std::vector<float> plane[3];
 };
 
+std::vector<float> value_of(const LocalOperator& what, const HdrImage& image,
+                            const kernels::ParallelFor& parallel) {
+    std::vector<float> value(image.size());
+    const float* const rgb[3] = {image.plane[0].data(), image.plane[1].data(),
+                                 image.plane[2].data()};
+    kernels::luminance_rows(what.curve.weights, rgb, value.data(), ptrdiff_t(value.size()));
+    take_logarithms(what, value.data(), image.width, image.height, parallel);
+    return value;
+}
+
 Result run(const LocalOperator& what, const HdrImage& image, const GuidePlanes& guides,
            Window window = {}, const kernels::ParallelFor& parallel = kernels::in_order()) {
     if (window.width == 0)
@@ -42,9 +52,18 @@ Result run(const LocalOperator& what, const HdrImage& image, const GuidePlanes& 
         out.plane[c].resize(size);
         to.rgb[c] = out.plane[c].data();
     }
+    const auto value = value_of(what, image, parallel);
+    GuidePlanes planes = guides;
+    planes.value = value.data();
+    planes.stride = planes.width = image.width;
+    planes.height = image.height;
     std::vector<float> base(size);
-    guided_base(what, image.view(), guides, taps(), window, base.data(), window.width, parallel);
+    guided_base(what, planes, taps(), window, base.data(), window.width, parallel);
     tone_map_local(what, image.view(), {base.data(), window.width}, window, to, parallel);
+    const Result with_base = out;
+    tone_map_guided(what, image.view(), planes, taps(), window, to, parallel);
+    for (size_t c = 0; c < 3; ++c)
+        EXPECT_EQ(with_base.plane[c], out.plane[c]);
     return out;
 }
 

@@ -5,7 +5,7 @@
 
 #include "kernels/views.h"
 
-namespace tonetool::metrics {
+namespace tonetool::tonemap {
 
 struct LuminanceMeans {
     int64_t counted = 0; ///< pixels; those that are not finite or negative are not
@@ -19,4 +19,4 @@ struct LuminanceMeans {
 LuminanceMeans luminance_means(const float* plane, int width, int height, double epsilon,
                                const kernels::ParallelFor& parallel);
 
-} // namespace tonetool::metrics
+} // namespace tonetool::tonemap

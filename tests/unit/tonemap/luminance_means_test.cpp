@@ -1,4 +1,4 @@
-#include "metrics/luminance_means.h"
+#include "tonemap/luminance_means.h"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 #include "schedules.h"
 #include "target.h"
 
-namespace tonetool::metrics {
+namespace tonetool::tonemap {
 namespace {
 
 constexpr double kEpsilon = 1e-6;
@@ -103,4 +103,4 @@ TEST(LuminanceMeans, DoNotDependOnTheSchedule) {
 }
 
 } // namespace
-} // namespace tonetool::metrics
+} // namespace tonetool::tonemap

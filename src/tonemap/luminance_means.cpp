@@ -1,21 +1,18 @@
-#include "metrics/luminance_means.h"
+#include "tonemap/luminance_means.h"
 
 #include <algorithm>
 #include <cmath>
 #include <vector>
 
 #include "kernels/luminance_sums.h"
-#include "metrics/blocks.h"
 
-namespace tonetool::metrics {
+namespace tonetool::tonemap {
 
 LuminanceMeans luminance_means(const float* plane, int width, int height, double epsilon,
                                const kernels::ParallelFor& parallel) {
     std::vector<kernels::LuminanceSums> rows(size_t(std::max(height, 0)));
-    for_each_block(width, height, parallel, [&](int first, int end) {
-        for (int y = first; y < end; ++y)
-            rows[size_t(y)] =
-                kernels::luminance_sums(plane + int64_t(y) * width, width, float(epsilon));
+    parallel(height, [&](int64_t y) {
+        rows[size_t(y)] = kernels::luminance_sums(plane + y * width, width, float(epsilon));
     });
     kernels::LuminanceSums all;
     for (const kernels::LuminanceSums& row : rows) {
@@ -32,4 +29,4 @@ LuminanceMeans luminance_means(const float* plane, int width, int height, double
             n / all.reciprocals};
 }
 
-} // namespace tonetool::metrics
+} // namespace tonetool::tonemap
