@@ -1,7 +1,8 @@
 #include "tonemap/wls.h"
 
 #include <Eigen/IterativeLinearSolvers>
-#include <Eigen/SparseCholesky>
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -10,18 +11,17 @@
 #include <vector>
 
 #include "kernels/curve_constants.h"
+#include "tonemap/aggregates.h"
 
 namespace tonetool::tonemap {
 namespace {
 
-using Matrix = Eigen::SparseMatrix<double>;
-using Eigen::Lower;
 using Eigen::VectorXd;
 
-constexpr double kEpsilon = 1e-4;     // keeps the weights of equal neighbours finite
-constexpr int kElementsOfPixel = 3;   // of the lower triangle
-constexpr double kCgTolerance = 1e-6; // of the residual's norm, in each round
-constexpr int kRounds = 5;
+constexpr double kEpsilon = 1e-4; // keeps the weights of equal neighbours finite
+constexpr int kElementsOfPixel = 5;
+constexpr double kCgTolerance = 1e-5; // of the residual's norm, in each round
+constexpr int kRounds = 10;
 
 // (1 + lambda L) u = g, over the pixels that take part.
 class Equations {
@@ -34,21 +34,20 @@ public:
         couple();
     }
 
-    const Matrix& lower() const { return m_lower; }
+    const Aggregates::Matrix& matrix() const { return m_matrix; }
     const VectorXd& data() const { return m_data; }
 
-    VectorXd residual(const VectorXd& u) const {
-        return m_data - m_lower.selfadjointView<Lower>() * u;
-    }
+    VectorXd residual(const VectorXd& u) const { return m_data - m_matrix * u; }
 
     // The largest residual, in tolerances; NaN where there is one.
     double worst(const VectorXd& u, const VectorXd& residual) const {
         double most = 0;
         for (Eigen::Index i = 0; i < u.size(); ++i) {
-            const double scale = m_terms.logarithmic ? 1 : u[i];
+            // On the way u may be below 0.
+            const double scale = m_terms.logarithmic ? 1 : std::max(u[i], 0.0);
             const double here = std::abs(residual[i]) / (kWlsTolerance * scale);
-            if (!(here >= 0))
-                return std::numeric_limits<double>::quiet_NaN();
+            if (std::isnan(here))
+                return here;
             most = std::max(most, here);
         }
         return most;
@@ -80,45 +79,46 @@ private:
 
     void couple() {
         const Eigen::Index count = m_data.size();
-        VectorXd diagonal = VectorXd::Ones(count);
-        m_lower.resize(count, count);
-        m_lower.reserve(kElementsOfPixel * count);
+        m_matrix.resize(count, count);
+        m_matrix.reserve(kElementsOfPixel * count);
         for (int y = 0; y < m_height; ++y)
-            for (int x = 0; x < m_width; ++x) {
-                const int i = unknown(x, y);
-                if (i < 0)
-                    continue;
-                const int right = x + 1 < m_width ? unknown(x + 1, y) : -1;
-                const int below = y + 1 < m_height ? unknown(x, y + 1) : -1;
-                const double a = weight(i, right), b = weight(i, below);
-                m_lower.startVec(i);
-                m_lower.insertBack(i, i) = diagonal[i] + a + b;
-                add(i, right, a, diagonal);
-                add(i, below, b, diagonal);
-            }
-        m_lower.finalize();
+            for (int x = 0; x < m_width; ++x)
+                if (const int i = unknown(x, y); i >= 0)
+                    add(i, {unknown(x, y - 1), unknown(x - 1, y), i, unknown(x + 1, y),
+                            unknown(x, y + 1)});
+        m_matrix.finalize();
     }
 
-    int unknown(int x, int y) const { return m_unknown[size_t(y) * size_t(m_width) + size_t(x)]; }
+    // -1 for pixels outside, too.
+    int unknown(int x, int y) const {
+        const bool inside = x >= 0 && y >= 0 && x < m_width && y < m_height;
+        return inside ? m_unknown[size_t(y) * size_t(m_width) + size_t(x)] : -1;
+    }
+
+    // The column of an unknown; its neighbours and itself are in order.
+    void add(int i, const std::array<int, kElementsOfPixel>& near) {
+        std::array<double, kElementsOfPixel> value{};
+        double diagonal = 1;
+        for (size_t k = 0; k < near.size(); ++k)
+            if (near[k] >= 0 && near[k] != i) {
+                value[k] = -weight(i, near[k]);
+                diagonal -= value[k];
+            }
+        m_matrix.startVec(i);
+        for (size_t k = 0; k < near.size(); ++k)
+            if (near[k] >= 0)
+                m_matrix.insertBack(near[k], i) = near[k] == i ? diagonal : value[k];
+    }
 
     double weight(int i, int j) const {
-        if (j < 0)
-            return 0;
         return m_terms.lambda / (std::pow(std::abs(m_log[i] - m_log[j]), m_terms.alpha) + kEpsilon);
-    }
-
-    void add(int i, int j, double weight, VectorXd& diagonal) {
-        if (j < 0)
-            return;
-        m_lower.insertBack(j, i) = -weight;
-        diagonal[j] += weight;
     }
 
     WlsTerms m_terms;
     int m_width, m_height;
     std::vector<int> m_unknown; // of each pixel; -1: takes no part
     VectorXd m_log, m_data;
-    Matrix m_lower;
+    Aggregates::Matrix m_matrix;
 };
 
 [[noreturn]] void give_up(const std::string& why) {
@@ -126,14 +126,15 @@ private:
 }
 
 // Solves for what the equations lack until they hold.
-template <class Solver>
-VectorXd solve(const Equations& equations, Solver& solver) {
+VectorXd solve(const Equations& equations, const WlsMethod& method) {
+    Eigen::ConjugateGradient<Aggregates::Matrix, Eigen::Lower | Eigen::Upper, Aggregates> solver;
+    solver.setTolerance(kCgTolerance);
+    solver.setMaxIterations(method.iterations);
     VectorXd u = equations.data(), residual = equations.residual(u);
     double worst = equations.worst(u, residual);
     if (worst > 1) {
-        solver.compute(equations.lower());
-        if (solver.info() != Eigen::Success)
-            give_up("the matrix has no factors in double precision");
+        solver.preconditioner().build(equations.matrix(), method.direct);
+        solver.compute(equations.matrix());
     }
     for (int round = 0; round < kRounds && worst > 1; ++round) {
         u += solver.solve(residual);
@@ -149,19 +150,6 @@ VectorXd solve(const Equations& equations, Solver& solver) {
     return u;
 }
 
-VectorXd solve_iteratively(const Equations& equations, int iterations) {
-    using Preconditioner = Eigen::IncompleteCholesky<double, Lower, Eigen::NaturalOrdering<int>>;
-    Eigen::ConjugateGradient<Matrix, Lower, Preconditioner> solver;
-    solver.setTolerance(kCgTolerance);
-    solver.setMaxIterations(iterations);
-    return solve(equations, solver);
-}
-
-VectorXd solve_directly(const Equations& equations) {
-    Eigen::SimplicialLDLT<Matrix, Lower> solver;
-    return solve(equations, solver);
-}
-
 } // namespace
 
 void wls_base(const WlsTerms& terms, const float* luminance, int width, int height, float* base,
@@ -170,11 +158,7 @@ void wls_base(const WlsTerms& terms, const float* luminance, int width, int heig
     if (pixels > std::numeric_limits<int>::max() / kElementsOfPixel)
         give_up("an image of " + std::to_string(pixels) + " pixels is too large");
     const Equations equations(terms, luminance, width, height);
-    const bool direct = method.solver == WlsSolver::Direct ||
-                        (method.solver == WlsSolver::BySize && pixels <= kDirectPixels);
-    const VectorXd u =
-        direct ? solve_directly(equations) : solve_iteratively(equations, method.iterations);
-    equations.store(u, base);
+    equations.store(solve(equations, method), base);
 }
 
 } // namespace tonetool::tonemap

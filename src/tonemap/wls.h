@@ -11,19 +11,14 @@ struct WlsTerms {
     bool logarithmic = false;           ///< g and u are l, not luminance
 };
 
-/// How the system of equations is solved: by factorisation or, in less memory, by conjugate
-/// gradients; by factorisation up to kDirectPixels.
-enum class WlsSolver { BySize, Direct, Iterative };
-
-inline constexpr int kDirectPixels = 2'000'000;
-
-/// The equations hold to this, of u or, if logarithmic, absolutely. So does u, then: the matrix has
-/// rows of sum 1 and an inverse without negative elements, whose rows are of sum 1, too.
+/// The equations hold to this: absolutely, of logarithms, else of u. So does u, or of u smoothed
+/// once more, since the inverse of their matrix has no negative element and rows of sum 1.
 inline constexpr double kWlsTolerance = 1e-7;
 
+/// Conjugate gradients behind multigrid, whose coarsest level is factorised.
 struct WlsMethod {
-    WlsSolver solver = WlsSolver::BySize;
-    int iterations = 2000; ///< of conjugate gradients, before they start anew
+    int direct = 16384;   ///< the most unknowns of that level; an image of fewer has no other
+    int iterations = 200; ///< before they start anew
 };
 
 /// The base of a whole image; planes are packed and may be the same. Pixels whose luminance is not

@@ -59,9 +59,11 @@ def test_the_picture_is_local_and_keeps_its_edges(tonetool, tmp_path):
     assert np.isfinite(a).all() and a.min() >= 0 and a.max() <= 1
 
 
-def test_nothing_depends_on_threads(tonetool, tmp_path):
+@pytest.mark.parametrize("kind", ["guided", "bilateral", "wls"])
+def test_nothing_depends_on_threads(tonetool, tmp_path, kind):
     for n in (1, 3):
-        tonetool("--threads", n, CORNELL, "--cgtmo:encode=none", "-d", "float", "-o", f"{n}.exr")
+        tonetool("--threads", n, CORNELL, f"--cgtmo:filter={kind}:encode=none", "-d", "float",
+                 "-o", f"{n}.exr")
     assert np.array_equal(color(tmp_path / "1.exr"), color(tmp_path / "3.exr"))
 
 
@@ -76,11 +78,54 @@ def test_without_guides_luminance_tells_edges(tonetool, make_image):
     tonetool(source, "--cgtmo:position=none:normal=none:albedo=none:strict=1", "-o", "out.exr")
 
 
-def test_one_pixel_and_black(tonetool, make_image):
+@pytest.mark.parametrize("kind", ["guided", "bilateral", "wls", "none"])
+def test_one_pixel_a_line_and_black(tonetool, make_image, kind):
     one = make_image("one.exr", 1, 1, pixels=np.full((1, 1, 3), 2, np.float32))
-    tonetool(one, "--cgtmo", "-o", "out.exr")
+    tonetool(one, f"--cgtmo:filter={kind}", "-o", "out.exr")
+    tonetool(make_image("line.exr", 1, 30), f"--cgtmo:filter={kind}", "-o", "out.exr")
     black = make_image("black.exr", 8, 8, pixels=np.zeros((8, 8, 3), np.float32))
-    assert "black" in tonetool(black, "--cgtmo", "-o", "out.exr", status=1).err
+    assert "black" in tonetool(black, f"--cgtmo:filter={kind}", "-o", "out.exr", status=1).err
+
+
+def test_wls_without_smoothness_is_global_drago(tonetool, tmp_path):
+    tonetool(CORNELL, "--cgtmo:filter=wls:wlslambda=0:encode=none", "-d", "float", "-o", "wls.exr")
+    tonetool(CORNELL, "--cgtmo:filter=none:encode=none", "-d", "float", "-o", "none.exr")
+    assert np.abs(color(tmp_path / "wls.exr") - color(tmp_path / "none.exr")).max() <= 2e-6
+
+
+def dense_wls(light, domain, alpha, weight):
+    """Minimum of sum (u - g)^2 + weight sum (du)^2 / (|d ln light|^alpha + 1e-4)."""
+    logs, place = np.log(light), np.arange(light.size).reshape(light.shape)
+    matrix = np.eye(light.size)
+    for one, other in ((place[1:], place[:-1]), (place[:, 1:], place[:, :-1])):
+        for i, j in zip(one.flat, other.flat):
+            a = weight / (abs(logs.flat[i] - logs.flat[j]) ** alpha + 1e-4)
+            matrix[[i, j, i, j], [i, j, j, i]] += [a, a, -a, -a]
+    data = logs if domain == "log" else light
+    base = np.linalg.solve(matrix, data.ravel()).reshape(light.shape)
+    return np.exp(base) if domain == "log" else base
+
+
+@pytest.mark.parametrize("modifiers,domain,alpha,weight", [
+    ("", "log", 1.2, 0.125), (":preset=paper", "linear", 1.2, 0.125),
+    (":domain=linear:wlsalpha=0.7:wlslambda=20", "linear", 0.7, 20),
+    (":wlsalpha=2:wlslambda=3", "log", 2, 3)])
+def test_wls_is_drago_on_the_dense_solution(tonetool, make_image, tmp_path, modifiers, domain,
+                                            alpha, weight):
+    source = make_image("in.exr", 17, 13)
+    scene = color(tmp_path / source).astype(float)
+    light = scene @ np.array([0.2126, 0.7152, 0.0722])
+    ran = tonetool(source, f"--cgtmo:filter=wls:encode=none:clamp=0{modifiers}", "-d", "float",
+                   "-o", "out.exr")
+    assert ran.err == ""
+    base = dense_wls(light, domain, alpha, weight)
+    assert np.abs(base / light - 1).max() > 0.1
+    maximum, adaptation = (float(ran.fact(name)) for name in ("maximum", "adaptation"))
+    curve = np.log(1 + base / adaptation) / np.log10(1 + maximum / adaptation) / np.log(
+        2 + 8 * (base / maximum) ** (np.log(0.85) / np.log(0.5)))
+    expected = scene * (curve / base)[..., None]
+    # Numbers are printed in six digits.
+    assert np.abs(color(tmp_path / "out.exr") / expected - 1).max() <= 1e-5
 
 
 BAD = [
@@ -89,7 +134,8 @@ BAD = [
     ("footprint=auto", ["auto", "global"]), ("lwa=mode", ["mode", "geometric"]),
     ("lwa=0", ["lwa"]), ("lmax=0", ["lmax"]), ("bias=2", ["bias"]), ("sigma=0", ["sigma"]),
     ("samples=2", ["samples", "4"]), ("position=Pos", ["Pos", "Position"]),
-    ("encode=rec709", ["rec709", "srgb"]),
+    ("filter=wls:wlsalpha=5", ["wlsalpha", "4"]), ("filter=wls:wlslambda=-1", ["wlslambda", "100"]),
+    ("wlslambda=1", ["wlslambda", "filter=wls", "guided"]), ("encode=rec709", ["rec709", "srgb"]),
 ]
 
 

@@ -86,8 +86,9 @@ namespace ToneAlgo {
 /// Background (no surface): neighbours of background only.
 /// NaN, Inf, negative colour: as tonemap; such pixels take no part in the base, nor do black ones
 ///   in that of weighted least squares.
-/// Weighted least squares hold to 1e-7 of the base, or there is an error and no picture. They take
-///   WLSMEM.
+/// Weighted least squares are of the whole image whatever the ROI, on one thread, in 0.4 kB a
+/// pixel.
+///   They hold to 1e-7 of the base, or there is an error and no picture.
 /// Results do not depend on the ROI, tiles or threads to the bit.
 TONETOOL_API bool cg_tmo(OIIO::ImageBuf& dst, const OIIO::ImageBuf& src,
                          const CgTmoOptions& options = {}, CgTmoSummary* summary = nullptr,
