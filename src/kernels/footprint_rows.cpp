@@ -99,6 +99,21 @@ void Raw(const float* const (&rows)[3][3], int width, float* to) {
     FillMargins(to, width); // also over what the last vector wrote beyond
 }
 
+// Whether all that is known around a vector of pixels is within the spread of them, so that their
+// medians are, too: nearly everywhere.
+HWY_INLINE bool AllAlike(const float* const (&raw)[2 * kFootprintReach + 1], int x, V center) {
+    V least = center, most = center;
+    for (const float* row : raw)
+        for (int dx = -kFootprintReach; dx <= kFootprintReach; ++dx) {
+            const V other = hn::LoadU(d, row + x + dx);
+            const V known = hn::IfThenElse(hn::Eq(other, other), other, center);
+            least = hn::Min(least, known);
+            most = hn::Max(most, known);
+        }
+    const auto low = hn::Ge(least, hn::Mul(center, Number(1 / kFootprintSpread)));
+    return hn::AllTrue(d, hn::And(low, hn::Le(most, hn::Mul(center, Number(kFootprintSpread)))));
+}
+
 // Counting what is below a quarter and up to four times a footprint is much faster than finding
 // the median that lies between.
 HWY_INLINE hn::Mask<D> NearMedian(const float* const (&raw)[2 * kFootprintReach + 1], int x,
@@ -127,8 +142,9 @@ void Settle(const float* const (&raw)[2 * kFootprintReach + 1], const float* con
         for (size_t c = 1; c < 3; ++c)
             most = hn::Max(most, hn::Abs(hn::LoadU(d, row[c] + x)));
         const V least = hn::Mul(most, Number(step));
-        const V settled =
-            hn::IfThenElse(NearMedian(raw, x, center), hn::Max(center, least), Number(kNotSettled));
+        V settled = hn::Max(center, least);
+        if (!AllAlike(raw, x, center))
+            settled = hn::IfThenElse(NearMedian(raw, x, center), settled, Number(kNotSettled));
         hn::StoreU(hn::IfThenElseZero(surface, settled), d, to + x);
     }
 }

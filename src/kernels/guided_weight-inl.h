@@ -23,29 +23,51 @@ constexpr float kFarAway = 3e18f;
 constexpr int kTogether = HWY_MAX_BYTES == 64 ? 4 : 2;
 using Together = V[kTogether];
 
-/// 2^x for x < 127, exactly 0 below kLeastLog2Weight; relative error below 2.8e-6. The polynomial
-/// has the least relative error for its degree.
+/// Polynomials have the least relative error for their degree.
+template <size_t kTerms>
+HWY_INLINE void Polynomials(const float (&c)[kTerms], const Together& x, Together& p) {
+    for (int i = 0; i < kTogether; ++i)
+        p[i] = hn::MulAdd(hn::Set(d, c[0]), x[i], hn::Set(d, c[1]));
+    for (size_t k = 2; k < kTerms; ++k)
+        for (int i = 0; i < kTogether; ++i)
+            p[i] = hn::MulAdd(p[i], x[i], hn::Set(d, c[k]));
+}
+
+#if HWY_TARGET == HWY_AVX3
+/// 2^x for x < 127, exactly 0 for x as low as kFarAway makes it; relative error below 2.8e-6. The
+/// instructions for this have no name in Highway.
+HWY_INLINE void Weights2(Together& x) {
+    constexpr int kAboveFloor = 1; // of a number, to no binary places
+    Together share, p;
+    for (int i = 0; i < kTogether; ++i)
+        share[i] = V{_mm512_reduce_ps(x[i].raw, kAboveFloor)};
+    Polynomials({0.013534167912794f, 0.052011460619440f, 0.24144275688264f, 0.69300383447386f,
+                 1.0000025933704f},
+                share, p);
+    for (int i = 0; i < kTogether; ++i)
+        x[i] = V{_mm512_scalef_ps(p[i].raw, x[i].raw)}; // p 2^floor(x)
+}
+#else
+/// 2^x for x < 127, exactly 0 below kLeastLog2Weight; relative error below 2.8e-6.
 HWY_INLINE void Weights2(Together& x) {
     const hn::RebindToSigned<D> di;
     // Added to it, x is rounded to a whole number, which with 127, the bias of exponents, is the
     // lowest bits of the sum. -127 gives the bits of 0.
     const V large = hn::Set(d, 12582912.0f + 127.0f);
-    V sum[kTogether], p[kTogether];
+    Together sum, p;
     for (V& v : x)
         v = hn::Max(v, hn::Set(d, -127.0f));
     for (int i = 0; i < kTogether; ++i)
         sum[i] = hn::Add(x[i], large);
     for (int i = 0; i < kTogether; ++i)
         x[i] = hn::Sub(x[i], hn::Sub(sum[i], large));
-    for (int i = 0; i < kTogether; ++i)
-        p[i] =
-            hn::MulAdd(hn::Set(d, 0.009570101908854097f), x[i], hn::Set(d, 0.055917860321131746f));
-    for (const float c : {0.24024744827851016f, 0.6931218147368339f, 0.999999261445985f})
-        for (int i = 0; i < kTogether; ++i)
-            p[i] = hn::MulAdd(p[i], x[i], hn::Set(d, c));
+    Polynomials({0.009570101908854097f, 0.055917860321131746f, 0.24024744827851016f,
+                 0.6931218147368339f, 0.999999261445985f},
+                x, p);
     for (int i = 0; i < kTogether; ++i)
         x[i] = hn::Mul(p[i], hn::BitCast(d, hn::ShiftLeft<23>(hn::BitCast(di, sum[i]))));
 }
+#endif
 
 using Int = hn::RebindToSigned<D>;
 using Pairs = hn::Vec<Int>;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cstdint>
 #include <cstdlib>
+#include <mutex>
+#include <utility>
 
 namespace tonetool::tonemap {
 namespace {
@@ -139,13 +141,20 @@ std::vector<Offset> poisson_set(int half, int count, unsigned seed) {
     return make_set(half, count, Density(half, count), seed);
 }
 
-std::vector<std::vector<Offset>> poisson_sets(int half, int count, int sets) {
+std::vector<std::vector<Offset>> poisson_sets(int half, int count) {
+    static std::mutex lock;
+    static std::pair<int, int> last;
+    static std::vector<std::vector<Offset>> kept;
     count = possible(half, count);
+    const std::lock_guard<std::mutex> hold(lock);
+    if (last == std::pair(half, count) && !kept.empty())
+        return kept;
     const Density density(half, count);
-    std::vector<std::vector<Offset>> out;
-    for (int i = 0; i < sets; ++i)
-        out.push_back(make_set(half, count, density, unsigned(i)));
-    return out;
+    kept.clear();
+    for (int i = 0; i < kPoissonSets; ++i)
+        kept.push_back(make_set(half, count, density, unsigned(i)));
+    last = {half, count};
+    return kept;
 }
 
 } // namespace tonetool::tonemap

@@ -20,8 +20,8 @@ inline constexpr int kPoissonSamples = 80, kPoissonSets = 64;
 /// At most as many as the window holds.
 std::vector<kernels::Offset> poisson_set(int half, int count, unsigned seed);
 
-/// As many sets, no two the same unless there are too few offsets for that.
-std::vector<std::vector<kernels::Offset>> poisson_sets(int half, int count,
-                                                       int sets = kPoissonSets);
+/// As many sets as TapSets takes, no two the same unless there are too few offsets for that. Those
+/// asked for last are kept.
+std::vector<std::vector<kernels::Offset>> poisson_sets(int half, int count);
 
 } // namespace tonetool::tonemap

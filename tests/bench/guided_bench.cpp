@@ -223,16 +223,6 @@ void guided_footprints(benchmark::State& state) {
     });
 }
 
-void guided_sets(benchmark::State& state) {
-    double fastest = std::numeric_limits<double>::infinity();
-    for ([[maybe_unused]] auto _ : state)
-        fastest = std::min(fastest, milliseconds([&] {
-                               benchmark::DoNotOptimize(
-                                   tonemap::poisson_sets(kHalf, int(state.range(0))));
-                           }));
-    state.counters["wall_ms"] = fastest;
-}
-
 constexpr int kAll = 0;
 
 BENCHMARK(guided)
@@ -252,11 +242,4 @@ BENCHMARK(guided_footprints)
     ->Arg(kAll)
     ->Unit(benchmark::kMillisecond)
     ->UseRealTime();
-BENCHMARK(guided_sets)
-    ->ArgNames({"samples"})
-    ->Arg(80)
-    ->Arg(400)
-    ->Unit(benchmark::kMillisecond)
-    ->UseRealTime();
-
 } // namespace
