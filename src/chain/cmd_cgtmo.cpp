@@ -17,7 +17,7 @@ CgTmoOptions options_of(const Call& call) {
         {"albedo", &options.albedo},         {"depth", &options.depth},
         {"normaldist", &options.normaldist}, {"footprint", &options.footprint},
         {"filter", &options.filter},         {"lwa", &options.lwa},
-        {"encode", &options.encode}};
+        {"encode", &options.encode},         {"show", &options.show}};
     for (const auto& [key, text] : texts) {
         *text = call.text(key).value_or(*text);
     }
@@ -92,7 +92,8 @@ std::vector<Modifier> cgtmo_modifiers() {
           {"ldmax", "X", "cd/m2 of the display (100)"},
           {"saturation", "X", "0 to 4 (1)"},
           {"encode", join(ToneAlgo::display_encodings(), "|"), "of the result (srgb)"},
-          {"clamp", "0|1", "the result to 0 to 1 (1)"}},
+          {"clamp", "0|1", "the result to 0 to 1 (1)"},
+          {"show", "picture|base|detail", "linear luminance is base times detail (picture)"}},
          pixel_modifiers()});
 }
 

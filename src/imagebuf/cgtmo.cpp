@@ -89,6 +89,7 @@ private:
         if (!one_of("preset", o.preset, {"default", "paper"}, error) ||
             !one_of("domain", domain, {"log", "linear"}, error) ||
             !one_of("filter", o.filter, {"guided", "bilateral", "wls", "none"}, error) ||
+            !one_of("show", o.show, {"picture", "base", "detail"}, error) ||
             !one_of("normaldist", o.normaldist, {"euclid", "dot"}, error) ||
             !in_range(o.sigma, 1, 20, "sigma", error) ||
             !in_range(o.bias, 0.01, 1, "bias", error) ||
@@ -307,41 +308,59 @@ private:
         return {m_base.data(), window.width};
     }
 
+    bool shows_picture() const { return m_options.show == "picture"; }
+
     void map(ImageBuf& out) {
         const ImageSpec& spec = out.spec();
         const kernels::Window window{spec.x - m_region.xbegin, spec.y - m_region.ybegin, spec.width,
                                      spec.height};
         const size_t size = size_t(spec.width) * size_t(spec.height);
         std::vector<float> mapped[3];
-        tonemap::LocalOutput output;
-        for (size_t c = 0; c < 3; ++c) {
+        for (size_t c = 0; c < (shows_picture() ? 3 : 1); ++c)
             mapped[c].resize(size);
-            output.rgb[c] = mapped[c].data();
-        }
-        output.stride = spec.width;
         const auto parallel = make_parallel(m_nthreads);
-        tonemap::tone_map_local(m_what, m_planes.view(), find_base(window), window, output,
-                                parallel);
+        const tonemap::LocalBase base = find_base(window);
+        if (shows_picture()) {
+            const tonemap::LocalOutput output{
+                {mapped[0].data(), mapped[1].data(), mapped[2].data()}, spec.width};
+            tonemap::tone_map_local(m_what, m_planes.view(), base, window, output, parallel);
+        } else {
+            const auto part =
+                m_options.show == "base" ? tonemap::LocalPart::Base : tonemap::LocalPart::Detail;
+            tonemap::local_part(m_what, m_planes.view(), base, window, part, mapped[0].data(),
+                                spec.width, parallel);
+        }
+        write(mapped, out);
+    }
+
+    // The first plane stands for others that are empty.
+    void write(const std::vector<float> (&mapped)[3], ImageBuf& out) const {
+        const ImageSpec& spec = out.spec();
         const int to[3] = {m_planes.choice.r, m_planes.choice.g, m_planes.choice.b};
         auto* pixels = static_cast<float*>(out.localpixels());
-        parallel(spec.height, [&](int64_t y) {
+        make_parallel(m_nthreads)(spec.height, [&](int64_t y) {
             float* pixel = pixels + y * spec.width * spec.nchannels;
-            for (int x = 0; x < spec.width; ++x, pixel += spec.nchannels)
+            const size_t row = size_t(y) * size_t(spec.width);
+            for (size_t x = 0; x < size_t(spec.width); ++x, pixel += spec.nchannels)
                 for (size_t c = 0; c < 3; ++c)
-                    pixel[to[c]] = finished(mapped[c][size_t(y) * size_t(spec.width) + size_t(x)]);
+                    pixel[to[c]] = finished(mapped[mapped[c].empty() ? 0 : c][row + x]);
         });
     }
 
     float finished(float v) const {
+        if (!shows_picture())
+            return v;
         v = v > 0 ? v : 0;
         return m_encode(m_options.clamp ? std::min(v, 1.0f) : v);
     }
 
     void tag(ImageSpec& spec) const {
         spec.erase_attribute("chromaticities");
-        spec.attribute("oiio:ColorSpace", space_of_encoding(m_options.encode));
+        spec.attribute("oiio:ColorSpace",
+                       space_of_encoding(shows_picture() ? m_options.encode : "none"));
         spec.attribute("tonemap:layer", summary.layer);
         spec.attribute("tonemap:curve", "cgtmo");
+        spec.attribute("tonemap:show", m_options.show);
         const std::pair<const char*, const std::string&> guides[] = {
             {"tonemap:position", summary.position},
             {"tonemap:normal", summary.normal},

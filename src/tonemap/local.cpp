@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "kernels/curve_constants.h"
 #include "tonemap/base.h"
 
 namespace tonetool::tonemap {
@@ -94,6 +95,23 @@ void guided_base(const LocalOperator& what, const ConstRgb& image, const GuidePl
                     std::min(image.height, window.y0 + window.height + taps.half())};
     const Values values(what, image, guides, rows, parallel);
     filter_base(values.planes(), terms_of(what), taps, window, base, stride, parallel);
+}
+
+void local_part(const LocalOperator& what, const ConstRgb& image, const LocalBase& base,
+                const Window& window, LocalPart part, float* out, ptrdiff_t stride,
+                const kernels::ParallelFor& parallel) {
+    parallel(window.height, [&](int64_t y) {
+        std::vector<float> light(size_t(image.width));
+        luminance_row(what, image, window.y0 - image.first_row + y, light.data());
+        for (int x = 0; x < window.width; ++x) {
+            const float l = light[size_t(window.x0 + x)], b = base.plane[y * base.stride + x];
+            const double linear = what.logarithmic ? std::exp(double(b)) : double(b);
+            const bool split = linear >= double(kernels::kSmallestLuminance) &&
+                               linear <= double(std::numeric_limits<float>::max());
+            out[y * stride + x] = part == LocalPart::Base ? (split ? float(linear) : l)
+                                                          : (split ? float(double(l) / linear) : 1);
+        }
+    });
 }
 
 void tone_map_local(const LocalOperator& what, const ConstRgb& image, const LocalBase& base,

@@ -47,6 +47,9 @@ struct CgTmoOptions {
     double saturation = 1;       ///< C' = (C / L)^saturation Ld, 0 to 4
     std::string encode = "srgb"; ///< of the result, as TonemapOptions::encode
     bool clamp = true;           ///< the result to [0,1]
+    /// "picture"; or what luminance is the product of, in R, G and B alike, linear, neither encoded
+    /// nor clamped: "base", which the curve compresses, "detail", which it leaves.
+    std::string show = "picture";
 };
 
 struct CgTmoSummary {
