@@ -12,18 +12,26 @@ CgTmoOptions options_of(const Call& call) {
     CgTmoOptions options;
     options.pixels = pixel_options(call);
     // Names are checked by the library, which knows what is valid.
-    const std::pair<const char*, std::string*> texts[] = {
-        {"preset", &options.preset},         {"domain", &options.domain},
-        {"position", &options.position},     {"normal", &options.normal},
-        {"albedo", &options.albedo},         {"depth", &options.depth},
-        {"normaldist", &options.normaldist}, {"footprint", &options.footprint},
-        {"filter", &options.filter},         {"lwa", &options.lwa},
-        {"encode", &options.encode},         {"env", &options.env},
-        {"weight", &options.weight},         {"maximum", &options.maximum}};
+    const std::pair<const char*, std::string*> texts[] = {{"preset", &options.preset},
+                                                          {"domain", &options.domain},
+                                                          {"position", &options.position},
+                                                          {"normal", &options.normal},
+                                                          {"albedo", &options.albedo},
+                                                          {"depth", &options.depth},
+                                                          {"normaldist", &options.normaldist},
+                                                          {"footprint", &options.footprint},
+                                                          {"filter", &options.filter},
+                                                          {"lwa", &options.lwa},
+                                                          {"encode", &options.encode},
+                                                          {"env", &options.env},
+                                                          {"weight", &options.weight},
+                                                          {"maximum", &options.maximum},
+                                                          {"show", &options.show}};
     for (const auto& [key, text] : texts) {
         *text = call.text(key).value_or(*text);
     }
     options.lumsigma = call.number("lumsigma", {0, 10});
+    options.fov = call.number("fov", {1, 179});
     options.lmax = call.number("lmax", {1e-30, 1e30});
     options.max_percentile = call.number("maxpercentile", {50, 100}).value_or(100);
     options.lights = light_options(call);
@@ -48,6 +56,9 @@ void report_summary(Session& session, const std::string& label, const CgTmoSumma
     line("position", found.position.empty() ? "none" : found.position);
     line("normal", found.normal.empty() ? "none" : found.normal);
     line("albedo", found.albedo.empty() ? "none" : found.albedo);
+    if (session.verbose)
+        for (const std::string& note : found.notes)
+            line("note", note);
     line("samples", std::to_string(found.samples));
     line("background", std::to_string(found.background));
     line("footprint", format_number(found.footprint));
@@ -80,15 +91,16 @@ std::vector<Modifier> cgtmo_modifiers() {
         {{{"preset", "default|paper", "log base with a luminance term, or Eq. 2 to the letter"},
           {"domain", "log|linear", "of the base (the preset's)"},
           {"lumsigma", "X", "of the luminance term in log10, 0: none (0.4; paper 0)"},
-          {"position", "LAYER", "world position; none: without (found by its name)"},
-          {"normal", "LAYER", "normal (found)"},
-          {"albedo", "LAYER", "albedo (found)"},
-          {"depth", "LAYER", "depth, which tells the sky (found)"},
+          {"position", "LAYER|FILE", "world position; none: without (found by its name)"},
+          {"normal", "LAYER|FILE", "normal (found)"},
+          {"albedo", "LAYER|FILE", "albedo (found)"},
+          {"depth", "LAYER|FILE", "depth, which tells the sky (found)"},
+          {"fov", "DEGREES", "horizontal field of view, for position from depth (40)"},
           {"strict", "0|1", "a missing guide, light or panorama is an error (0)"},
           {"sigma", "X", "of the window in pixels, 1 to 20 (8)"},
           {"samples", "N", "of the window, 4 to 400; 0: all (80)"},
           {"normaldist", "euclid|dot", "how normals differ (euclid)"},
-          {"footprint", "pixel|global|X", "of a pixel in the scene (pixel)"},
+          {"footprint", "pixel|global|camera|X", "of a pixel in the scene (pixel)"},
           {"filter", "guided|bilateral|wls|none",
            "bilateral: luminance alone; wls: weighted least squares of it (guided)"},
           {"wlsalpha", "X", "sensitivity of filter=wls to edges, 0 to 4 (1.2)"},
@@ -108,7 +120,8 @@ std::vector<Modifier> cgtmo_modifiers() {
           {"ldmax", "X", "cd/m2 of the display (100)"},
           {"saturation", "X", "0 to 4 (1)"},
           {"encode", join(ToneAlgo::display_encodings(), "|"), "of the result (srgb)"},
-          {"clamp", "0|1", "the result to 0 to 1 (1)"}},
+          {"clamp", "0|1", "the result to 0 to 1 (1)"},
+          {"show", "picture|base|detail", "linear luminance is base times detail (picture)"}},
          pixel_modifiers()});
 }
 

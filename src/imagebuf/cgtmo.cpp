@@ -4,21 +4,14 @@
 #include <OpenImageIO/imagebufalgo.h>
 #include <OpenImageIO/strutil.h>
 #include <algorithm>
-#include <cmath>
+#include <memory>
 
-#include "imagebuf/checks.h"
+#include "imagebuf/cgtmo_guides.h"
+#include "imagebuf/cgtmo_plan.h"
 #include "imagebuf/color_reader.h"
-#include "imagebuf/gbuffer.h"
 #include "imagebuf/guard.h"
-#include "imagebuf/names.h"
 #include "imagebuf/parallel.h"
 #include "imagebuf/scene_stats.h"
-#include "imagebuf/tone_rows.h"
-#include "include/tonetool/tonemap.h"
-#include "tonemap/footprint.h"
-#include "tonemap/local.h"
-#include "tonemap/poisson.h"
-#include "tonemap/wls.h"
 
 namespace tonetool {
 namespace {
@@ -28,10 +21,7 @@ using OIIO::ImageSpec;
 using OIIO::ROI;
 using OIIO::Strutil::fmt::format;
 
-// As the authors' programs have it: 2.5 sigma to each side.
-constexpr double kWindowOfSigma = 2.5;
-
-// One call: what is checked, read and measured, then the operator.
+// One call: what is checked, read and measured, then the operator, in place.
 class LocalMapping {
 public:
     LocalMapping(const ImageBuf& src, const CgTmoOptions& options, int nthreads)
@@ -41,15 +31,15 @@ public:
           m_region(src.roi()) {}
 
     bool run(ImageBuf& dst, ROI roi, std::string& error) {
-        if (!check_readable(m_src, "source", error) || !plan(error) || !read_color(error) ||
-            !measure(error) || !read_guides(error))
+        if (!check_readable(m_src, "source", error) || !plan_local(m_options, m_plan, error))
             return false;
         const ROI part = roi.defined() ? OIIO::roi_intersection(roi, m_region) : m_region;
         if (part.npixels() == 0) {
             error = "the region holds no pixel of the image";
             return false;
         }
-        map(part);
+        if (!read_color(error) || !measure(error) || !map(part, error))
+            return false;
         ImageBuf out;
         if (!OIIO::ImageBufAlgo::copy(out, m_src, OIIO::TypeFloat, part, m_nthreads)) {
             error = out.geterror();
@@ -64,55 +54,6 @@ public:
     CgTmoSummary summary;
 
 private:
-    bool plan(std::string& error) {
-        const CgTmoOptions& o = m_options;
-        m_encode = find_encoding(o.encode);
-        if (!m_encode) {
-            error = unknown_name("encoding", o.encode, ToneAlgo::display_encodings());
-            return false;
-        }
-        const std::string domain =
-            o.domain.empty() ? (o.preset == "paper" ? "linear" : "log") : o.domain;
-        if (!one_of("preset", o.preset, {"default", "paper"}, error) ||
-            !one_of("domain", domain, {"log", "linear"}, error) ||
-            !one_of("filter", o.filter, {"guided", "bilateral", "wls", "none"}, error) ||
-            !one_of("normaldist", o.normaldist, {"euclid", "dot"}, error) ||
-            !in_range(o.sigma, 1, 20, "sigma", error) ||
-            !in_range(o.bias, 0.01, 1, "bias", error) ||
-            !in_range(o.ldmax, 1, 10000, "ldmax", error) ||
-            !in_range(o.saturation, 0, 4, "saturation", error) ||
-            !in_range(o.lumsigma.value_or(0), 0, 10, "lumsigma", error) ||
-            (o.samples != 0 && !in_range(o.samples, 4, 400, "samples", error)) || !plan_wls(error))
-            return false;
-        m_what.logarithmic = m_wls.logarithmic = domain == "log";
-        m_what.luminance_sigma = o.lumsigma.value_or(o.preset == "paper" ? 0 : kLuminanceSigma);
-        if (o.filter == "bilateral" && m_what.luminance_sigma == 0)
-            m_what.luminance_sigma = kLuminanceSigma;
-        m_what.terms.position = o.sigma;
-        m_what.terms.in_steps = o.samples != 0;
-        m_what.terms.normal_term =
-            o.normaldist == "dot" ? kernels::NormalTerm::Angle : kernels::NormalTerm::Distance;
-        m_what.curve.bias = o.bias;
-        m_what.curve.display_maximum = o.ldmax;
-        m_what.curve.saturation = o.saturation;
-        return true;
-    }
-
-    bool plan_wls(std::string& error) {
-        const std::pair<const char*, const std::optional<double>&> given[] = {
-            {"wlsalpha", m_options.wlsalpha}, {"wlslambda", m_options.wlslambda}};
-        for (const auto& [name, value] : given)
-            if (value && m_options.filter != "wls") {
-                error =
-                    format("{} is of filter=wls, and this is filter={}", name, m_options.filter);
-                return false;
-            }
-        m_wls.alpha = m_options.wlsalpha.value_or(m_wls.alpha);
-        m_wls.lambda = m_options.wlslambda.value_or(m_wls.lambda);
-        return in_range(m_wls.alpha, 0, 4, "wlsalpha", error) &&
-               in_range(m_wls.lambda, 0, 100, "wlslambda", error);
-    }
-
     bool read_color(std::string& error) {
         if (!m_reader.open(m_src, m_options.pixels, m_region, false, m_nthreads, error))
             return false;
@@ -134,8 +75,8 @@ private:
         SceneStats scene;
         if (!measure_scene(m_src, m_options, m_reader, m_planes, m_nthreads, scene, error))
             return false;
-        summary.adaptation = m_what.curve.adaptation = scene.adaptation;
-        summary.maximum = m_what.curve.maximum = scene.maximum;
+        summary.adaptation = m_plan.what.curve.adaptation = scene.adaptation;
+        summary.maximum = m_plan.what.curve.maximum = scene.maximum;
         summary.adaptation_from = scene.adaptation_from;
         summary.maximum_from = scene.maximum_from;
         summary.maximum_light = scene.maximum_light;
@@ -145,139 +86,81 @@ private:
         return true;
     }
 
-    bool read_guides(std::string& error) {
-        const bool guided = m_options.filter == "guided";
-        GBufferNames names;
-        if (guided) {
-            const GuideOptions asked{m_options.position, m_options.normal, m_options.albedo,
-                                     m_options.depth, summary.layer};
-            if (!find_gbuffer(m_src.spec(), asked, names, error) ||
-                !read_gbuffer(m_src, names, m_region, m_nthreads, m_guides, error))
+    // The colours of a part of the region become display light. What it takes is gone afterwards,
+    // before the result needs memory.
+    bool map(const ROI& part, std::string& error) {
+        LocalGuides guides(m_src, m_options, m_region, m_nthreads);
+        kernels::GuidePlanes image;
+        image.stride = image.width = m_region.width();
+        image.height = m_region.height();
+        if (m_plan.filter == BaseFilter::Guided) {
+            if (!guides.read(m_plan.what, summary, error))
                 return false;
-            const ImageSpec& file = m_src.nativespec();
-            m_half_positions = names.position && file.nchannels == m_src.nchannels() &&
-                               file.channelformat(names.position->channel[0]) == OIIO::TypeHalf;
-            summary.warnings.insert(summary.warnings.end(), m_guides.warnings.begin(),
-                                    m_guides.warnings.end());
+            image = guides.view();
         }
-        use(m_guides.position, m_view.position, names.position, summary.position);
-        use(m_guides.normal, m_view.normal, names.normal, summary.normal);
-        use(m_guides.albedo, m_view.albedo, names.albedo, summary.albedo);
-        if (names.depth)
-            summary.depth = names.depth->layer;
-        m_view.stride = m_view.width = m_region.width();
-        m_view.height = m_region.height();
-        if (guided && !m_guides.background.empty())
-            m_view.background = m_guides.background.data();
-        summary.background = std::count_if(m_guides.background.begin(), m_guides.background.end(),
-                                           [](uint8_t b) { return b != 0; });
-        return !guided || (check_missing(error) && find_footprint(error));
-    }
-
-    static void use(const std::vector<float> (&plane)[3], const float* (&view)[3],
-                    const std::optional<GuideChannels>& found, std::string& layer) {
-        if (plane[0].empty() || !found)
-            return;
-        for (size_t c = 0; c < 3; ++c)
-            view[c] = plane[c].data();
-        layer = found->layer.empty() ? "plain" : found->layer;
-    }
-
-    bool check_missing(std::string& error) {
-        const std::pair<const char*, bool> guides[] = {
-            {"position", !m_view.position[0] && m_options.position != "none"},
-            {"normal", !m_view.normal[0] && m_options.normal != "none"},
-            {"albedo", !m_view.albedo[0] && m_options.albedo != "none"}};
-        for (const auto& [name, missing] : guides) {
-            if (!missing)
-                continue;
-            const std::string what = format("no {} among the layers", name);
-            if (m_options.strict) {
-                error = what + "; " + name + "= names one, \"none\" does without";
-                return false;
-            }
-            summary.warnings.push_back(what + ": its term is left out");
-        }
-        if (!m_view.position[0] && !m_view.normal[0] && !m_view.albedo[0] &&
-            m_what.luminance_sigma == 0) {
-            m_what.luminance_sigma = kLuminanceSigma;
-            summary.warnings.push_back(
-                format("without a guide only luminance tells edges: lumsigma={}", kLuminanceSigma));
-        }
-        return true;
-    }
-
-    bool find_footprint(std::string& error) {
-        if (!m_view.position[0])
-            return true;
-        const auto given = number_of(m_options.footprint);
-        if (given) {
-            if (!in_range(*given, 1e-15, 1e15, "footprint", error))
-                return false;
-            summary.footprint = m_what.terms.footprint = *given;
-            return true;
-        }
-        if (!one_of("footprint", m_options.footprint, {"pixel", "global", "a number"}, error))
-            return false;
-        m_footprints.resize(size_t(m_region.width()) * size_t(m_region.height()));
-        tonemap::footprints(m_view, m_half_positions ? tonemap::kHalfStep : tonemap::kFloatStep,
-                            m_footprints.data(), make_parallel(m_nthreads));
-        summary.footprint =
-            tonemap::median_footprint(m_footprints.data(), m_region.width(), m_region.height());
-        m_what.terms.footprint = summary.footprint > 0 ? summary.footprint : 1;
-        if (m_options.footprint == "pixel")
-            m_view.footprint = m_footprints.data();
-        return true;
-    }
-
-    kernels::TapSets taps() {
-        const int half =
-            m_options.filter == "none" ? 0 : int(std::lround(kWindowOfSigma * m_options.sigma));
-        const int window = (2 * half + 1) * (2 * half + 1);
-        if (m_options.samples == 0 || m_options.samples >= window || half == 0) {
-            summary.samples = window;
-            return {{kernels::whole_window(half)}, m_options.sigma};
-        }
-        summary.samples = m_options.samples;
-        return {tonemap::poisson_sets(half, m_options.samples), m_options.sigma};
-    }
-
-    // Weighted least squares have no window: theirs is the base of the whole image.
-    tonemap::LocalBase wls_base(const kernels::Window& window) {
-        const ptrdiff_t width = m_region.width();
-        tonemap::wls_base(m_wls, m_luminance.data(), int(width), m_region.height(),
-                          m_luminance.data());
-        return {m_luminance.data() + window.y0 * width + window.x0, width};
-    }
-
-    void map_window(const kernels::Window& window, const tonemap::LocalOutput& output) {
-        const auto parallel = make_parallel(m_nthreads);
-        const kernels::ConstRgb color = m_planes.view();
-        if (m_options.filter == "wls")
-            return tonemap::tone_map_local(m_what, color, wls_base(window), window, output,
-                                           parallel);
-        tonemap::take_logarithms(m_what, m_luminance.data(), m_region.width(), m_region.height(),
-                                 parallel);
-        m_view.value = m_luminance.data();
-        tonemap::tone_map_guided(m_what, color, m_view, taps(), window, output, parallel);
-    }
-
-    // The colours of a part of the region become display light.
-    void map(const ROI& part) {
-        const ptrdiff_t stride = m_region.width();
+        summary.samples = m_plan.samples;
         const kernels::Window window{part.xbegin - m_region.xbegin, part.ybegin - m_region.ybegin,
                                      part.width(), part.height()};
-        tonemap::LocalOutput output;
-        output.stride = stride;
-        for (size_t c = 0; c < 3; ++c)
-            output.rgb[c] = m_planes.plane[c].data() + window.y0 * stride + window.x0;
-        map_window(window, output);
-        m_guides = {};
+        if (m_plan.filter == BaseFilter::Wls || m_plan.show != LocalShow::Picture)
+            map_on_base(image, window);
+        else
+            map_at_once(image, window);
         m_luminance = {};
-        m_footprints = {};
+        return true;
     }
 
-    // Display light of the pixels of `out` into its colour channels.
+    tonemap::LocalOutput output(const kernels::Window& window) {
+        const ptrdiff_t stride = m_region.width();
+        tonemap::LocalOutput out;
+        out.stride = stride;
+        for (size_t c = 0; c < 3; ++c)
+            out.rgb[c] = m_planes.plane[c].data() + window.y0 * stride + window.x0;
+        return out;
+    }
+
+    void take_logarithms(kernels::GuidePlanes& image, const kernels::ParallelFor& parallel) {
+        tonemap::take_logarithms(m_plan.what, m_luminance.data(), m_region.width(),
+                                 m_region.height(), parallel);
+        image.value = m_luminance.data();
+    }
+
+    void map_at_once(kernels::GuidePlanes& image, const kernels::Window& window) {
+        const auto parallel = make_parallel(m_nthreads);
+        take_logarithms(image, parallel);
+        tonemap::tone_map_guided(m_plan.what, m_planes.view(), image,
+                                 taps_of(m_plan, m_options.sigma), window, output(window),
+                                 parallel);
+    }
+
+    void map_on_base(kernels::GuidePlanes& image, const kernels::Window& window) {
+        const auto parallel = make_parallel(m_nthreads);
+        PagedArray<float> kept;
+        tonemap::LocalBase base;
+        if (m_plan.filter == BaseFilter::Wls) {
+            // It has no window: the base is that of the whole image.
+            const ptrdiff_t width = m_region.width();
+            tonemap::wls_base(m_plan.wls, m_luminance.data(), int(width), m_region.height(),
+                              m_luminance.data());
+            base = {m_luminance.data() + window.y0 * width + window.x0, width};
+        } else {
+            kept.resize(size_t(window.width) * size_t(window.height));
+            take_logarithms(image, parallel);
+            tonemap::guided_base(m_plan.what, image, taps_of(m_plan, m_options.sigma), window,
+                                 kept.data(), window.width, parallel);
+            base = {kept.data(), window.width};
+        }
+        const tonemap::LocalOutput to = output(window);
+        if (m_plan.show == LocalShow::Picture)
+            return tonemap::tone_map_local(m_plan.what, m_planes.view(), base, window, to,
+                                           parallel);
+        // The first plane stands for all three.
+        tonemap::local_part(m_plan.what, m_planes.view(), base, window,
+                            m_plan.show == LocalShow::Base ? tonemap::LocalPart::Base
+                                                           : tonemap::LocalPart::Detail,
+                            to.rgb[0], to.stride, parallel);
+    }
+
+    // What was made of the pixels of `out` into its colour channels.
     void place(ImageBuf& out) const {
         const ImageSpec& spec = out.spec();
         const int to[3] = {m_planes.choice.r, m_planes.choice.g, m_planes.choice.b};
@@ -285,6 +168,8 @@ private:
         make_parallel(m_nthreads)(spec.height, [&](int64_t y) {
             const float* rgb[3];
             m_planes.row(spec.x, spec.y + int(y), rgb);
+            if (m_plan.show != LocalShow::Picture)
+                rgb[1] = rgb[2] = rgb[0];
             float* pixel = pixels + y * spec.width * spec.nchannels;
             for (int x = 0; x < spec.width; ++x, pixel += spec.nchannels)
                 for (size_t c = 0; c < 3; ++c)
@@ -293,45 +178,41 @@ private:
     }
 
     float finished(float v) const {
+        if (m_plan.show != LocalShow::Picture)
+            return v;
         v = v > 0 ? v : 0;
-        return m_encode(m_options.clamp ? std::min(v, 1.0f) : v);
+        return m_plan.encode(m_options.clamp ? std::min(v, 1.0f) : v);
     }
 
     void tag(ImageSpec& spec) const {
+        const bool picture = m_plan.show == LocalShow::Picture;
         spec.erase_attribute("chromaticities");
-        spec.attribute("oiio:ColorSpace", space_of_encoding(m_options.encode));
-        spec.attribute("tonemap:layer", summary.layer);
-        spec.attribute("tonemap:curve", "cgtmo");
-        const std::pair<const char*, const std::string&> guides[] = {
+        spec.attribute("oiio:ColorSpace", space_of_encoding(picture ? m_options.encode : "none"));
+        const std::pair<const char*, std::string> texts[] = {
+            {"tonemap:layer", summary.layer},
+            {"tonemap:curve", "cgtmo"},
+            {"tonemap:show", m_options.show},
             {"tonemap:position", summary.position},
             {"tonemap:normal", summary.normal},
-            {"tonemap:albedo", summary.albedo}};
-        for (const auto& [name, layer] : guides)
-            if (!layer.empty())
-                spec.attribute(name, layer);
+            {"tonemap:albedo", summary.albedo},
+            {"tonemap:adaptation_from", summary.adaptation_from},
+            {"tonemap:maximum_from", summary.maximum_from},
+            {"tonemap:maximum_light", summary.maximum_light}};
+        for (const auto& [name, text] : texts)
+            if (!text.empty())
+                spec.attribute(name, text);
         spec.attribute("tonemap:adaptation", float(summary.adaptation));
-        spec.attribute("tonemap:adaptation_from", summary.adaptation_from);
         spec.attribute("tonemap:maximum", float(summary.maximum));
-        spec.attribute("tonemap:maximum_from", summary.maximum_from);
-        if (!summary.maximum_light.empty())
-            spec.attribute("tonemap:maximum_light", summary.maximum_light);
     }
-
-    static constexpr double kLuminanceSigma = 0.4;
 
     const ImageBuf& m_src;
     const CgTmoOptions& m_options;
     int m_nthreads;
     ROI m_region;
-    Encoding m_encode = nullptr;
-    tonemap::LocalOperator m_what;
+    LocalPlan m_plan;
     ColorReader m_reader;
     ColorPlanes m_planes;
-    GBuffer m_guides;
-    bool m_half_positions = false;
-    PagedArray<float> m_luminance, m_footprints;
-    kernels::GuidePlanes m_view;
-    tonemap::WlsTerms m_wls;
+    PagedArray<float> m_luminance;
 };
 
 } // namespace

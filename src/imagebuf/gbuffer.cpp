@@ -23,14 +23,18 @@ struct Plane {
 
 class Reader {
 public:
-    Reader(const ImageBuf& image, ROI region, int nthreads, GBuffer& out)
+    Reader(const ImageBuf& image, const ImageBuf& image_of_all, ROI region, int nthreads,
+           GBuffer& out)
         : m_image(image),
+          m_image_of_all(&image_of_all),
           m_region(region),
           m_parallel(make_parallel(nthreads)),
           m_out(out) {}
 
+    /// Takes the guide if it lies in this image.
     void want(const char* guide, const std::optional<GuideChannels>& from,
               std::vector<float>* planes, int count);
+    /// Pixels that it does not cover remain or, if others were read before, become background.
     bool read(std::string& error);
 
 private:
@@ -39,6 +43,7 @@ private:
     void copy_row(int y, int first, const ROI& window, const std::vector<std::vector<float>>& rows);
 
     const ImageBuf& m_image;
+    const ImageBuf* m_image_of_all; ///< that has what is in no file of its own
     ROI m_region;
     kernels::ParallelFor m_parallel;
     GBuffer& m_out;
@@ -64,7 +69,8 @@ bool Reader::fits(const char* guide, const GuideChannels& from, int count) {
 
 void Reader::want(const char* guide, const std::optional<GuideChannels>& from,
                   std::vector<float>* planes, int count) {
-    if (!from || !fits(guide, *from, count))
+    const ImageBuf* const image = from && from->file ? from->file.get() : m_image_of_all;
+    if (!from || image != &m_image || !fits(guide, *from, count))
         return;
     for (int c = 0; c < count; ++c) {
         planes[c].assign(m_out.background.size(), 0.0f);
@@ -73,11 +79,16 @@ void Reader::want(const char* guide, const std::optional<GuideChannels>& from,
 }
 
 void Reader::cover(const ROI& window) {
-    for (int y = window.ybegin; y < window.yend; ++y) {
-        const size_t row = size_t(y - m_region.ybegin) * size_t(m_out.width);
-        const auto from = m_out.background.begin() + ptrdiff_t(row);
-        std::fill(from + (window.xbegin - m_region.xbegin), from + (window.xend - m_region.xbegin),
-                  uint8_t(0));
+    const bool first = &m_image == m_image_of_all;
+    for (int y = m_region.ybegin; y < m_region.yend; ++y) {
+        uint8_t* const row =
+            m_out.background.data() + size_t(y - m_region.ybegin) * size_t(m_out.width);
+        const bool inside = y >= window.ybegin && y < window.yend;
+        for (int x = m_region.xbegin; x < m_region.xend; ++x) {
+            const bool covered = inside && x >= window.xbegin && x < window.xend;
+            uint8_t& none = row[x - m_region.xbegin];
+            none = covered ? (first ? 0 : none) : 1;
+        }
     }
 }
 
@@ -102,12 +113,9 @@ void Reader::copy_row(int y, int first, const ROI& window,
 
 bool Reader::read(std::string& error) {
     const ROI window = OIIO::roi_intersection(m_image.roi(), m_region);
-    if (m_planes.empty() || window.width() <= 0 || window.height() <= 0) {
-        if (window.width() > 0 && window.height() > 0)
-            cover(window);
-        return true;
-    }
     cover(window);
+    if (m_planes.empty() || window.width() <= 0 || window.height() <= 0)
+        return true;
     std::vector<int> channels;
     for (const Plane& plane : m_planes)
         channels.push_back(plane.channel);
@@ -143,14 +151,22 @@ bool read_gbuffer(const ImageBuf& image, const GBufferNames& names, ROI region, 
     out.width = region.width();
     out.height = region.height();
     out.background.assign(size_t(out.width) * size_t(out.height), 1);
-    Reader reader(image, region, nthreads, out);
-    reader.want("position", names.position, out.position, 3);
-    reader.want("normal", names.normal, out.normal, 3);
-    reader.want("albedo", names.albedo, out.albedo, 3);
-    reader.want("depth", names.depth, &out.depth, 1);
-    if (!reader.read(error)) {
-        error = side_name("guide", image) + error;
-        return false;
+    // Each image once, the one itself first.
+    std::vector<const ImageBuf*> images{&image};
+    for (const auto* guide : {&names.position, &names.normal, &names.albedo, &names.depth})
+        if (*guide && (*guide)->file &&
+            std::find(images.begin(), images.end(), (*guide)->file.get()) == images.end())
+            images.push_back((*guide)->file.get());
+    for (const ImageBuf* from : images) {
+        Reader reader(*from, image, region, nthreads, out);
+        reader.want("position", names.position, out.position, 3);
+        reader.want("normal", names.normal, out.normal, 3);
+        reader.want("albedo", names.albedo, out.albedo, 3);
+        reader.want("depth", names.depth, &out.depth, 1);
+        if (!reader.read(error)) {
+            error = side_name("guide", *from) + error;
+            return false;
+        }
     }
     check_gbuffer(out, names, make_parallel(nthreads));
     return true;

@@ -4,6 +4,7 @@
 
 #include <OpenImageIO/imagebuf.h>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -20,7 +21,8 @@ struct GuideOptions {
 /// One guide of the image.
 struct GuideChannels {
     std::string layer;
-    int channel[3] = {-1, -1, -1}; ///< depth has channel[0] only
+    std::shared_ptr<const OIIO::ImageBuf> file; ///< what has them; null: the image itself
+    int channel[3] = {-1, -1, -1};              ///< depth has channel[0] only
 };
 
 struct GBufferNames {
@@ -45,6 +47,7 @@ struct GBuffer {
     std::vector<uint8_t> background; ///< 1 where no surface is seen, or none that can be trusted
     int64_t nonfinite = 0;           ///< pixels that are background for a NaN or infinite guide
     double half_ulp = 0;             ///< largest rounding of a stored position; 0 without positions
+    bool half_positions = false;     ///< all are numbers that half can hold
     double footprint = 0; ///< median step of the position from pixel to pixel; 0 if there is none
     std::vector<std::string> warnings;
 

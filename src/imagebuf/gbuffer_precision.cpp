@@ -77,6 +77,7 @@ void measure_precision(GBuffer& g, const std::string& layer) {
     for (size_t i = 0; i < g.background.size(); ++i)
         most = std::max(most, largest(g, i));
     g.half_ulp = relative * most;
+    g.half_positions = relative == kHalf;
     const int apart = std::max(1, int(std::sqrt(double(g.width) * double(g.height) / kSamples)));
     std::vector<double> steps, blurs;
     for (int y = 0; y < g.height; y += apart)

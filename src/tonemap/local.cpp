@@ -5,6 +5,7 @@
 #include <limits>
 #include <vector>
 
+#include "kernels/curve_constants.h"
 #include "tonemap/base.h"
 
 namespace tonetool::tonemap {
@@ -103,6 +104,26 @@ void guided_base(const LocalOperator& what, const GuidePlanes& image, const kern
                  const kernels::ParallelFor& parallel) {
     const Planes planes(what, image, taps, window, parallel);
     filter_base(planes.view(), terms_of(what), taps, window, base, stride, parallel);
+}
+
+void local_part(const LocalOperator& what, const ConstRgb& color, const LocalBase& base,
+                const Window& window, LocalPart part, float* out, ptrdiff_t stride,
+                const kernels::ParallelFor& parallel) {
+    parallel(window.height, [&](int64_t y) {
+        const ptrdiff_t from = (window.y0 - color.first_row + y) * color.stride + window.x0;
+        const float* const rgb[3] = {color.plane[0] + from, color.plane[1] + from,
+                                     color.plane[2] + from};
+        float* const row = out + y * stride;
+        kernels::luminance_rows(what.curve.weights, rgb, row, window.width);
+        for (int x = 0; x < window.width; ++x) {
+            const float l = row[x], b = base.plane[y * base.stride + x];
+            const double linear = what.logarithmic ? std::exp(double(b)) : double(b);
+            const bool split = linear >= double(kernels::kSmallestLuminance) &&
+                               linear <= double(std::numeric_limits<float>::max());
+            row[x] = part == LocalPart::Base ? (split ? float(linear) : l)
+                                             : (split ? float(double(l) / linear) : 1);
+        }
+    });
 }
 
 void tone_map_guided(const LocalOperator& what, const ConstRgb& color, const GuidePlanes& image,

@@ -49,6 +49,15 @@ void tone_map_guided(const LocalOperator& what, const kernels::ConstRgb& color,
                      const kernels::Window& window, const LocalOutput& output,
                      const kernels::ParallelFor& parallel);
 
+/// What luminance is the product of.
+enum class LocalPart { Base, Detail };
+
+/// One of the parts, linear. Where the base is no finite positive number it is luminance, and the
+/// detail 1. Row stride of `out` in floats.
+void local_part(const LocalOperator& what, const kernels::ConstRgb& color, const LocalBase& base,
+                const kernels::Window& window, LocalPart part, float* out, ptrdiff_t stride,
+                const kernels::ParallelFor& parallel);
+
 /// Tone maps a window on its base: Eq. 2. Luminance that is not finite or negative becomes black.
 void tone_map_local(const LocalOperator& what, const kernels::ConstRgb& color,
                     const LocalBase& base, const kernels::Window& window, const LocalOutput& output,

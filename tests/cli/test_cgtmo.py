@@ -128,13 +128,32 @@ def test_wls_is_drago_on_the_dense_solution(tonetool, make_image, tmp_path, modi
     assert np.abs(color(tmp_path / "out.exr") / expected - 1).max() <= 1e-5
 
 
+@pytest.mark.parametrize("kind", ["guided", "bilateral", "wls", "none"])
+@pytest.mark.parametrize("domain", ["log", "linear"])
+def test_luminance_is_base_times_detail(tonetool, tmp_path, kind, domain):
+    for part in ("base", "detail"):
+        tonetool(CORNELL, f"--cgtmo:filter={kind}:domain={domain}:show={part}", "-d", "float", "-o",
+                 f"{part}.exr")
+    base, detail = color(tmp_path / "base.exr"), color(tmp_path / "detail.exr")
+    assert (base == base[..., :1]).all() and (detail == detail[..., :1]).all()
+    light = color(CORNELL) @ np.array([0.2126, 0.7152, 0.0722])
+    assert np.abs(base * detail / light[..., None] - 1)[light > 0].max() <= 2e-6
+    deviation = np.abs(detail - 1).max()
+    assert deviation <= 2e-6 if kind == "none" else deviation > 0.1
+    spec = oiio.ImageBuf(str(tmp_path / "base.exr")).spec()
+    assert spec.get_string_attribute("tonemap:show") == "base"
+    tonetool("detail.exr", "--cgtmo:filter=none:show=base:layer=ViewLayer.Combined", "-d", "float",
+             "-o", "again.exr")
+    assert np.abs(color(tmp_path / "again.exr") / detail - 1).max() <= 2e-6, "it is linear Rec.709"
+
+
 BAD = [
     ("preset=best", ["best", "default", "paper"]), ("domain=ln", ["ln", "log"]),
     ("filter=wsl", ["wsl", "guided"]), ("normaldist=angle", ["angle", "dot"]),
     ("footprint=auto", ["auto", "global"]), ("lwa=mode", ["mode", "geometric"]),
     ("lwa=0", ["lwa"]), ("lmax=0", ["lmax"]), ("bias=2", ["bias"]), ("sigma=0", ["sigma"]),
     ("samples=2", ["samples", "4"]), ("position=Pos", ["Pos", "Position"]),
-    ("filter=wls:wlsalpha=5", ["wlsalpha", "4"]), ("filter=wls:wlslambda=-1", ["wlslambda", "100"]),
+    ("show=bases", ["bases", "base", "detail"]), ("filter=wls:wlsalpha=5", ["wlsalpha", "4"]), ("filter=wls:wlslambda=-1", ["wlslambda", "100"]),
     ("wlslambda=1", ["wlslambda", "filter=wls", "guided"]), ("encode=rec709", ["rec709", "srgb"]),
 ]
 

@@ -24,15 +24,20 @@ struct CgTmoOptions {
     std::string preset = "default";
     std::string domain;             ///< of the base: "log", "linear"; empty: the preset's
     std::optional<double> lumsigma; ///< of the luminance term in log10, 0: none, to 10
-    /// Guides by the name of their layer; "none": without; empty: found by the names and contents.
+    /// Guides by the name of their layer, or of a file that has them; "none": without; empty: found
+    /// by the names and contents of layers, in the image or in other parts of its file. Positions
+    /// that are not there are made of depth along the camera's axis.
     std::string position, normal, albedo, depth;
+    /// Horizontal field of view in degrees, 1 to 179, where a camera is needed; unset: that of the
+    /// image's worldToCamera and worldToNDC, or 40.
+    std::optional<double> fov;
     /// A missing guide, light, or panorama that was asked for is an error, not a warning.
     bool strict = false;
     double sigma = 8;                  ///< of the window in pixels, 1 to 20; its half is 2.5 sigma
     int samples = 80;                  ///< of the window, 4 to 400; 0: all
     std::string normaldist = "euclid"; ///< |n - m|^2, or "dot": 1 - |n m|
-    /// "pixel": of each pixel, from its neighbours' positions; "global": the median of those; or a
-    /// number, in the unit of the positions.
+    /// "pixel": of each pixel, from its neighbours' positions; "global": the median of those;
+    /// "camera": by its distance and field of view; or a number, in the unit of the positions.
     std::string footprint = "pixel";
     /// "guided"; "bilateral": the luminance term alone (Durand and Dorsey 2002); "wls": weighted
     /// least squares of luminance (Farbman et al. 2008); "none": Drago's curve on each pixel.
@@ -58,6 +63,9 @@ struct CgTmoOptions {
     double saturation = 1;       ///< C' = (C / L)^saturation Ld, 0 to 4
     std::string encode = "srgb"; ///< of the result, as TonemapOptions::encode
     bool clamp = true;           ///< the result to [0,1]
+    /// "picture"; or what luminance is the product of, in R, G and B alike, linear, neither encoded
+    /// nor clamped: "base", which the curve compresses, "detail", which it leaves.
+    std::string show = "picture";
 };
 
 struct CgTmoSummary {
@@ -72,6 +80,7 @@ struct CgTmoSummary {
     int64_t background = 0;                      ///< pixels without a surface
     int64_t nonfinite = 0, negative = 0;
     std::vector<std::string> warnings;
+    std::vector<std::string> notes; ///< choices that were not the only ones possible
 };
 
 namespace ToneAlgo {

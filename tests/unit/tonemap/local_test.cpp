@@ -190,6 +190,30 @@ TEST(LocalOperator, LeavesNoHaloAcrossNormals) {
         << "without guides there is one";
 }
 
+TEST(LocalOperator, PartsAreTheBaseAndWhatIsLeft) {
+    const float nan = std::numeric_limits<float>::quiet_NaN();
+    HdrImage image(5, 1);
+    for (auto& plane : image.plane)
+        plane = {3, 3, 0, 3, 3};
+    for (bool logarithmic : {false, true}) {
+        LocalOperator what;
+        what.logarithmic = logarithmic;
+        const float two = logarithmic ? std::log(2.0f) : 2;
+        const std::vector<float> base{two, nan, nan, logarithmic ? -1000 : 0.0f, two};
+        const Window window{1, 0, 4, 1};
+        std::vector<float> parts[2];
+        for (LocalPart part : {LocalPart::Base, LocalPart::Detail}) {
+            parts[int(part)].resize(4);
+            local_part(what, image.view(), {base.data() + 1, 5}, window, part,
+                       parts[int(part)].data(), 4, kernels::in_order());
+        }
+        const double expected[2][4] = {{3, 0, 3, 2}, {1, 1, 1, 1.5}};
+        for (int part = 0; part < 2; ++part)
+            for (size_t x = 0; x < 4; ++x)
+                EXPECT_NEAR(double(parts[part][x]), expected[part][x], 1e-6) << part << " " << x;
+    }
+}
+
 TEST(LocalOperator, RunsOnEveryTarget) {
     const GuidedScene scene = kernels::hard_scene(90, 40, 7);
     const HdrImage image = make_image(kernels::Content::Gradient, 90, 40, 8);
