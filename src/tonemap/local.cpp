@@ -104,7 +104,8 @@ void local_part(const LocalOperator& what, const ConstRgb& image, const LocalBas
         std::vector<float> light(size_t(image.width));
         luminance_row(what, image, window.y0 - image.first_row + y, light.data());
         for (int x = 0; x < window.width; ++x) {
-            const float l = light[size_t(window.x0 + x)], b = base.plane[y * base.stride + x];
+            const float l = light[size_t(window.x0) + size_t(x)],
+                        b = base.plane[y * base.stride + x];
             const double linear = what.logarithmic ? std::exp(double(b)) : double(b);
             const bool split = linear >= double(kernels::kSmallestLuminance) &&
                                linear <= double(std::numeric_limits<float>::max());
