@@ -113,8 +113,9 @@ void Aggregates::build(const Matrix& first, int direct) {
         const Matrix kept = strong_part(fine, strong);
         const Matrix members = Grouping(kept).members();
         m_levels.back().members = smoothed(kept, members);
-        Matrix coarse = coupled(fine, m_levels.back().members);
-        m_levels.push_back({std::move(coarse), {}});
+        Level coarse;
+        coarse.coupled = coupled(fine, m_levels.back().members);
+        m_levels.push_back(coarse);
         strong /= 2;
     }
     if (const Matrix& last = matrix(m_levels.size() - 1); last.cols() > 0)
