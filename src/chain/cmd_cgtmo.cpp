@@ -62,6 +62,7 @@ void report_summary(Session& session, const std::string& label, const CgTmoSumma
     line("samples", std::to_string(found.samples));
     line("background", std::to_string(found.background));
     line("footprint", format_number(found.footprint));
+    line("light-index", found.light_index.empty() ? "none" : found.light_index);
     line("adaptation", format_number(found.adaptation));
     line("adaptation-from", found.adaptation_from);
     line("maximum", format_number(found.maximum));

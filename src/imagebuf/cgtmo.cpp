@@ -80,6 +80,7 @@ private:
         summary.adaptation_from = scene.adaptation_from;
         summary.maximum_from = scene.maximum_from;
         summary.maximum_light = scene.maximum_light;
+        summary.light_index = scene.light_index;
         summary.warnings.insert(summary.warnings.end(), scene.warnings.begin(),
                                 scene.warnings.end());
         m_luminance = std::move(scene.luminance);

@@ -19,6 +19,8 @@ using OIIO::ROI;
 using OIIO::Strutil::fmt::format;
 
 constexpr double kMostIndex = 1e9, kWhole = 0.01;
+// Values of a layer; what has more is no index.
+constexpr size_t kMostValues = 1 << 20;
 constexpr size_t kStep = size_t(32) << 20;
 
 bool is_index(const AovLayer& layer) {
@@ -70,10 +72,23 @@ namespace {
 // Values of a channel and how many pixels have them, but NaN.
 using ValueCounts = std::map<float, int64_t>;
 
-bool count_values(const ImageBuf& image, int channel, ValueCounts& counts, int64_t& nans,
-                  std::string& error) {
+void count_runs(const std::vector<float>& rows, ValueCounts& counts, int64_t& nans) {
+    for (size_t i = 0; i < rows.size();) {
+        size_t end = i + 1;
+        while (end < rows.size() && rows[end] == rows[i])
+            ++end;
+        if (std::isnan(rows[i]))
+            ++nans;
+        else
+            counts[rows[i]] += int64_t(end - i);
+        i = end;
+    }
+}
+
+bool count_values(const ImageBuf& image, const IndexLayer& layer, ValueCounts& counts,
+                  int64_t& nans, std::string& error) {
     RowSource source;
-    if (!source.open(image, runs_of({channel}), error))
+    if (!source.open(image, runs_of({layer.channel}), error))
         return false;
     const ROI roi = image.roi();
     std::vector<float> rows;
@@ -82,15 +97,12 @@ bool count_values(const ImageBuf& image, int channel, ValueCounts& counts, int64
         rows.resize(size_t(last - first) * size_t(source.width()));
         if (!source.read(first, last, 0, rows.data(), error))
             return false;
-        for (size_t i = 0; i < rows.size();) {
-            size_t end = i + 1;
-            while (end < rows.size() && rows[end] == rows[i])
-                ++end;
-            if (std::isnan(rows[i]))
-                ++nans;
-            else
-                counts[rows[i]] += int64_t(end - i);
-            i = end;
+        count_runs(rows, counts, nans);
+        if (counts.size() > kMostValues) {
+            error = format("layer \"{}\" has more than {} different values: it is not an index "
+                           "of lights (lightindex= names one, or groups)",
+                           layer.layer, kMostValues);
+            return false;
         }
         first = last;
     }
@@ -103,7 +115,7 @@ bool count_indices(const ImageBuf& image, const IndexLayer& layer, IndexCounts& 
                    std::string& error) {
     ValueCounts values;
     counts = {};
-    if (!count_values(image, layer.channel, values, counts.invalid, error))
+    if (!count_values(image, layer, values, counts.invalid, error))
         return false;
     const double largest = values.empty() ? 0 : values.rbegin()->first;
     const double scale = index_scale(image, layer.channel, largest);

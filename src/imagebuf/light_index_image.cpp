@@ -1,5 +1,6 @@
 // ToneAlgo::light_index.
 #include <OpenImageIO/strutil.h>
+#include <algorithm>
 
 #include "imagebuf/guard.h"
 #include "imagebuf/light_index.h"
@@ -33,8 +34,11 @@ ImageSpec index_spec(const ImageSpec& source, ROI region, const LightScan& scan)
     return spec;
 }
 
-LightIndexSummary summary_of(const LightScan& scan, const LightTable* table) {
+LightIndexSummary summary_of(const LightScan& scan, const LightTable* table,
+                             const ColorChoice& choice) {
     LightIndexSummary out;
+    out.layer = choice.layer;
+    out.space = choice.space;
     const auto lights = table ? lights_of(*table, scan.groups())
                               : std::vector<const Light*>(scan.groups().size(), nullptr);
     for (size_t g = 0; g < lights.size(); ++g) {
@@ -50,6 +54,9 @@ LightIndexSummary summary_of(const LightScan& scan, const LightTable* table) {
     out.difference = scan.difference();
     for (const std::string& warning : scan.warnings())
         out.warnings.push_back(warning);
+    if (std::all_of(out.groups.begin(), out.groups.end(),
+                    [](const LightGroupSummary& group) { return group.pixels == 0; }))
+        out.warnings.push_back("all light groups are black");
     return out;
 }
 
@@ -63,10 +70,12 @@ bool make_index(ImageBuf& dst, const ImageBuf& src, const LightOptions& options,
         error = "the region of interest holds no pixel of the image";
         return false;
     }
+    ColorChoice choice;
     LightTable table;
     const LightTable* lights = options.table.empty() ? nullptr : &table;
     LightScan scan;
-    if ((lights && !table.read(options.table, options.unit, error)) ||
+    if (!ToneAlgo::find_color(deciding_spec(src), pixels, choice, error) ||
+        (lights && !table.read(options.table, options.unit, error)) ||
         !open_scan(src, pixels, options, lights, region, nthreads, scan, error))
         return false;
     if (scan.groups().empty()) {
@@ -82,16 +91,8 @@ bool make_index(ImageBuf& dst, const ImageBuf& src, const LightOptions& options,
     };
     if (!scan.run(write, error))
         return false;
-    if (summary) {
-        ColorChoice choice;
-        *summary = summary_of(scan, lights);
-        if (!ToneAlgo::find_color(deciding_spec(src), pixels, choice, error))
-            return false;
-        summary->layer = choice.layer;
-        summary->space = choice.space;
-        if (scan.unlit() == int64_t(region.width()) * region.height())
-            summary->warnings.push_back("all light groups are black");
-    }
+    if (summary)
+        *summary = summary_of(scan, lights, choice);
     dst = std::move(out);
     return true;
 }

@@ -1,6 +1,7 @@
 #include "imagebuf/light_maximum.h"
 
 #include <OpenImageIO/strutil.h>
+#include <algorithm>
 
 namespace tonetool {
 namespace {
@@ -49,6 +50,7 @@ bool LightMaximum::by_layer(const IndexLayer& layer, std::optional<Found>& out, 
     if (!count_indices(m_image, layer, counts, error))
         return false;
     Found found;
+    found.index = layer.layer;
     for (const auto& [index, pixels] : counts.pixels) {
         const Light* light = light_at(index);
         if (light && light->luminance)
@@ -101,36 +103,40 @@ bool LightMaximum::by_named_groups(std::optional<Found>& out, std::string& why,
         why = "no light index and no light groups among the layers";
         return true;
     }
-    Found found;
     const auto lights = lights_of(m_table, groups);
-    bool known = false;
-    for (size_t g = 0; g < groups.size(); ++g) {
-        known = known || lights[g];
-        if (groups[g].pixels == 0)
-            continue;
-        const std::string& name = groups[g].group.name;
-        if (lights[g] && lights[g]->luminance) {
-            take(found, *lights[g]->luminance, name, false);
-            continue;
-        }
-        double measured = 0;
-        if (!maximum_of(g, measured, error))
-            return false;
-        take(found, measured, name, true);
-        found.lacks.push_back(
-            (lights[g] ? format("light {} has no luminance in \"{}\", {}", name, m_table.file(),
-                                lights[g]->lacks)
-                       : format("light group \"{}\" is not in \"{}\"", name, m_table.file())) +
-            format(": the maximum of its layer, {:.6g}, is taken", measured));
+    if (std::all_of(lights.begin(), lights.end(), [](const Light* light) { return !light; })) {
+        std::vector<std::string> names;
+        for (const ScannedGroup& group : groups)
+            names.push_back(group.group.name);
+        why = format("none of the light groups ({}) is in \"{}\" ({})",
+                     OIIO::Strutil::join(names, ", "), m_table.file(), m_table.list());
+        return true;
     }
+    Found found;
+    found.index = "groups";
     found.warnings = m_scan->warnings();
-    if (known)
-        return finish(std::move(found), out, why, "no light group has a luminance");
-    std::vector<std::string> names;
-    for (const ScannedGroup& group : groups)
-        names.push_back(group.group.name);
-    why = format("none of the light groups ({}) is in \"{}\" ({})",
-                 OIIO::Strutil::join(names, ", "), m_table.file(), m_table.list());
+    for (size_t g = 0; g < groups.size(); ++g)
+        if (groups[g].pixels > 0 && !take_group(g, lights[g], found, error))
+            return false;
+    return finish(std::move(found), out, why, "no light group has a luminance");
+}
+
+// By the table, or where it has none, by the layer.
+bool LightMaximum::take_group(size_t group, const Light* light, Found& found, std::string& error) {
+    const std::string& name = m_scan->groups()[group].group.name;
+    if (light && light->luminance) {
+        take(found, *light->luminance, name, false);
+        return true;
+    }
+    double measured = 0;
+    if (!maximum_of(group, measured, error))
+        return false;
+    take(found, measured, name, true);
+    const std::string lack =
+        light
+            ? format("light {} has no luminance in \"{}\", {}", name, m_table.file(), light->lacks)
+            : format("light group \"{}\" is not in \"{}\"", name, m_table.file());
+    found.lacks.push_back(lack + format(": the maximum of its layer, {:.6g}, is taken", measured));
     return true;
 }
 
@@ -142,6 +148,7 @@ bool LightMaximum::by_groups(std::optional<Found>& out, std::string& why, std::s
         return true;
     }
     Found found;
+    found.index = "groups";
     for (size_t g = 0; g < m_scan->groups().size(); ++g) {
         double measured = 0;
         if (m_scan->groups()[g].pixels == 0)

@@ -14,6 +14,7 @@ public:
     struct Found {
         double luminance = 0;
         std::string light;     ///< whose it is
+        std::string index;     ///< layer of the index, or "groups"
         bool measured = false; ///< in the layer of its group, not by the table
         /// Lights whose luminance could not be had as asked, and what is doubtful.
         std::vector<std::string> lacks, warnings;
@@ -41,6 +42,7 @@ private:
                   std::string& error);
     const Light* light_at(int index) const;
     bool by_named_groups(std::optional<Found>& out, std::string& why, std::string& error);
+    bool take_group(size_t group, const Light* light, Found& found, std::string& error);
     bool scan(std::string& error);
     bool maximum_of(size_t group, double& value, std::string& error) const;
     bool finish(Found found, std::optional<Found>& out, std::string& why, const char* none) const;

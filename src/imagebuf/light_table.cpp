@@ -40,6 +40,27 @@ Words fields_of(std::string line) {
     return words;
 }
 
+// "index,value" or "index,r,g,b": the values of a line.
+bool values_of(const Words& words, const std::string& line, const std::string& where,
+               double (&values)[3], std::string& error) {
+    if (words.size() != 2 && words.size() != 4) {
+        error = format("{}: \"{}\" has {} field(s): must be index or name, then a value or r,g,b",
+                       where, OIIO::Strutil::strip(line), words.size());
+        return false;
+    }
+    for (size_t i = 1; i < words.size(); ++i) {
+        const auto value = number_in(words[i]);
+        if (!value) {
+            error = format("{}: \"{}\" is not a number", where, words[i]);
+            return false;
+        }
+        values[i - 1] = *value;
+        if (!check_light_value(*value, "the value", where, error))
+            return false;
+    }
+    return true;
+}
+
 bool is_header(const Words& words) {
     const std::string first = lower_case(words[0]);
     for (const char* name : {"index", "name", "light", "group", "id"})
@@ -115,23 +136,9 @@ bool LightTable::read_csv(const std::string& text, std::string& error) {
         if (header)
             continue;
         const std::string where = format("\"{}\" line {}", m_file, number);
-        if (words.size() != 2 && words.size() != 4) {
-            error = format("{}: \"{}\" has {} field(s): must be index or name, then a value or "
-                           "r,g,b",
-                           where, OIIO::Strutil::strip(line), words.size());
-            return false;
-        }
         double values[3] = {0, 0, 0};
-        for (size_t i = 1; i < words.size(); ++i) {
-            const auto value = number_in(words[i]);
-            if (!value) {
-                error = format("{}: \"{}\" is not a number", where, words[i]);
-                return false;
-            }
-            values[i - 1] = *value;
-            if (!check_light_value(*value, "the value", where, error))
-                return false;
-        }
+        if (!values_of(words, line, where, values, error))
+            return false;
         Light light;
         set_value(light, words.size() == 2 ? values[0] : luminance_of(values));
         if (!add(std::move(light), words[0], where, error))

@@ -79,6 +79,22 @@ bool check_shape(const OIIO::ImageSpec& spec, const std::string& weight, std::st
     return false;
 }
 
+// Row by row, in their order.
+Sums add_up(const PagedArray<float>& luminance, const ROI& region, const double* weights,
+            int nthreads) {
+    std::vector<Sums> rows(size_t(region.height()));
+    make_parallel(nthreads)(region.height(), [&](int64_t y) {
+        const float* row = luminance.data() + size_t(y) * size_t(region.width());
+        for (int x = 0; x < region.width(); ++x)
+            if (std::isfinite(row[x]))
+                rows[size_t(y)].add(row[x], weights[y]);
+    });
+    Sums sums;
+    for (const Sums& row : rows)
+        sums.add(row);
+    return sums;
+}
+
 bool measure(PanoramaStats& stats, const ImageBuf& src, const PanoramaOptions& options,
              int nthreads, std::string& error) {
     if (!check_readable(src, "panorama", error) || !check_shape(src.spec(), options.weight, error))
@@ -97,16 +113,7 @@ bool measure(PanoramaStats& stats, const ImageBuf& src, const PanoramaOptions& o
         return false;
     const std::vector<double> all = row_weights(full.height(), options.weight == "solidangle");
     const double* weights = all.data() + (region.ybegin - full.ybegin);
-    std::vector<Sums> rows(size_t(region.height()));
-    make_parallel(nthreads)(region.height(), [&](int64_t y) {
-        const float* row = luminance.data() + size_t(y) * size_t(region.width());
-        for (int x = 0; x < region.width(); ++x)
-            if (std::isfinite(row[x]))
-                rows[size_t(y)].add(row[x], weights[y]);
-    });
-    Sums sums;
-    for (const Sums& row : rows)
-        sums.add(row);
+    const Sums sums = add_up(luminance, region, weights, nthreads);
     if (sums.count == 0) {
         error = "the panorama has no finite pixel";
         return false;

@@ -128,10 +128,14 @@ bool SceneMeasure::read_panorama(std::string& error) {
         m_panorama = stats;
     else
         m_no_panorama = format("panorama \"{}\" is black", file);
-    if (m_panorama || !m_options.strict)
+    if (m_panorama)
         return true;
-    error = m_no_panorama;
-    return false;
+    if (m_options.strict) {
+        error = m_no_panorama;
+        return false;
+    }
+    m_out.warnings.push_back(m_no_panorama + " and is left out");
+    return true;
 }
 
 bool SceneMeasure::asked(Source source) const {
@@ -205,6 +209,7 @@ bool SceneMeasure::take_lights(Source source, std::string& why, std::string& err
     m_out.maximum = found->luminance;
     m_out.maximum_from = found->measured ? "groups" : "lights";
     m_out.maximum_light = found->light;
+    m_out.light_index = found->index;
     return true;
 }
 
@@ -241,8 +246,6 @@ bool SceneMeasure::find_adaptation(std::string& error) {
     const auto given = number_of(m_options.lwa);
     m_out.adaptation_from = given ? "lwa" : m_panorama ? "env" : "image";
     m_out.adaptation = given ? *given : m_panorama ? panorama_mean() : image_mean();
-    if (!given && !m_no_panorama.empty())
-        m_out.warnings.push_back(m_no_panorama + ": the adaptation is that of the image");
     if (m_out.adaptation > 0 && std::isfinite(m_out.adaptation))
         return true;
     error = format("the adaptation luminance (lwa={}) is {}: must be positive and finite",

@@ -13,7 +13,7 @@ namespace tonetool {
 
 struct SceneStats {
     double adaptation = 0, maximum = 0;
-    std::string adaptation_from, maximum_from, maximum_light;
+    std::string adaptation_from, maximum_from, maximum_light, light_index;
     std::vector<std::string> warnings;
     PagedArray<float> luminance; ///< packed; NaN where the colour was not finite
 };

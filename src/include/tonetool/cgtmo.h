@@ -75,9 +75,10 @@ struct CgTmoSummary {
     std::string adaptation_from;                 ///< "lwa", "env", "image"
     std::string maximum_from;                    ///< "lmax", "lights", "groups", "env", "image"
     std::string maximum_light;                   ///< whose maximum it is, of lights and groups
-    double footprint = 0;                        ///< median, in the unit of positions; 0: unknown
-    int samples = 0;                             ///< neighbours of each pixel; 0: all (wls)
-    int64_t background = 0;                      ///< pixels without a surface
+    std::string light_index; ///< where lights were told apart: a layer, "groups"; empty: nowhere
+    double footprint = 0;    ///< median, in the unit of positions; 0: unknown
+    int samples = 0;         ///< neighbours of each pixel; 0: all (wls)
+    int64_t background = 0;  ///< pixels without a surface
     int64_t nonfinite = 0, negative = 0;
     std::vector<std::string> warnings;
     std::vector<std::string> notes; ///< choices that were not the only ones possible
