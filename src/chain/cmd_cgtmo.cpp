@@ -74,7 +74,7 @@ void run_cgtmo(Session& session, const Call& call) {
     const Image& image = *call.images[0];
     const std::string label = call.row().label();
     CgTmoOptions options = options_of(call);
-    OIIO::ImageBuf source = color_input(session, call, image, options.pixels);
+    OIIO::ImageBuf source = color_source(session, call, image, options.pixels);
     CgTmoSummary found;
     OIIO::ImageBuf result;
     if (!ToneAlgo::cg_tmo(result, source, options, &found)) {

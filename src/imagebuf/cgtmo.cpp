@@ -1,7 +1,6 @@
 // The public functions of include/tonetool/cgtmo.h.
 #include "include/tonetool/cgtmo.h"
 
-#include <OpenImageIO/imagebufalgo.h>
 #include <OpenImageIO/strutil.h>
 #include <algorithm>
 #include <memory>
@@ -11,6 +10,7 @@
 #include "imagebuf/color_reader.h"
 #include "imagebuf/guard.h"
 #include "imagebuf/parallel.h"
+#include "imagebuf/row_source.h"
 #include "imagebuf/scene_stats.h"
 
 namespace tonetool {
@@ -41,10 +41,8 @@ public:
         if (!read_color(error) || !measure(error) || !map(part, error))
             return false;
         ImageBuf out;
-        if (!OIIO::ImageBufAlgo::copy(out, m_src, OIIO::TypeFloat, part, m_nthreads)) {
-            error = out.geterror();
+        if (!copy_pixels(out, m_src, part, m_nthreads, error))
             return false;
-        }
         place(out);
         tag(out.specmod());
         dst = std::move(out);

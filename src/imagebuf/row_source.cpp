@@ -1,6 +1,7 @@
 #include "imagebuf/row_source.h"
 
 #include <OpenImageIO/filesystem.h>
+#include <OpenImageIO/imagebufalgo.h>
 #include <algorithm>
 #include <utility>
 
@@ -176,6 +177,34 @@ bool RowSource::read_tiles(int begin, int end, size_t run, float* out) {
 void RowSource::rest() {
     if (m_from_file && m_format == "openexr")
         m_input.reset();
+}
+
+bool copy_pixels(OIIO::ImageBuf& out, const OIIO::ImageBuf& image, const OIIO::ROI& part,
+                 int nthreads, std::string& error) {
+    constexpr size_t kBandBytes = size_t(32) << 20;
+    RowSource source;
+    if (!source.open(image, {{0, image.nchannels()}}, error))
+        return false;
+    if (!source.from_file() || part.xbegin != source.left() || part.width() != source.width()) {
+        if (OIIO::ImageBufAlgo::copy(out, image, OIIO::TypeFloat, part, nthreads))
+            return true;
+        error = out.geterror();
+        return false;
+    }
+    OIIO::ImageSpec spec = image.spec();
+    spec.set_format(OIIO::TypeFloat);
+    spec.y = part.ybegin;
+    spec.height = part.height();
+    // Nobody gave it tiles yet.
+    spec.tile_width = spec.tile_height = spec.tile_depth = 0;
+    out.reset(spec, OIIO::InitializePixels::No);
+    for (int y = part.ybegin; y < part.yend;) {
+        const int end = std::min(y + source.rows_at_once(y, kBandBytes), part.yend);
+        if (!source.read(y, end, 0, static_cast<float*>(out.pixeladdr(part.xbegin, y)), error))
+            return false;
+        y = end;
+    }
+    return true;
 }
 
 } // namespace tonetool

@@ -71,4 +71,8 @@ private:
     std::vector<TileRows> m_tiles; // one per run
 };
 
+/// The pixels of a part of an image as floats; of a file only once, past every ImageCache.
+bool copy_pixels(OIIO::ImageBuf& out, const OIIO::ImageBuf& image, const OIIO::ROI& part,
+                 int nthreads, std::string& error);
+
 } // namespace tonetool
