@@ -81,7 +81,7 @@ void GuidedTile::filter(const Window& window, const GuidedRow& row) {
     for (int y = window.y0; y < window.y0 + window.height; ++y) {
         prepare(y + half, x0, runs * kGuidedRun);
         for (int dy = -half; dy <= half; ++dy)
-            m_table[size_t(dy + half)] = row_of(y + dy) + m_lead;
+            *(m_table.begin() + dy + half) = row_of(y + dy) + m_lead;
         filter_row(y, window, x0, m_filtered.data());
         row(window.x0, y, window.width, m_filtered.data());
     }
