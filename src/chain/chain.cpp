@@ -134,7 +134,7 @@ void Runner::run_call(Call& call) {
     }
     size_t expected = stack.size() + static_cast<size_t>(call.pushes());
     call.row().run(m_session, call);
-    if (stack.size() != expected) {
+    if (call.pushes() != any_number && stack.size() != expected) {
         throw CommandError("internal error: wrong number of images on the stack");
     }
 }

@@ -32,25 +32,6 @@ void run_help(Session& session, const Call& call) {
     session.out << help_text(*row);
 }
 
-void run_version(Session& session, const Call&) {
-    session.produced = true;
-    session.print(TONETOOL_VERSION);
-}
-
-void run_verbose(Session& session, const Call&) {
-    session.verbose = true;
-    session.quiet = false;
-}
-
-void run_quiet(Session& session, const Call&) {
-    session.quiet = true;
-    session.verbose = false;
-}
-
-void run_threads(Session&, const Call& call) {
-    OIIO::attribute("threads", call.integer_argument(0, {0, 4096}));
-}
-
 // Per thread OpenEXR's decoder holds blocks of rows of the whole width.
 constexpr int threads_within_memory = 2;
 
@@ -77,37 +58,43 @@ void run_memory(Session& session, const Call& call) {
     give_memory_back();
 }
 
-void run_warnings_exit(Session& session, const Call&) {
-    session.warnings_exit = true;
-}
-
 } // namespace
 
 std::vector<Command> general_commands() {
+    const auto row = [](Strings names, Strings args, std::string help, Run run) {
+        return setting(Group::General, std::move(names), std::move(args), std::move(help), run);
+    };
     return {
-        {{{"help"}, {"[COMMAND]"}, 0, 0, Group::General},
-         {},
-         "List all commands, or tell more about one",
-         run_help},
-        {{{"version"}, {}, 0, 0, Group::General}, {}, "Print the version", run_version},
-        {{{"v"}, {}, 0, 0, Group::General}, {}, "Say what is read and written", run_verbose},
-        {{{"q"}, {}, 0, 0, Group::General},
-         {},
-         "Quiet: measurements print only warnings, failures and errors",
-         run_quiet},
-        {{{"threads"}, {"N"}, 0, 0, Group::General},
-         {},
-         "Number of threads (0: one per core)",
-         run_threads},
-        {{{"memory"}, {"SIZE"}, 0, 0, Group::General},
-         {},
-         "Peak memory of the comparisons that follow, 256M or 1G: larger images are read in bands "
-         "(half of the computer's)",
-         run_memory},
-        {{{"warnings-exit"}, {}, 0, 0, Group::General},
-         {},
-         "Exit with status 2 when there were warnings",
-         run_warnings_exit},
+        row({"help"}, {"[COMMAND]"}, "List all commands, or tell more about one", run_help),
+        row({"version"}, {}, "Print the version",
+            [](Session& session, const Call&) {
+                session.produced = true;
+                session.print(TONETOOL_VERSION);
+            }),
+        row({"v"}, {}, "Say what is read and written",
+            [](Session& session, const Call&) {
+                session.verbose = true;
+                session.quiet = false;
+            }),
+        row({"q"}, {}, "Quiet: measurements print only warnings, failures and errors",
+            [](Session& session, const Call&) {
+                session.quiet = true;
+                session.verbose = false;
+            }),
+        row({"n"}, {}, "Dry run: nothing is written",
+            [](Session& session, const Call&) { session.dry_run = true; }),
+        row({"a"}, {}, "Do operations on all subimages and MIP levels",
+            [](Session& session, const Call&) { session.all_subimages = true; }),
+        row({"threads"}, {"N"}, "Number of threads (0: one per core)",
+            [](Session&, const Call& call) {
+                OIIO::attribute("threads", call.integer_argument(0, {0, 4096}));
+            }),
+        row({"memory"}, {"SIZE"},
+            "Peak memory of the comparisons that follow, 256M or 1G: larger images are read in "
+            "bands (half of the computer's)",
+            run_memory),
+        row({"warnings-exit"}, {}, "Exit with status 2 when there were warnings",
+            [](Session& session, const Call&) { session.warnings_exit = true; }),
     };
 }
 

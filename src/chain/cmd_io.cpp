@@ -13,7 +13,10 @@
 namespace tonetool::chain {
 
 void push_file(Session& session, const std::string& filename) {
-    ImagePtr image = Image::open(filename);
+    ImagePtr image = Image::open(filename, session.input);
+    if (!session.first_format) {
+        session.first_format = image->part().format();
+    }
     session.push(image);
     inspect_if_asked(session, *image);
 }

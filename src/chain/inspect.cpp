@@ -35,7 +35,7 @@ std::string head_line(const Image& image) {
     std::string depth = spec.depth > 1 ? format(" x {:4}", spec.depth) : "";
     return format("{:<20} : {:4} x {:4}{}, {} channel, {}{} {}", image.name(), spec.width,
                   spec.height, depth, spec.nchannels, spec.deep ? "deep " : "",
-                  type_names(part.format()), image.file_format());
+                  type_names(part.format().value_or(DataFormat{})), image.file_format());
 }
 
 char type_letter(OIIO::TypeDesc type) {
@@ -188,7 +188,7 @@ std::string stats_text(const Image& image) {
     if (stats.min.empty()) {
         throw CommandError("cannot measure \"" + image.name() + "\": " + pixels.geterror());
     }
-    Scale scale(part.format());
+    Scale scale(part.format().value_or(DataFormat{}));
     auto whole = [&](float value) { return scale.whole(value); };
     auto fraction = [&](float value) { return scale.fraction(value); };
     auto count = [](auto value) { return std::to_string(value); };

@@ -105,6 +105,13 @@ void fit_channels(Session& session, const std::string& where, Outgoing& image,
     image.format.of_channel.clear();
 }
 
+// An image that a command made is written as the first image that was read.
+DataFormat first_format(const Session& session, const OIIO::ImageSpec& spec) {
+    DataFormat format = session.first_format.value_or(DataFormat{spec.format, {}, 0});
+    format.of_channel.clear();
+    return format;
+}
+
 void choose_format(Outgoing& image, const OutputSettings& asked, OutputSettings& memory) {
     DataFormat& format = image.format;
     if (asked.type) {
@@ -224,7 +231,7 @@ void write_output(Session& session, const std::string& where, const Image& image
     for (size_t i = 0; i < count; ++i) {
         Part& part = image.part(i);
         parts[i].pixels = &part.pixels();
-        parts[i].format = part.format();
+        parts[i].format = part.format() ? *part.format() : first_format(session, part.header());
         fit_windows(parts[i], *writer);
         fit_channels(session, where, parts[i], *writer);
         choose_format(parts[i], settings, session.output);

@@ -25,6 +25,7 @@ std::vector<Command> collect() {
 std::string group_title(Group group) {
     static const char* const titles[group_count] = {
         "General",
+        "Control flow and scripting",
         "Commands that read images",
         "Commands that write images, and what they write",
         "Commands that print",
@@ -39,6 +40,12 @@ std::string group_title(Group group) {
 
 std::string Command::label() const {
     return names.front().size() == 1 ? "-" + names.front() : names.front();
+}
+
+Command setting(Group group, Strings names, Strings args, std::string help, Run run,
+                std::vector<Modifier> modifiers) {
+    Shape shape{std::move(names), std::move(args), 0, 0, group};
+    return {std::move(shape), std::move(modifiers), std::move(help), run};
 }
 
 const std::vector<Command>& all_commands() {

@@ -18,8 +18,8 @@ struct Modifier {
 };
 
 /// In the order in which help lists them.
-enum class Group { General, Read, Write, Print, Compare, Measure, Color, Channels, Stack };
-inline constexpr int group_count = 9;
+enum class Group { General, Control, Read, Write, Print, Compare, Measure, Color, Channels, Stack };
+inline constexpr int group_count = 10;
 std::string group_title(Group group);
 
 /// What a command takes and leaves, and where help lists it.
@@ -27,23 +27,32 @@ struct Shape {
     Strings names;  ///< without dashes; the first one is the one that messages use
     Strings args;   ///< names of the arguments; "[NAME]" may be left out, only as the last
     int pops = 0;   ///< images taken from the stack
-    int pushes = 0; ///< images put on it
+    int pushes = 0; ///< images put on it, or any_number
     Group group = Group::General;
 };
+
+using Run = void (*)(Session&, const Call&);
+inline constexpr int any_number = -1;
 
 struct Command : Shape {
     std::vector<Modifier> modifiers;
     std::string help; ///< one line
-    void (*run)(Session&, const Call&) = nullptr;
+    Run run = nullptr;
     /// Wait for images that are still to come, as oiiotool does with operators.
     bool postponable = true;
     /// Where the numbers of images depend on a modifier; else nullptr.
     int (*pops_of)(const Call&) = nullptr;
     int (*pushes_of)(const Call&) = nullptr;
+    /// --if and the like: seen also where commands are skipped.
+    bool control = false;
 
     /// As messages call it: "hdrflip", "-o".
     std::string label() const;
 };
+
+/// The row of a command that takes and leaves no image.
+Command setting(Group group, Strings names, Strings args, std::string help, Run run,
+                std::vector<Modifier> modifiers = {});
 
 /// All rows.
 const std::vector<Command>& all_commands();

@@ -23,7 +23,17 @@ struct OutputSettings {
     std::optional<NamedType> type;
     std::map<std::string, NamedType> type_of_channel;
     std::set<std::string> matched_channels; ///< those of the above that some output had
-    std::string compression;
+    std::string compression, planarconfig, format_name;
+    int tile_width = 0, tile_height = 0;
+    bool scanline = false, dither = false, adjust_time = false, autocrop = true, autotrim = false;
+    bool history = true, arguments_in_history = true; ///< --nosoftwareattrib, --sansattrib
+    bool autocc = false, unpremult = false;
+};
+
+/// What the frame loop has put in place of wildcards.
+struct Frame {
+    int number = 0, padding = 4;
+    std::string view;
 };
 
 struct Session {
@@ -38,10 +48,23 @@ struct Session {
 
     std::vector<ImagePtr> stack; ///< the top is the last
     std::map<std::string, ImagePtr> labels;
+    OIIO::ParamValueList variables; ///< of --set and --for
+    Frame frame;
+
+    bool compat = false;        ///< lenient as oiiotool is
+    bool all_subimages = false; ///< -a: and all MIP levels
+    bool dry_run = false, no_clobber = false, update = false, debug = false;
+    bool verbose = false, quiet = false, warnings_exit = false, error_exit = true;
+
+    ReadOptions input;
+    std::string missing_file = "error"; ///< or what stands in for it: "black", "checker"
+    bool autocc = false, autoorient = false;
+    bool metamerge = false;                 ///< results have the metadata of all inputs
+    std::optional<DataFormat> first_format; ///< of the first image that was read
     OutputSettings output;
 
-    bool verbose = false, quiet = false, warnings_exit = false;
-    bool info = false, info_verbose = false, stats = false;
+    bool info = false, info_verbose = false, stats = false, hash = false, dumpdata = false;
+    std::string info_format, metamatch, no_metamatch;
 
     std::string color_config; ///< file of the OpenColorIO configuration; empty: $OCIO
     uint64_t memory = 0;      ///< bound of the comparisons in bytes; 0: none was given
