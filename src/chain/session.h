@@ -1,8 +1,10 @@
 // What one command line knows while it runs: the stack, the settings, what was found.
 #pragma once
 
+#include <OpenImageIO/color.h>
 #include <iosfwd>
 #include <map>
+#include <memory>
 #include <optional>
 #include <set>
 #include <string>
@@ -67,7 +69,8 @@ struct Session {
     std::string info_format, metamatch, no_metamatch;
 
     std::string color_config; ///< file of the OpenColorIO configuration; empty: $OCIO
-    uint64_t memory = 0;      ///< bound of the comparisons in bytes; 0: none was given
+    std::shared_ptr<OIIO::ColorConfig> ocio; ///< what is in it, once it is needed
+    uint64_t memory = 0; ///< bound of the comparisons in bytes; 0: none was given
 
     // What the exit status is made from.
     bool produced = false; ///< something was written, printed or measured
