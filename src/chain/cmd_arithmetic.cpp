@@ -124,7 +124,7 @@ bool add_noise(Op& op, bool to_blank) {
         float first_value, second_value;
     } kinds[] = {{"gaussian", "mean", "stddev", middle, 0.1F},
                  {"uniform", "min", "max", middle, to_blank ? 1 : 0.1F},
-                 {"salt", "value", "portion", 0, 0.01F}};
+                 {"salt", "value", "portion", 0, to_blank ? 0.1F : 0.01F}};
     const std::string type = op.text("type", "gaussian");
     OIIO::ROI roi = op.dst.roi();
     roi.chend = std::min(roi.chend, op.integer("nchannels", roi.chend));
