@@ -52,7 +52,7 @@ void run_memory(Session& session, const Call& call) {
                            "\": not a size; valid: bytes, or a whole number with K, M or G "
                            "(powers of 1024), above 0: 268435456, 256M, 1G");
     }
-    session.memory = *size;
+    session.memory = *size / uint64_t(session.parallel);
     int cores = static_cast<int>(OIIO::Sysutil::hardware_concurrency());
     OIIO::attribute("exr_threads", std::min(cores, threads_within_memory));
     give_memory_back();

@@ -43,19 +43,13 @@ namespace {
 
 // Settings of one -i, put back when it is done.
 struct InfoForOne {
-    InfoForOne(Session& the_session, int level)
-        : session(the_session),
-          info(session.info),
-          verbose(session.info_verbose) {
-        session.info = session.info || level > 0;
-        session.info_verbose = session.info_verbose || level > 1;
+    InfoForOne(Session& the_session, int level) : session(the_session), before(session.list) {
+        session.list.info = session.list.info || level > 0;
+        session.list.verbose = session.list.verbose || level > 1;
     }
-    ~InfoForOne() {
-        session.info = info;
-        session.info_verbose = verbose;
-    }
+    ~InfoForOne() { session.list = before; }
     Session& session;
-    bool info, verbose;
+    Listing before;
 };
 
 void run_input(Session& session, const Call& call) {

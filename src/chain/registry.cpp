@@ -12,8 +12,8 @@ namespace {
 std::vector<Command> collect() {
     std::vector<Command> all;
     for (auto family :
-         {general_commands, io_commands, inspect_commands, compare_commands, color_commands,
-          tone_commands, cgtmo_commands, channel_commands, stack_commands}) {
+         {general_commands, control_commands, io_commands, inspect_commands, compare_commands,
+          color_commands, tone_commands, cgtmo_commands, channel_commands, stack_commands}) {
         std::vector<Command> rows = family();
         std::move(rows.begin(), rows.end(), std::back_inserter(all));
     }

@@ -32,8 +32,36 @@ struct OutputSettings {
 
 /// What the frame loop has put in place of wildcards.
 struct Frame {
-    int number = 0, padding = 4;
+    int number = 0, padding = 0;
     std::string view;
+    bool loops = false;
+};
+
+/// An --if, --while or --for that is not ended yet.
+struct Block {
+    std::string kind;
+    size_t begin = 0;                    ///< index of its first word
+    bool running = true;                 ///< its commands are executed
+    bool outside = true;                 ///< those around it are
+    std::string variable{};              ///< of a for
+    double value = 0, end = 0, step = 1; ///< of a for
+};
+
+struct Flow {
+    size_t next = 0;    ///< index of the next word
+    size_t command = 0; ///< and of the command's own
+    std::vector<Block> blocks;
+    bool running() const { return blocks.empty() || blocks.back().running; }
+};
+
+/// What is printed of an image that is read: --info, --stats, --hash, --dumpdata.
+struct Listing {
+    bool info = false, verbose = false, all_subimages = false, hash = false, stats = false;
+    bool named = true; ///< a file, in its own data type; else pixels in memory
+    std::string format, metamatch, no_metamatch; ///< "xml"; lines that (do not) match
+    std::optional<std::string> dump;             ///< name of a C array, or "" for plain text
+    bool dump_black = true;
+    OIIO::ROI roi{}; ///< of the statistics
 };
 
 struct Session {
@@ -49,7 +77,9 @@ struct Session {
     std::vector<ImagePtr> stack; ///< the top is the last
     std::map<std::string, ImagePtr> labels;
     OIIO::ParamValueList variables; ///< of --set and --for
+    bool evaluate = true;           ///< {expressions} are replaced by their values
     Frame frame;
+    Flow flow;
 
     bool compat = false;        ///< lenient as oiiotool is
     bool all_subimages = false; ///< -a: and all MIP levels
@@ -63,14 +93,15 @@ struct Session {
     std::optional<DataFormat> first_format; ///< of the first image that was read
     OutputSettings output;
 
-    bool info = false, info_verbose = false, stats = false, hash = false, dumpdata = false;
-    std::string info_format, metamatch, no_metamatch;
+    Listing list; ///< what is printed of files as they are read
 
     std::string color_config; ///< file of the OpenColorIO configuration; empty: $OCIO
     uint64_t memory = 0;      ///< bound of the comparisons in bytes; 0: none was given
+    int parallel = 1;         ///< frames that share that memory
 
     // What the exit status is made from.
-    bool produced = false; ///< something was written, printed or measured
+    bool produced = false;         ///< something was written, printed or measured
+    bool produced_by_name = false; ///< --echo and the like: also of images that no command used
     int errors = 0, warnings = 0, failures = 0;
 
     /// The name of an operator that waits for images; empty if none does.
@@ -78,6 +109,9 @@ struct Session {
 
     /// Reads what the stack and the labels still have to read from a file about to be replaced.
     void keep_pixels_of(const std::string& filename);
+
+    /// Files are described when they are read.
+    bool listing() const { return list.info || list.stats || list.hash || list.dump; }
 
     void push(ImagePtr image) { stack.push_back(std::move(image)); }
 
