@@ -127,10 +127,15 @@ int run(const Strings& words, std::ostream& out, std::ostream& err) {
         return 1;
     }
     int status = 0;
-    Session whole(out, err, full_command_line(words, false));
+    const bool compat = is_compat(words);
+    Session whole(out, err, compat ? "" : full_command_line(words, false));
+    whole.compat = compat;
     try {
         FramePlan plan = plan_frames(words);
         status = Loop(plan, out, err).run();
+        if (plan.runs.empty()) {
+            whole.warning("", no_output);
+        }
     } catch (const std::exception& problem) {
         whole.error("", problem.what());
     }

@@ -69,9 +69,9 @@ void run_list_formats(Session& session, const Call&) {
     session.print("All OIIO supported formats and their extensions:");
     for (const std::string& entry :
          OIIO::Strutil::splits(OIIO::get_string_attribute("extension_list"), ";")) {
-        const std::vector<std::string> words = OIIO::Strutil::splits(entry, ":", 1);
-        session.print("    " + words.at(0) + ": " +
-                      OIIO::Strutil::join(OIIO::Strutil::splits(words.at(1), ","), ", "));
+        const std::vector<std::string> words = OIIO::Strutil::splits(entry, ":");
+        session.print("    " + words[0] + " : " +
+                      OIIO::Strutil::join(OIIO::Strutil::splits(words.back(), ","), ", "));
     }
     session.produced = true;
 }

@@ -26,6 +26,19 @@ std::string geometry(OIIO::ROI roi) {
                                 roi.ybegin);
 }
 
+bool find_global(const std::string& name, OIIO::ParamValue& value) {
+    if (int number = 0; OIIO::getattribute(name, number)) {
+        value = {name, number};
+    } else if (float real = 0; OIIO::getattribute(name, real)) {
+        value = {name, real};
+    } else if (std::string text; OIIO::getattribute(name, text)) {
+        value = {name, text};
+    } else {
+        return false;
+    }
+    return true;
+}
+
 std::string color_text(const std::vector<float>& color) {
     return Strutil::join(color, ",");
 }
@@ -58,7 +71,7 @@ private:
 
     [[noreturn]] void fail(const std::string& why) const {
         throw CommandError(Strutil::fmt::format("{} at char {} of '{}'", why,
-                                                m_text.size() - m_rest.size(), m_text));
+                                                m_text.size() - m_rest.size() + 1, m_text));
     }
 
     std::string binary(int level);
@@ -188,20 +201,12 @@ std::string Evaluator::function(const std::string& name) {
         return (first == argument(')')) == (name == "eq") ? "1" : "0";
     }
     if (name == "getattribute") {
-        Strutil::skip_whitespace(m_rest);
-        OIIO::string_view key = m_rest;
-        if (!Strutil::parse_string(m_rest, key) || !Strutil::parse_char(m_rest, ')')) {
-            fail("getattribute() needs a name");
+        std::string key = Strutil::strip(Strutil::parse_until(m_rest, ")"), " '\"");
+        (void)Strutil::parse_char(m_rest, ')');
+        if (OIIO::ParamValue value; find_global(key, value)) {
+            return value.get_string();
         }
-        std::string text;
-        if (int value = 0; OIIO::getattribute(key, value)) {
-            text = std::to_string(value);
-        } else if (float number = 0; OIIO::getattribute(key, number)) {
-            text = shown(double(number));
-        } else if (!OIIO::getattribute(key, text)) {
-            fail("unknown attribute name '" + std::string(key) + "'");
-        }
-        return text;
+        return m_session.compat ? m_text : (fail("unknown attribute name '" + key + "'"), "");
     }
     fail("unknown function " + name + "() (valid: not, eq, neq, getattribute)");
 }
@@ -220,9 +225,10 @@ std::string Evaluator::named(const std::string& name) {
         return Strutil::fmt::format("{:0{}d}", m_session.frame.number, m_session.frame.padding);
     }
     if (m_session.variables.contains(name)) {
-        return m_session.variables.get_string(name);
+        std::string value = m_session.variables.get_string(name);
+        return Strutil::string_is_float(value) ? shown(double(Strutil::stof(value))) : value;
     }
-    m_rest = OIIO::string_view(m_text).substr(m_text.size() - m_rest.size() - name.size() + 1);
+    m_rest = OIIO::string_view(m_text).substr(m_text.size() - m_rest.size() - name.size());
     fail("syntax error");
 }
 

@@ -50,13 +50,13 @@ bool take_setting(Scan& scan, const std::string& name, const std::string& argume
 
 Scan scan_words(const Strings& words) {
     Scan scan;
+    scan.plan.compat = is_compat(words);
     bool wildcards = true, output = false, all = false;
     for (size_t i = 0; i < words.size(); ++i) {
         const std::string& word = words[i];
         std::string name =
             word.size() > 1 && word[0] == '-' ? word.substr(word[1] == '-' ? 2 : 1) : std::string();
         wildcards = name == "wildcardon" || (wildcards && name != "wildcardoff");
-        scan.plan.compat |= name == "compat";
         scan.plan.skip_bad |= name == "skip-bad-frames";
         scan.plan.progress = name == "progress=json" ? "json" : scan.plan.progress;
         if (i + 1 < words.size() && take_setting(scan, name, words[i + 1])) {
@@ -74,7 +74,7 @@ Scan scan_words(const Strings& words) {
 
 // A pattern that names no file may be a text or an output that takes its numbers from the first.
 Files listing_of(const Scan& scan, const Pattern& pattern, const std::string& word,
-                   const Files& first) {
+                 const Files& first) {
     bool inherits = &pattern != scan.patterns.data();
     Files listing;
     if (!(inherits && pattern.is_output && scan.options.frames.empty())) {
@@ -99,6 +99,10 @@ void check_length(const Strings& words, const Scan& scan, const Pattern& pattern
 }
 
 } // namespace
+
+bool is_compat(const Strings& words) {
+    return std::find(words.begin(), words.end(), "--compat") != words.end();
+}
 
 FramePlan plan_frames(const Strings& words) {
     Scan scan = scan_words(words);

@@ -25,6 +25,9 @@ struct FramePlan {
     std::string progress; ///< "json", or "" for a terminal
 };
 
+/// --compat holds for the whole command line.
+bool is_compat(const Strings& words);
+
 /// A CommandError where sequences do not fit together or match no file.
 FramePlan plan_frames(const Strings& words);
 

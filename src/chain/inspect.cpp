@@ -181,8 +181,9 @@ std::string subimage_text(const Image& image, const Listing& what, size_t subima
     const Part& part = image.part(subimage);
     std::string text = what.verbose && part.mip_levels() > 1 ? mip_line(part) : "";
     if (what.hash) {
-        text += "    SHA-1: " +
-                OIIO::ImageBufAlgo::computePixelHashSHA1(image.part(subimage).pixels()) + "\n";
+        ImagePtr file = Image::open(image.name(), {{}, OIIO::TypeUnknown});
+        const OIIO::ImageBuf& stored = file->part(subimage).pixels();
+        text += "    SHA-1: " + OIIO::ImageBufAlgo::computePixelHashSHA1(stored) + "\n";
     }
     if (what.verbose) {
         std::string detailed = header_text(image, subimage, true, what.named);
@@ -202,7 +203,8 @@ std::string header_text(const Image& image, size_t subimage, bool detailed, bool
     std::string text =
         spec.serialize(OIIO::ImageSpec::SerialText, detailed ? OIIO::ImageSpec::SerialDetailedHuman
                                                              : OIIO::ImageSpec::SerialBrief);
-    return text.insert(std::min(text.find('\n'), text.size()), " " + image.file_format());
+    text.insert(std::min(text.find('\n'), text.size()), " " + image.file_format());
+    return OIIO::Strutil::unescape_chars(text);
 }
 
 std::string stats_text(const Image& image, const std::string& indent, size_t subimage, int level,

@@ -69,6 +69,7 @@ std::vector<Command> control_commands();
 std::vector<Command> io_commands();
 std::vector<Command> inspect_commands();
 std::vector<Command> compare_commands();
+std::vector<Command> diff_commands();
 std::vector<Command> color_commands();
 std::vector<Command> channel_commands();
 std::vector<Command> stack_commands();

@@ -190,7 +190,7 @@ void Runner::finish_leniently() {
     if (!m_session.produced && !m_session.listing() && !m_session.dry_run) {
         bool made = !m_session.stack.empty() && !m_session.stack.back()->part().from_file();
         m_session.warning("", made ? "modified images without outputting them. Did you forget -o?"
-                                   : "oiiotool produced no output. Did you forget -o?");
+                                   : no_output);
     }
 }
 

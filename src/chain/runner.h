@@ -9,6 +9,8 @@
 
 namespace tonetool::chain {
 
+inline constexpr char no_output[] = "oiiotool produced no output. Did you forget -o?";
+
 class Runner {
 public:
     Runner(Session& session, const Strings& words) : m_session(session), m_words(words) {}

@@ -58,7 +58,7 @@ void Session::keep_pixels_of(const std::string& filename) {
 }
 
 int Session::exit_status() const {
-    if (errors > 0) {
+    if (errors > 0 || differs) {
         return 1;
     }
     if (failures > 0) {

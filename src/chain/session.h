@@ -27,7 +27,7 @@ struct OutputSettings {
     int tile_width = 0, tile_height = 0;
     bool scanline = false, dither = false, adjust_time = false, autocrop = true, autotrim = false;
     bool history = true, arguments_in_history = true; ///< --nosoftwareattrib, --sansattrib
-    bool autocc = false, unpremult = false;
+    int quality = 0;
 };
 
 /// What the frame loop has put in place of wildcards.
@@ -35,6 +35,12 @@ struct Frame {
     int number = 0, padding = 0;
     std::string view;
     bool loops = false;
+};
+
+/// What --diff lets pass.
+struct DiffLimits {
+    float fail = 1e-6f, fail_percent = 0, hard_fail = 1e30f;
+    float warn = 1e-6f, warn_percent = 0, hard_warn = 1e30f;
 };
 
 /// An --if, --while or --for that is not ended yet.
@@ -88,11 +94,13 @@ struct Session {
 
     ReadOptions input;
     std::string missing_file = "error"; ///< or what stands in for it: "black", "checker"
-    bool autocc = false, autoorient = false;
+    bool autocc = false, autocc_unpremult = false, autoorient = false;
     bool metamerge = false;                 ///< results have the metadata of all inputs
     std::optional<DataFormat> first_format; ///< of the first image that was read
     OutputSettings output;
 
+    DiffLimits diff;
+    bool differs = false; ///< a --diff has failed
     Listing list; ///< what is printed of files as they are read
 
     std::string color_config; ///< file of the OpenColorIO configuration; empty: $OCIO
