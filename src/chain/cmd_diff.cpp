@@ -55,7 +55,7 @@ Verdict judge(const Results& found, const DiffLimits& limits, double pixels) {
         return Verdict::Failure;
     }
     return beyond(found.nwarn, limits.warn_percent, limits.hard_warn) ? Verdict::Warning
-                                                                     : Verdict::Pass;
+                                                                      : Verdict::Pass;
 }
 
 Verdict compare_pixels(Session& session, const OIIO::ImageBuf& a, const OIIO::ImageBuf& b,
@@ -66,8 +66,8 @@ Verdict compare_pixels(Session& session, const OIIO::ImageBuf& a, const OIIO::Im
         found.nfail = OIIO::imagesize_t(OIIO::ImageBufAlgo::compare_Yee(a, b, found));
         found.nwarn = 0;
         if (found.nfail > 0) {
-            session.out << format("  {} pixels ({:.3g}%) failed the perceptual test\n",
-                                  found.nfail, 100.0 * double(found.nfail) / pixels);
+            session.out << format("  {} pixels ({:.3g}%) failed the perceptual test\n", found.nfail,
+                                  100.0 * double(found.nfail) / pixels);
         }
         return judge(found, session.diff, pixels);
     }
@@ -85,8 +85,8 @@ Verdict compare_pixels(Session& session, const OIIO::ImageBuf& a, const OIIO::Im
 Verdict compare_images(Session& session, const Image& a, const Image& b, bool perceptual) {
     const size_t parts = std::min(a.part_count(), b.part_count());
     if (session.all_subimages && a.part_count() != b.part_count()) {
-        session.print(format("Images had differing numbers of subimages ({} vs {})",
-                             a.part_count(), b.part_count()));
+        session.print(format("Images had differing numbers of subimages ({} vs {})", a.part_count(),
+                             b.part_count()));
         return Verdict::Failure;
     }
     if (!session.all_subimages && (a.part_count() > 1 || b.part_count() > 1)) {

@@ -68,16 +68,48 @@ Part::Part(std::vector<OIIO::ImageBuf> levels, std::optional<DataFormat> format,
     }
 }
 
+PartPtr Part::with_headers(PartPtr source, const std::function<void(OIIO::ImageSpec&)>& edit) {
+    auto part = std::make_shared<Part>(std::vector<OIIO::ImageBuf>(), source->m_format,
+                                       source->m_integer_encoded);
+    part->m_headers = source->m_headers;
+    part->m_pixels.resize(source->m_pixels.size());
+    std::for_each(part->m_headers.begin(), part->m_headers.end(), edit);
+    part->m_source = std::move(source);
+    return part;
+}
+
+PartPtr Part::of_level(PartPtr source, int level) {
+    PartPtr part = with_headers(std::move(source), [](OIIO::ImageSpec&) {});
+    part->m_headers = {part->header(level)};
+    part->m_pixels.resize(1);
+    part->m_first_level = level;
+    return part;
+}
+
+void Part::share(int level) {
+    const OIIO::ImageBuf& pixels = m_source->pixels(m_first_level + level);
+    OIIO::ImageSpec spec = header(level);
+    if (pixels.deep()) {
+        m_pixels[size_t(level)].copy(pixels);
+        m_pixels[size_t(level)].specmod() = spec;
+        return;
+    }
+    spec.set_format(pixels.spec().format);
+    m_pixels[size_t(level)] = view_with_spec(pixels, spec);
+}
+
 const OIIO::ImageBuf& Part::pixels(int level) {
     if (!m_pixels.at(size_t(level)).initialized()) {
-        read(level);
+        m_source ? share(level) : read(level);
     }
     return m_pixels[size_t(level)];
 }
 
 void Part::read_before_replacing(const std::string& filename) {
     std::error_code ignored;
-    if (from_file() && std::filesystem::equivalent(m_file, filename, ignored)) {
+    if (m_source) {
+        m_source->read_before_replacing(filename);
+    } else if (from_file() && std::filesystem::equivalent(m_file, filename, ignored)) {
         for (int level = 0; level < mip_levels(); ++level) {
             pixels(level);
         }
@@ -129,7 +161,7 @@ OIIO::ImageBuf Part::color_view() {
 }
 
 OIIO::ImageBuf Part::color_source() {
-    if (m_pixels.front().initialized() || header().deep) {
+    if (m_source || m_pixels.front().initialized() || header().deep) {
         return color_view();
     }
     check_unchanged();

@@ -5,6 +5,7 @@
 #include <OpenImageIO/imagecache.h>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -42,10 +43,16 @@ public:
     Part(std::vector<OIIO::ImageBuf> levels, std::optional<DataFormat> format,
          bool integer_encoded);
 
+    /// The same pixels under headers that `edit` changes in anything but their size and type.
+    static std::shared_ptr<Part> with_headers(std::shared_ptr<Part> source,
+                                              const std::function<void(OIIO::ImageSpec&)>& edit);
+    /// One MIP level.
+    static std::shared_ptr<Part> of_level(std::shared_ptr<Part> source, int level);
+
     const OIIO::ImageSpec& header(int level = 0) const { return m_headers.at(size_t(level)); }
     int mip_levels() const { return int(m_headers.size()); }
     const std::optional<DataFormat>& format() const { return m_format; }
-    bool from_file() const { return !m_file.empty(); }
+    bool from_file() const { return m_source ? m_source->from_file() : !m_file.empty(); }
     /// The values come from an integer file: display-encoded unless the header says otherwise.
     bool integer_encoded() const { return m_integer_encoded; }
 
@@ -65,10 +72,13 @@ public:
 
 private:
     void read(int level);
+    void share(int level);
     void check_unchanged() const;
 
     std::vector<OIIO::ImageSpec> m_headers; ///< of the MIP levels
     std::optional<DataFormat> m_format;
+    std::shared_ptr<Part> m_source; ///< whose pixels these are; else nullptr
+    int m_first_level = 0;          ///< of the source
     std::string m_file;
     FileState m_state; ///< of the file when its header was read
     ReadOptions m_how;

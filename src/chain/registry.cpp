@@ -13,7 +13,9 @@ std::vector<Command> collect() {
     std::vector<Command> all;
     for (auto family :
          {general_commands, control_commands, io_commands, inspect_commands, compare_commands,
-          color_commands, tone_commands, cgtmo_commands, channel_commands, stack_commands}) {
+          diff_commands, color_commands, tone_commands, cgtmo_commands, metadata_commands,
+          create_commands, arithmetic_commands, geometry_commands, filter_commands,
+          composite_commands, ocio_commands, channel_commands, stack_commands}) {
         std::vector<Command> rows = family();
         std::move(rows.begin(), rows.end(), std::back_inserter(all));
     }
@@ -29,8 +31,14 @@ std::string group_title(Group group) {
         "Commands that read images",
         "Commands that write images, and what they write",
         "Commands that print",
+        "Metadata, without touching pixels",
         "Comparing a test image with a reference",
         "Measuring",
+        "Creating and drawing",
+        "Arithmetic",
+        "Geometry",
+        "Filters",
+        "Compositing and deep images",
         "Colour and exposure",
         "Channels and subimages",
         "Image stack",
@@ -45,7 +53,7 @@ std::string Command::label() const {
 Command setting(Group group, Strings names, Strings args, std::string help, Run run,
                 std::vector<Modifier> modifiers) {
     Shape shape{std::move(names), std::move(args), 0, 0, group};
-    return {std::move(shape), std::move(modifiers), std::move(help), run};
+    return {std::move(shape), std::move(modifiers), std::move(help), std::move(run)};
 }
 
 const std::vector<Command>& all_commands() {

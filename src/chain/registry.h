@@ -1,6 +1,7 @@
 // The commands: one row each. Help, checks and tests are all read from these rows.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -18,8 +19,25 @@ struct Modifier {
 };
 
 /// In the order in which help lists them.
-enum class Group { General, Control, Read, Write, Print, Compare, Measure, Color, Channels, Stack };
-inline constexpr int group_count = 10;
+enum class Group {
+    General,
+    Control,
+    Read,
+    Write,
+    Print,
+    Metadata,
+    Compare,
+    Measure,
+    Create,
+    Arithmetic,
+    Geometry,
+    Filter,
+    Composite,
+    Color,
+    Channels,
+    Stack
+};
+inline constexpr int group_count = 16;
 std::string group_title(Group group);
 
 /// What a command takes and leaves, and where help lists it.
@@ -31,7 +49,7 @@ struct Shape {
     Group group = Group::General;
 };
 
-using Run = void (*)(Session&, const Call&);
+using Run = std::function<void(Session&, const Call&)>;
 inline constexpr int any_number = -1;
 
 struct Command : Shape {
@@ -75,5 +93,12 @@ std::vector<Command> channel_commands();
 std::vector<Command> stack_commands();
 std::vector<Command> tone_commands();
 std::vector<Command> cgtmo_commands();
+std::vector<Command> metadata_commands();
+std::vector<Command> create_commands();
+std::vector<Command> arithmetic_commands();
+std::vector<Command> geometry_commands();
+std::vector<Command> filter_commands();
+std::vector<Command> composite_commands();
+std::vector<Command> ocio_commands();
 
 } // namespace tonetool::chain

@@ -1,12 +1,45 @@
 #include "chain/runner.h"
 
+#include <OpenImageIO/imageio.h>
+#include <OpenImageIO/strutil.h>
+#include <OpenImageIO/sysutil.h>
 #include <new>
+#include <ostream>
 
 #include "chain/error.h"
 #include "chain/expression.h"
 #include "chain/io.h"
 
 namespace tonetool::chain {
+
+namespace {
+
+void execute(Session& session, Call& call) {
+    std::vector<ImagePtr>& stack = session.stack;
+    auto first = stack.end() - call.pops();
+    call.images.assign(first, stack.end());
+    stack.erase(first, stack.end());
+    for (const ImagePtr& image : call.images) {
+        image->used = true;
+    }
+    size_t expected = stack.size() + static_cast<size_t>(call.pushes());
+    call.row().run(session, call);
+    if (call.pushes() != any_number && stack.size() != expected) {
+        throw CommandError("internal error: wrong number of images on the stack");
+    }
+}
+
+} // namespace
+
+void run_command(Session& session, const std::string& word, Strings arguments) {
+    Token token = parse_token("--" + word, session.compat);
+    const Command* row = find_command(token.name);
+    if (!row) {
+        throw CommandError("internal error: no command " + word);
+    }
+    Call call(*row, std::move(token), std::move(arguments), session.compat);
+    execute(session, call);
+}
 
 void Runner::run_all() {
     Flow& flow = m_session.flow;
@@ -18,6 +51,9 @@ void Runner::run_all() {
     m_where.clear();
     if (!m_failed) {
         guarded(&Runner::finish);
+    }
+    if (m_session.runstats) {
+        print_statistics();
     }
 }
 
@@ -57,7 +93,9 @@ void Runner::run_word() {
 void Runner::run_file(const std::string& word) {
     if (m_session.flow.running()) {
         m_where = "read";
+        OIIO::Timer time;
         push_file_or_label(m_session, word);
+        m_session.seconds["-i"] += time();
         run_postponed();
     }
 }
@@ -124,18 +162,34 @@ void Runner::run_or_postpone(Call call) {
 
 void Runner::run_call(Call& call) {
     m_where = m_session.compat ? call.text() : call.row().label();
-    std::vector<ImagePtr>& stack = m_session.stack;
-    auto first = stack.end() - call.pops();
-    call.images.assign(first, stack.end());
-    stack.erase(first, stack.end());
-    for (const ImagePtr& image : call.images) {
-        image->used = true;
+    const bool told = m_session.debug && call.pops() > 0;
+    if (told) {
+        m_session.print("Performing '-" + call.row().names.front() +
+                        "' with args:  " + call.quoted_words());
     }
-    size_t expected = stack.size() + static_cast<size_t>(call.pushes());
-    call.row().run(m_session, call);
-    if (call.pushes() != any_number && stack.size() != expected) {
-        throw CommandError("internal error: wrong number of images on the stack");
+    OIIO::Timer time;
+    execute(m_session, call);
+    m_session.seconds["-" + call.row().names.front()] += time();
+    if (told) {
+        m_session.print(OIIO::Strutil::fmt::format(
+            "    -{} took {:.2f}s  (total time {:.2f}s, mem {})", call.row().names.front(), time(),
+            m_time(), OIIO::Strutil::memformat(OIIO::Sysutil::memory_used())));
     }
+}
+
+void Runner::print_statistics() {
+    std::string text = OIIO::Strutil::fmt::format(
+        "\nThreads: {}\ntonetool runtime statistics:\n  Total time: {:.2f}s\n",
+        OIIO::get_int_attribute("threads"), m_time());
+    double rest = m_time();
+    for (const auto& [name, seconds] : m_session.seconds) {
+        text += OIIO::Strutil::fmt::format("      {:<12} : {:5.2f}\n", name, seconds);
+        rest -= seconds;
+    }
+    text += OIIO::Strutil::fmt::format("      {:<12} : {:5.2f}\n", "unaccounted", rest);
+    m_session.out << text
+                  << "  Peak memory:    " << OIIO::Strutil::memformat(OIIO::Sysutil::memory_used())
+                  << "\n";
 }
 
 void Runner::run_postponed() {

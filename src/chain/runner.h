@@ -1,6 +1,7 @@
 // Runs the words of one frame's command line from left to right.
 #pragma once
 
+#include <OpenImageIO/timer.h>
 #include <deque>
 #include <string>
 
@@ -33,12 +34,17 @@ private:
     void warn_of_unused();
     void finish();
     void finish_leniently();
+    void print_statistics();
 
     Session& m_session;
     const Strings& m_words;
     std::string m_where; ///< the command that an error belongs to
     std::deque<Call> m_postponed;
     bool m_failed = false;
+    OIIO::Timer m_time;
 };
+
+/// Runs one command on the stack, as if "--word arguments..." were next.
+void run_command(Session& session, const std::string& word, Strings arguments);
 
 } // namespace tonetool::chain

@@ -57,6 +57,13 @@ void Session::keep_pixels_of(const std::string& filename) {
     }
 }
 
+OIIO::ColorConfig& color_config(Session& session) {
+    if (!session.ocio) {
+        session.ocio = std::make_shared<OIIO::ColorConfig>(session.color_config);
+    }
+    return *session.ocio;
+}
+
 int Session::exit_status() const {
     if (errors > 0 || differs) {
         return 1;

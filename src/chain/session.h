@@ -1,8 +1,11 @@
 // What one command line knows while it runs: the stack, the settings, what was found.
 #pragma once
 
+#include <OpenImageIO/color.h>
+#include <ctime>
 #include <iosfwd>
 #include <map>
+#include <memory>
 #include <optional>
 #include <set>
 #include <string>
@@ -27,7 +30,7 @@ struct OutputSettings {
     int tile_width = 0, tile_height = 0;
     bool scanline = false, dither = false, adjust_time = false, autocrop = true, autotrim = false;
     bool history = true, arguments_in_history = true; ///< --nosoftwareattrib, --sansattrib
-    int quality = 0;
+    int quality = 0;                                  ///< 0: the format's own
 };
 
 /// What the frame loop has put in place of wildcards.
@@ -89,23 +92,29 @@ struct Session {
 
     bool compat = false;        ///< lenient as oiiotool is
     bool all_subimages = false; ///< -a: and all MIP levels
-    bool dry_run = false, no_clobber = false, update = false, debug = false;
+    bool dry_run = false, no_clobber = false, update = false, debug = false, runstats = false;
     bool verbose = false, quiet = false, warnings_exit = false, error_exit = true;
 
     ReadOptions input;
     std::string missing_file = "error"; ///< or what stands in for it: "black", "checker"
     bool autocc = false, autocc_unpremult = false, autoorient = false;
-    bool metamerge = false;                 ///< results have the metadata of all inputs
-    std::optional<DataFormat> first_format; ///< of the first image that was read
+    bool metamerge = false; ///< results have the metadata of all inputs
+    // Of the first image that was read; what commands make is written alike.
+    std::optional<DataFormat> first_format;
+    std::map<std::string, OIIO::TypeDesc> first_types; ///< by the channel's name
+    std::optional<OIIO::ImageSpec> first_header;
+    std::time_t newest_input = 0;
     OutputSettings output;
 
+    std::map<std::string, double> seconds; ///< that commands took, for --runstats
     DiffLimits diff;
     bool differs = false; ///< a --diff has failed
-    Listing list; ///< what is printed of files as they are read
+    Listing list;         ///< what is printed of files as they are read
 
     std::string color_config; ///< file of the OpenColorIO configuration; empty: $OCIO
-    uint64_t memory = 0;      ///< bound of the comparisons in bytes; 0: none was given
-    int parallel = 1;         ///< frames that share that memory
+    std::shared_ptr<OIIO::ColorConfig> ocio; ///< what is in it, once it is needed
+    uint64_t memory = 0; ///< bound of the comparisons in bytes; 0: none was given
+    int parallel = 1;    ///< frames that share that memory
 
     // What the exit status is made from.
     bool produced = false;         ///< something was written, printed or measured
@@ -133,5 +142,8 @@ struct Session {
     /// 1 any error, 3 a threshold exceeded, 2 only warnings and --warnings-exit, else 0.
     int exit_status() const;
 };
+
+/// The OpenColorIO configuration, loaded with its first use.
+OIIO::ColorConfig& color_config(Session& session);
 
 } // namespace tonetool::chain
