@@ -10,7 +10,7 @@ class Case:
     line: str
     status: int = 0         # of the last command line, of stock oiiotool
     within: float = 0.0     # largest difference of a value; needs a reason
-    text: bool = True       # whether the printed text is compared; False needs a reason
+    without: str = ""       # expression of printed lines that are not compared; needs a reason
     reason: str = ""
 
     def command_lines(self):
@@ -40,8 +40,9 @@ class Case:
         return used
 
 
-def table(group, text, status=0, **exceptions):
-    """Cases of one group: a line "name: command line" each, indented lines continue it.
+def table(group, text, **exceptions):
+    """Cases of one group: a line "name: command line" each, indented lines continue it. "name!:"
+    is a command line that stock oiiotool ends with status 1.
 
     exceptions: the fields of a case by its name, with dashes as underlines.
     """
@@ -54,6 +55,7 @@ def table(group, text, status=0, **exceptions):
     cases = []
     for line in lines:
         name, command_line = line.split(": ", 1)
+        status, name = int(name.endswith("!")), name.rstrip("!")
         fields = exceptions.pop(name.replace("-", "_"), {})
         assert not fields or fields.get("reason"), f"{name}: an exception without a reason"
         cases.append(Case(f"{group}-{name}", command_line.strip(), **{"status": status, **fields}))

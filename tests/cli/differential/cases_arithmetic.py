@@ -2,18 +2,11 @@
 
 from case import table
 
-A, B = "in/rgb.exr", "in/rgb2.exr"
+BINARY = [f"{command}: in/rgb.exr in/rgb2.exr --{command} -o out.exr"
+          for command in ("add", "sub", "mul", "div", "absdiff", "max", "min")]
 
-BINARY = [
-    f"{command}: in/{a}.exr in/{b}.exr --{command} -o out.exr"
-    for command, a, b in (
-        ("add", "rgb", "rgb2"), ("sub", "rgb", "rgb2"), ("mul", "rgb", "rgb2"),
-        ("div", "rgb", "rgb2"), ("absdiff", "rgb", "rgb2"), ("max", "rgb", "rgb2"),
-        ("min", "rgb", "rgb2"))]
-
-CONSTANT = [f"{command}-{name}: in/signed.exr --{command} {value} -o out.exr"
-            for command in ("addc", "subc", "mulc", "divc", "absdiffc", "maxc", "minc")
-            for name, value in (("one", "0.3"), ("each", "0.1,-0.5,2"))]
+CONSTANT = [f"{command}: in/signed.exr --{command} 0.3 -o a.exr --{command} 0.1,-0.5,2 -o b.exr"
+            for command in ("addc", "subc", "mulc", "divc", "absdiffc", "maxc", "minc")]
 
 PLAIN = """
 add-windows: in/rgb.exr in/inside.exr --add -o out.exr
@@ -55,6 +48,9 @@ invert-alpha: in/rgba.exr --invert -o out.exr
 invert-channels: in/rgba.exr --invert:chbegin=1:chend=2 -o out.exr
 invert-all-channels: in/rgba.exr --invert:chend=4 -o out.exr
 invert-integer: in/u8.tif --invert -o out.tif
+invert-two: in/rgba.exr --invert:chbegin=2:chend=4 -o out.exr
+sub-modifier: in/parts.exr in/parts2.exr --sub:allsubimages=1 -o out.exr
+chsum-weight-of-four: in/rgba.exr --chsum:weight=.1,.2,.3,.4 -o out.exr
 abs: in/signed.exr --abs -o out.exr
 abs-all-parts: -a in/parts.exr --subc 1 --abs -o out.exr
 absdiff-parts: -a in/parts.exr in/parts2.exr --absdiff -o out.exr
@@ -97,7 +93,7 @@ contrast-inverse: in/rgb.exr --contrast:black=1:white=0:min=0.2:max=0.7 -o out.e
 contrast-parts: -a in/parts.exr --contrast:white=0.5 -o out.exr
 saturate-none: in/rgb.exr --saturate 0 -o out.exr
 saturate-more: in/rgba.exr --saturate 1.7 -o out.exr
-saturate-parts: -a in/parts.exr --saturate 0.5 -o out.exr
+saturate-parts: -a in/pair.exr --saturate 0.5 -o out.exr
 rangecompress: in/rgb.exr --rangecompress -o out.exr
 rangecompress-luma: in/rgb.exr --mulc 8 --rangecompress:luma=1 -o out.exr
 rangecompress-no-luma: in/rgba.exr --mulc 8 --rangecompress:luma=0 -o out.exr
@@ -118,6 +114,12 @@ noise-salt: in/rgb.exr --noise:type=salt:value=1:portion=0.1 -o out.exr
 noise-seed: in/rgb.exr --noise:type=uniform:seed=42 -o out.exr
 noise-mono: in/rgb.exr --noise:type=gaussian:mono=1:seed=3 -o out.exr
 noise-channels: in/rgb.exr --noise:type=uniform:nchannels=1 -o out.exr
+noise-two-channels: in/rgb.exr --noise:type=salt:value=2:portion=0.3:nchannels=2 -o out.exr
+noise-wide: in/grey.exr --noise:type=gaussian:mean=0.5:stddev=1:mono=1 -o out.exr
+contrast-clamp-each: in/rgb.exr --contrast:black=0.2,0,0:white=1.5:clamp=1:min=0.1:max=0.9
+    -o out.exr
+contrast-gamma-ignored: in/rgb3.exr --contrast:gamma=0.5:scontrast=3:clamp=0 -o out.exr
+rangeexpand-no-luma: in/rgba.exr --rangeexpand:luma=0 -o out.exr
 """
 
 CASES = [*table("arith", "\n".join(BINARY + CONSTANT)), *table("arith", PLAIN),

@@ -48,6 +48,12 @@ fill-left-right: in/rgb.exr --fill:left=1,0,0:right=0,0,1 40x30+5+5 -o out.exr
 fill-corners: in/rgb.exr
     --fill:topleft=1,0,0:topright=0,1,0:bottomleft=0,0,1:bottomright=1,1,1 64x48 -o out.exr
 fill-corners-geometry: in/rgb.exr --fill:color=1,1,1 5,6,20,21 -o out.exr
+fill-corners-small: in/rgb.exr
+    --fill:topleft=0,0,0:topright=0,1,1:bottomleft=1,0,1:bottomright=.1,.2,.3 20x10+4+4 -o out.exr
+fill-top-bottom-alpha: in/rgba.exr --fill:top=1,0,0,.5:bottom=0,0,1,1 32x24 -o out.exr
+fill-left-right-alpha: in/rgba.exr --fill:left=1,0,0,.5:right=0,0,1,1 32x24 -o out.exr
+point-alpha: in/rgba.exr --point:color=0,.5,0,.5 2,3 -o out.exr
+box-fill-off: in/rgb.exr --box:color=0,1,1:fill=0 5,6,50,40 -o out.exr
 fill-parts: -a in/pair.exr --fill:color=0.5,0.1,0.2 10x10+4+4 -o out.exr
 """
 
@@ -86,6 +92,7 @@ unsharp: in/rgb.exr --unsharp -o out.exr
 unsharp-kernel: in/rgb.exr --unsharp:kernel=box:width=5 -o out.exr
 unsharp-contrast: in/rgb.exr --unsharp:contrast=1.5:threshold=0.05 -o out.exr
 unsharp-median: in/rgb.exr --unsharp:kernel=median -o out.exr
+unsharp-all: in/rgb.exr --unsharp:kernel=gaussian:width=7:contrast=0.5:threshold=0.2 -o out.exr
 unsharp-parts: -a in/pair.exr --unsharp:width=3 -o out.exr
 laplacian: in/rgb.exr --laplacian -o out.exr
 laplacian-parts: -a in/pair.exr --laplacian -o out.exr

@@ -53,8 +53,9 @@ resize-inside: in/inside.exr --resize 128x96 -o out.exr
 resize-overscan: in/overscan.exr --resize 50% -o out.exr
 resize-integer: in/u8.tif --resize 30x20 -o out.tif
 resize-highlight: in/rgb.exr --mulc 20 --resize:highlightcomp=1 32x24 -o out.exr
-resize-highlight-filter: in/rgba.exr --mulc 9 --resize:highlightcomp=1:filter=lanczos3 40x24 -o out.exr
-resize-from-to: in/rgb.exr --resize:from=0,0,31,23:to=0,0,63,47 64x48 -o out.exr
+resize-highlight-filter: in/rgba.exr --mulc 9 --resize:highlightcomp=1:filter=lanczos3 40x24
+    -o out.exr
+resize-modifier-unknown: in/rgb.exr --resize:nosuch=1 32x24 -o out.exr
 resize-offset: in/rgb.exr --resize 32x24+5+5 -o out.exr
 resize-parts: -a in/pair.exr --resize 50% -o out.exr
 resize-first-part: in/pair.exr --resize 50% -o out.exr
@@ -65,14 +66,13 @@ resample-nearest: in/rgb.exr --resample:interp=0 100x90 -o out.exr
 resample-interp: in/rgb.exr --resample:interp=1 40x30 -o out.exr
 resample-percent: in/inside.exr --resample 150% -o out.exr
 resample-parts: -a in/pair.exr --resample 50% -o out.exr
-resample-deep: in/deep.exr --resample 10x7 -o out.exr
 fit: in/rgb.exr --fit 40x40 -o out.exr
 fit-up: in/small.exr --fit 100x100 -o out.exr
 fit-pad: in/rgb.exr --fit:pad=1 40x40 -o out.exr
 fit-filter: in/rgb.exr --fit:filter=box 40x20 -o out.exr
 fit-width: in/rgb.exr --fit:fillmode=width 40x20 -o out.exr
-fit-height: in/rgb.exr --fit:fillmode=height 40x20 -o out.exr
-fit-letterbox: in/rgb.exr --fit:fillmode=letterbox:pad=1 40x20 -o out.exr
+fit-height: in/rgb.exr --fit:fillmode=height 20x40 -o out.exr
+fit-letterbox: in/rgb.exr --fit:fillmode=letterbox:pad=1 20x40 -o out.exr
 fit-exact: in/rgb.exr --fit:exact=1 37x29 -o out.exr
 fit-exact-pad: in/rgb.exr --fit:exact=1:pad=1 37x29 -o out.exr
 fit-highlight: in/rgb.exr --mulc 20 --fit:highlightcomp=1 40x40 -o out.exr
@@ -84,20 +84,23 @@ pixelaspect: in/wide.exr --pixelaspect 1 -o out.exr
 pixelaspect-two: in/rgb.exr --pixelaspect 2.0 -o out.exr
 pixelaspect-filter: in/wide.exr --pixelaspect:filter=triangle 1.0 -o out.exr
 pixelaspect-half: in/rgb.exr --pixelaspect:highlightcomp=1 0.5 -o out.exr
+pixelaspect-all: in/wide.exr --mulc 5 --pixelaspect:filter=box:highlightcomp=1 1.5 -o out.exr
+fit-all: in/rgb.exr --mulc 5 --fit:filter=lanczos3:pad=1:exact=1:fillmode=width:highlightcomp=1
+    50x50
+    -o out.exr
 """
 
-FILTERS = [f"resize-filter-{name}: in/rgb.exr --resize:filter={name} {size} -o out.exr"
-           for name, size in (("box", "32x24"), ("triangle", "40x30"), ("gaussian", "32x24"),
-                              ("sharp-gaussian", "90x70"), ("catmull-rom", "90x70"),
-                              ("blackman-harris", "32x24"), ("sinc", "32x24"),
-                              ("lanczos3", "32x24"), ("radial-lanczos3", "32x24"),
-                              ("nuke-lanczos6", "32x24"), ("mitchell", "40x30"),
-                              ("bspline", "90x70"), ("disk", "32x24"), ("cubic", "90x70"),
-                              ("keys", "90x70"), ("simon", "90x70"), ("rifman", "90x70"))]
+SHRINK = ("box", "gaussian", "blackman-harris", "sinc", "lanczos3", "radial-lanczos3",
+          "nuke-lanczos6", "disk")
+ENLARGE = ("triangle", "sharp-gaussian", "catmull-rom", "mitchell", "bspline", "cubic", "keys",
+           "simon", "rifman")
+FILTERS = ["resize-filters-down: " + " ".join(
+    f"in/rgb.exr --resize:filter={name} 40x24 -o {name}.exr" for name in SHRINK),
+           "resize-filters-up: " + " ".join(
+    f"in/small.exr --resize:filter={name} 45x40 -o {name}.exr" for name in ENLARGE)]
 
-ROTATIONS = [f"{command}-{source}: in/{source}.exr --{command} -o out.exr"
-             for command in ("rotate90", "rotate180", "rotate270", "flip", "flop", "transpose")
-             for source in ("rgb", "inside")]
+ROTATIONS = [f"{command}: in/rgb.exr --{command} -o a.exr in/inside.exr --{command} -o b.exr"
+             for command in ("rotate90", "rotate180", "rotate270", "flip", "flop", "transpose")]
 
 TURNS = """
 flip-parts: -a in/parts.exr --flip -o out.exr
@@ -120,8 +123,12 @@ rotate-center: in/rgb.exr --rotate:center=10,10 -45 -o out.exr
 rotate-roi: in/rgb.exr --rotate:recompute_roi=1 30 -o out.exr
 rotate-highlight: in/rgb.exr --mulc 9 --rotate:highlightcomp=1 12.5 -o out.exr
 rotate-parts: -a in/pair.exr --rotate 30 -o out.exr
+rotate-all: in/inside.exr --rotate:filter=box:center=5,40:recompute_roi=1:highlightcomp=1 77
+    -o out.exr
+warp-all: in/inside.exr --warp:filter=triangle:wrap=mirror:recompute_roi=1:highlightcomp=1
+    0.9,0.2,0,-0.2,0.9,0,4,4,1 -o out.exr
 warp: in/rgb.exr --warp 0.7,0.5,0,-0.5,0.7,0,10,8,1 -o out.exr
-warp-filter: in/rgb.exr --warp:filter=lanczos3 1.5,0,0,0,1.5,0,-5,-5,1 -o out.exr
+warp-filter: in/rgb.exr --warp:filter=box 1.5,0,0,0,1.5,0,-5,-5,1 -o out.exr
 warp-roi: in/rgb.exr --warp:recompute_roi=1 1.5,0,0,0.2,1.5,0,-5,-5,1 -o out.exr
 warp-highlight: in/rgb.exr --mulc 9 --warp:highlightcomp=1 1,0.1,0,0,1,0,0,0,1 -o out.exr
 warp-wrap: in/rgb.exr --warp:wrap=periodic 0.7,0.5,0,-0.5,0.7,0,10,8,1 -o out.exr
@@ -130,12 +137,15 @@ st-warp: in/rgb.exr in/st.exr --st_warp -o out.exr
 st-warp-filter: in/rgb.exr in/st.exr --st_warp:filter=triangle -o out.exr
 st-warp-channels: in/rgb.exr in/st.exr --st_warp:chan_s=1:chan_t=0 -o out.exr
 st-warp-flips: in/rgb.exr in/st.exr --st_warp:flip_s=1:flip_t=1 -o out.exr
+st-warp-all: in/rgba.exr in/st.exr --st_warp:filter=box:chan_s=1:chan_t=0:flip_s=1:flip_t=0
+    -o out.exr
 """
 
 COMPOSITE = """
 over: in/rgba.exr in/rgba2.exr --over -o out.exr
 over-windows: in/inside_a.exr in/rgba2.exr --over -o out.exr
-over-parts: -a in/parts.exr in/parts2.exr --mulc 0.5 --over -o out.exr && in/rgba.exr in/rgba2.exr --over -o next.exr
+over-parts: in/rgba.exr in/rgba2.exr --siappend -o two.exr &&
+    -a two.exr --mulc 0.5 two.exr --over -o out.exr
 over-first-part: in/parts.exr in/parts2.exr --over -o out.exr
 over-unpremultiplied: in/straight.png in/rgba2.exr --over -o out.exr
 over-late: in/rgba.exr --over in/rgba2.exr -o out.exr
@@ -146,9 +156,9 @@ paste: in/small.exr in/rgb.exr --paste +20+10 -o out.exr
 paste-outside: in/small.exr in/rgb.exr --paste -10+40 -o out.exr
 paste-auto: in/inside.exr in/rgb.exr --paste auto -o out.exr
 paste-dash: in/inside.exr in/rgb2.exr --paste - -o out.exr
-paste-merge: in/small.exr in/rgb.exr --paste:mergeroi=1 +50+40 -o out.exr
-paste-no-merge: in/small.exr in/rgb.exr --paste:mergeroi=0 +50+40 -o out.exr
-paste-all: in/rgb.exr in/small.exr in/tiny.exr --paste:all=1 +5+5 -o out.exr
+paste-merge: in/small.exr in/inside.exr --paste:mergeroi=1 +50+40 -o out.exr
+paste-no-merge: in/small.exr in/inside.exr --paste:mergeroi=0 +50+40 -o out.exr
+paste-all: in/tiny.exr in/small.exr in/rgb.exr --paste:all=1 +5+5 -o out.exr
 paste-all-merge: in/small.exr in/inside.exr in/tiny.exr --paste:all=1:mergeroi=1 - -o out.exr
 paste-rgb-on-rgba: in/small.exr in/rgba.exr --paste +3+3 -o out.exr
 pastemeta: in/meta.exr in/rgb.exr --pastemeta -o out.exr
@@ -159,6 +169,7 @@ mosaic-fit: in/rgb.exr in/wide.exr in/small.exr --mosaic:fit=40x30:pad=2 3x1 -o 
 mosaic-short: in/rgb.exr in/rgb2.exr in/rgb3.exr --mosaic 2x2 -o out.exr
 mosaic-more: in/rgb.exr in/rgb2.exr in/rgb3.exr --mosaic 1x2 -o out.exr
 mosaic-formats: in/u8.tif in/rgba.exr --mosaic 2x1 -o out.exr
+mosaic-fit-only: in/small.exr in/wide.exr --mosaic:fit=20x20 1x2 -o out.exr
 fillholes: in/holes.exr --fillholes -o out.exr
 fillholes-chain: in/holes.exr --fillholes --premult --ch R,G,B -o out.exr
 """

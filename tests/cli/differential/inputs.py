@@ -204,6 +204,7 @@ def make_layers(to):
 
 def make_mips(to):
     config = oiio.ImageSpec()
+    config.attribute("DateTime", "2020:01:02 03:04:05")
     for name, source in (("mip.exr", "rgb.exr"), ("mip.tx", "u8.tif")):
         config.attribute("maketx:fileformatname", "openexr" if name.endswith("exr") else "tiff")
         assert oiio.ImageBufAlgo.make_texture(oiio.MakeTxTexture, str(to / source),
