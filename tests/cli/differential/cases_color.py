@@ -30,7 +30,7 @@ ociodisplay-all: {CONFIG} in/rgba.exr
 ociolook-all: {CONFIG} in/rgba.exr --ociolook:from=ACEScct:to=ACEScct:inverse=0:key=A:value=b
     "ACES 1.3 Reference Gamut Compression" -o out.exr
 ociofiletransform-all: {CONFIG} in/rgba.exr
-    --ociofiletransform:inverse=1:unpremult=1 hable.ctf -o out.exr
+    --ociofiletransform:inverse=1:unpremult=1 hable.clf -o out.exr
 tocolorspace-unpremult-config: {CONFIG} in/rgba.exr --tocolorspace:unpremult=1 ACEScct -o out.exr
 autocc-unpremult-png: --autocc:unpremult=1 in/rgba.exr -o out.png
 ccmatrix-all: in/rgba.exr --ccmatrix:unpremult=1:transpose=1 .8,.1,.1,.2,.7,.1,0,.1,.9 -o out.exr
@@ -54,7 +54,7 @@ ociolook-inverse: {CONFIG} in/rgb.exr
 ociolook-unpremult: {CONFIG} in/rgba.exr
     --ociolook:unpremult=1:key=A:value=b "ACES 1.3 Reference Gamut Compression" -o out.exr
 ociofiletransform: {CONFIG} in/rgb.exr --ociofiletransform reinhard.ctf -o out.exr
-ociofiletransform-name: {CONFIG} in/rgb.exr --ociofiletransform hable.ctf -o out.exr
+ociofiletransform-name: {CONFIG} in/rgb.exr --ociofiletransform hable.clf -o out.exr
 ociofiletransform-inverse: {CONFIG} in/rgb3.exr
     --ociofiletransform:inverse=1 reinhard.ctf -o out.exr
 ociofiletransform-unpremult: {CONFIG} in/rgba.exr

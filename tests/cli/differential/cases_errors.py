@@ -18,8 +18,9 @@ NOT_DEEP_TWO = """add sub mul div absdiff max min mad over zover st_warp
     convolve""".split()
 
 # Deep images do nothing to these, or end oiiotool by a signal.
-UNREADABLE = """chsum trim croptofull reorient transpose fft maxchan minchan deepen chappend pastemeta
-    siappend siappendall sisplit unmip flatten dup swap pop printstats printinfo""".split()
+UNREADABLE = """chsum trim croptofull reorient transpose fft maxchan minchan deepen chappend
+    pastemeta siappend siappendall sisplit unmip flatten dup printstats
+    printinfo""".split()
 
 MISSING = [f"missing-{name}!: in/rgb.exr --{name}" for name in TAKE_ARGUMENTS]
 DEEP_ONE = [f"deep-{name}!: in/deep.exr --{name} -o out.exr" for name in NOT_DEEP_ONE]
@@ -74,6 +75,8 @@ subimage-name!: in/parts.exr --subimage nosuch -o out.exr
 subimage-number!: in/parts.exr --subimage 9 -o out.exr
 selectmip-number!: in/mip.exr --selectmip 20 -o out.exr
 unmip-deep: in/deep.exr --unmip -o out.exr
+swap-no-file!: in/rgb.exr nosuch.exr --swap -o out.exr
+pop-no-file!: nosuch.exr --pop in/rgb.exr -o out.exr
 ch-empty!: in/rgb.exr --ch "" -o out.exr
 windows-of-parts!: -a in/parts.exr --minchan -o out.exr
 over-without-alpha!: in/rgb.exr in/rgb2.exr --over -o out.exr
@@ -102,7 +105,8 @@ oenv-missing!: nosuch.exr -oenv out.exr
 obump-missing!: nosuch.exr -obump out.exr
 list-formats-then!: --list-formats nosuch.exr --printinfo
 version-then!: --version nosuch.exr
-capture!: --capture:camera=7 -o out.exr
+capture!: --capture -o out.exr
+capture-camera!: --capture:camera=7 -o out.exr
 help-unknown!: --help --bogus
 flags-input!: --v --a --native --autoorient nosuch.exr -o out.exr
 flags-output!: --q --n --u --no-clobber nosuch.exr -o out.exr
@@ -123,4 +127,5 @@ flag-no-error-exit!: --no-error-exit nosuch.exr in/rgb.exr -o out.exr
 
 CAPTURE = {"without": r"^\[ WARN", "reason": "the camera library tells the time in its warnings"}
 
-CASES = table("error", "\n".join(MISSING + DEEP_ONE + DEEP_TWO + CUT) + ERRORS, capture=CAPTURE)
+CASES = table("error", "\n".join(MISSING + DEEP_ONE + DEEP_TWO + CUT) + ERRORS,
+              capture=CAPTURE, capture_camera=CAPTURE)

@@ -95,7 +95,7 @@ SHRINK = ("box", "gaussian", "blackman-harris", "sinc", "lanczos3", "radial-lanc
 ENLARGE = ("triangle", "sharp-gaussian", "catmull-rom", "mitchell", "bspline", "cubic", "keys",
            "simon", "rifman")
 FILTERS = ["resize-filters-down: " + " ".join(
-    f"in/rgb.exr --resize:filter={name} 40x24 -o {name}.exr" for name in SHRINK),
+    f"in/rgb.exr --resize:filter={name} 32x24 -o {name}.exr" for name in SHRINK),
            "resize-filters-up: " + " ".join(
     f"in/small.exr --resize:filter={name} 45x40 -o {name}.exr" for name in ENLARGE)]
 

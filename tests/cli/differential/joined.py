@@ -1,5 +1,5 @@
 """Cases that leave no state behind run several in one process, since starting one takes most of
-the time: "a --x -o out.exr" and "b --y -o out.exr" become "a --x -o first.exr b --y -o second.exr"."""
+the time: "a --x -o out.exr" and "b --y -o out.exr" become "a --x -o one.exr b --y -o two.exr"."""
 
 import math
 import re

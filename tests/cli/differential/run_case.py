@@ -54,6 +54,7 @@ class StockRuns:
         kept = os.environ.get("DIFFERENTIAL_CACHE")
         self.keeps = bool(kept)
         self.root = Path(kept) if kept else scratch
+        self.root.mkdir(parents=True, exist_ok=True)
         made_by = Path(__file__).with_name("inputs.py").read_bytes()
         built = os.stat(program)
         self.known = hashlib.sha1(made_by + f"{built.st_size} {built.st_mtime_ns}".encode())
