@@ -38,13 +38,13 @@ int required_channel(const OIIO::ImageSpec& spec, const std::string& name, Sessi
 
 void add_plain(Selection& selection, const OIIO::ImageSpec& spec, const std::string& word,
                Session* session) {
-    int index = word.empty() ? int(selection.sources.size()) : channel_index(spec, word);
+    const bool lenient = session && session->compat;
+    int index = channel_index(spec, word);
     if (index < 0 && parse_integer(word)) {
         const int asked = *parse_integer(word);
-        const bool lenient = session && session->compat;
         index = lenient ? (asked < spec.nchannels ? asked : -1)
                         : checked_integer("channel index", word, {0.0, spec.nchannels - 1.0});
-    } else if (index < 0) {
+    } else if (index < 0 && !(lenient && word.empty())) {
         index = required_channel(spec, word, session);
     }
     selection.add(index, 0, "");

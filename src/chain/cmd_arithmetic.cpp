@@ -18,20 +18,18 @@ bool invert(Op& op) {
 }
 
 bool noise(Op& op) {
-    return op.dst.copy(op.a()) && add_noise(op);
+    return op.dst.copy(op.a()) && add_noise(op, false);
 }
 
 bool contrast(Op& op) {
-    Floats black = op.values("black", 0), white = op.values("white", 1);
-    Floats low = op.values("min", 0), high = op.values("max", 1);
-    bool done = IBA::contrast_remap(op.dst, op.a(), black, white, low, high,
-                                    op.values("scontrast", 1), op.values("sthresh", 0.5F));
-    Floats gamma = op.values("gamma", 1);
-    if (done && gamma != Floats(gamma.size(), 1.0F)) {
-        for (float& value : gamma) {
-            value = 1.0F / value;
-        }
-        done = IBA::pow(op.dst, op.dst, gamma);
+    const auto given = [&](const char* key, float otherwise) {
+        return op.call.has(key) ? op.list(key, op.text(key)) : Floats{otherwise};
+    };
+    const Floats low = given("min", 0), high = given("max", 1);
+    bool done = IBA::contrast_remap(op.dst, op.a(), given("black", 0), given("white", 1), low, high,
+                                    given("scontrast", 1), given("sthresh", 0.5F));
+    if (op.call.has("gamma") && !op.session.compat) {
+        throw CommandError("gamma= has no effect in oiiotool (valid: --powc after --contrast)");
     }
     return done && (!op.flag("clamp") || IBA::clamp(op.dst, op.dst, low, high));
 }
@@ -100,7 +98,7 @@ const std::vector<OpRow> value_rows = {
               "white=VALUES: what becomes max (1)\n"
               "sthresh=VALUES: middle of the curve (0.5)\n"
               "scontrast=VALUES: its slope (1: none)\n"
-              "gamma=VALUES: gamma (1)\n"
+              "gamma=VALUES: has no effect\n"
               "clamp=0|1: clamp to min..max"},
     {"saturate SCALE", 1, "Scale the saturation (0: grey)",
      [](Op& op) { return IBA::saturate(op.dst, op.a(), op.number(0)); }},
@@ -119,20 +117,26 @@ const std::vector<OpRow> value_rows = {
 
 } // namespace
 
-bool add_noise(Op& op) {
+bool add_noise(Op& op, bool to_blank) {
+    const float middle = to_blank ? 0.5F : 0;
+    const struct {
+        const char *type, *first, *second;
+        float first_value, second_value;
+    } kinds[] = {{"gaussian", "mean", "stddev", middle, 0.1F},
+                 {"uniform", "min", "max", middle, to_blank ? 1 : 0.1F},
+                 {"salt", "value", "portion", 0, 0.01F}};
     const std::string type = op.text("type", "gaussian");
-    const char* keys[2] = {"mean", "stddev"};
-    if (type == "uniform") {
-        keys[0] = "min", keys[1] = "max";
-    } else if (type == "salt") {
-        keys[0] = "value", keys[1] = "portion";
-    } else if (type != "gaussian") {
-        throw CommandError("Unknown noise type \"" + type + "\" (valid: gaussian, uniform, salt)");
-    }
     OIIO::ROI roi = op.dst.roi();
-    roi.chend = std::min(roi.chend, op.integer("nchannels", 10000));
-    float first = op.number(keys[0], 0.0F), second = op.number(keys[1], 0.1F);
-    return IBA::noise(op.dst, type, first, second, op.flag("mono"), op.integer("seed", 0), roi);
+    roi.chend = std::min(roi.chend, op.integer("nchannels", roi.chend));
+    for (const auto& kind : kinds) {
+        if (type == kind.type) {
+            return IBA::noise(op.dst, type, op.number(kind.first, kind.first_value),
+                              op.number(kind.second, kind.second_value), op.flag("mono"),
+                              op.integer("seed", 0), roi);
+        }
+    }
+    throw CommandError("Unknown noise type \"" + type + "\"" +
+                       (op.session.compat ? "" : " (valid: gaussian, uniform, salt)"));
 }
 
 std::string noise_modifiers() {
@@ -142,7 +146,7 @@ std::string noise_modifiers() {
            "min=X: of uniform noise (0)\n"
            "max=X: of uniform noise (0.1)\n"
            "value=X: of salt noise (0)\n"
-           "portion=X: of pixels with salt (0.1)\n"
+           "portion=X: of pixels with salt (0.01)\n"
            "mono=0|1: the same in all channels\n"
            "seed=N: seed (0)\n"
            "nchannels=N: channels that get noise\n";

@@ -83,17 +83,11 @@ void push_level(Session& session, const Image& image, int level) {
     push_parts(session, image.name(), std::move(parts));
 }
 
-// Prints lines about the values of each subimage that was chosen.
+// Prints lines about the values of the first subimage.
 template <class Lines>
 void run_count(Session& session, const Call& call, Lines lines) {
-    const Image& image = *call.images[0];
-    const Chosen chosen = chosen_subimages(session, call, image);
-    for (size_t s = 0; s < chosen.count; ++s) {
-        OIIO::ImageBuf none;
-        if (chosen.active[s]) {
-            lines(Op{session, call, none, {&image.part(s).pixels()}});
-        }
-    }
+    OIIO::ImageBuf none;
+    lines(Op{session, call, none, {&call.images[0]->part().pixels()}});
     session.produced = true;
     session.push(call.images[0]);
 }

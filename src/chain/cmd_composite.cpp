@@ -9,15 +9,14 @@ namespace tonetool::chain {
 namespace {
 
 struct Position {
-    bool automatic = false;
     int x = 0, y = 0;
 };
 
+// From where the images lie.
 Position asked_position(const Session& session, const std::string& text) {
     Position position;
     int end = 0;
-    position.automatic = text == "-" || text == "auto";
-    if (!position.automatic &&
+    if (text != "-" && text != "auto" &&
         (std::sscanf(text.c_str(), "%d%d%n", &position.x, &position.y, &end) != 2 ||
          (!session.compat && size_t(end) < text.size()))) {
         throw CommandError("Invalid offset '" + text + "'" +
@@ -32,7 +31,7 @@ OIIO::ROI in_plane(OIIO::ROI window, const OIIO::ROI& channels) {
     return window;
 }
 
-// The last image is the background, on which the others go, the deepest first.
+// The last image is the background, on which the others go, the deepest on top.
 bool paste_all(Op& op, const std::vector<const OIIO::ImageBuf*>& images) {
     const Position at = asked_position(op.session, op.call.argument(0));
     const OIIO::ImageBuf& background = *images.back();
@@ -49,14 +48,11 @@ bool paste_all(Op& op, const std::vector<const OIIO::ImageBuf*>& images) {
         spec.set_roi_full(in_plane(display, background.roi()));
         op.dst.reset(spec);
         IBA::zero(op.dst);
-        const OIIO::ImageSpec& from = background.spec();
-        IBA::paste(op.dst, from.x, from.y, from.z, 0, background);
+        IBA::paste(op.dst, 0, 0, 0, 0, background);
     }
     bool done = true;
-    for (size_t i = 0; done && i + 1 < images.size(); ++i) {
-        const OIIO::ImageSpec& from = images[i]->spec();
-        done = IBA::paste(op.dst, at.automatic ? from.x : at.x, at.automatic ? from.y : at.y, 0, 0,
-                          *images[i]);
+    for (size_t i = images.size() - 1; done && i-- > 0;) {
+        done = IBA::paste(op.dst, at.x, at.y, 0, 0, *images[i]);
     }
     return done;
 }
@@ -121,9 +117,8 @@ OIIO::ImageBuf assembled(Sheet sheet, const std::vector<OIIO::ImageBuf>& images)
     IBA::zero(result);
     for (size_t i = 0; i < images.size(); ++i) {
         const int column = int(i) % sheet.columns, row = int(i) / sheet.columns;
-        const OIIO::ImageSpec& spec = images[i].spec();
-        IBA::paste(result, column * (sheet.width + sheet.pad) + spec.x - spec.full_x,
-                   row * (sheet.height + sheet.pad) + spec.y - spec.full_y, 0, 0, images[i]);
+        IBA::paste(result, column * (sheet.width + sheet.pad), row * (sheet.height + sheet.pad), 0,
+                   0, images[i]);
     }
     return result;
 }

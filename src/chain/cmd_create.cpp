@@ -83,7 +83,7 @@ bool checker(Op& op) {
 bool draw_pattern(Op& op, const std::string& pattern) {
     static const Strings names = {"black", "constant", "fill", "checker", "noise"};
     if (pattern == "noise") {
-        return add_noise(op);
+        return add_noise(op, true);
     }
     if (pattern == "checker") {
         return checker(op);
@@ -104,8 +104,10 @@ bool draw_pattern(Op& op, const std::string& pattern) {
 
 void run_pattern(Session& session, const Call& call) {
     OIIO::ImageBuf image = blank(session, call, 1);
-    Op op{session, call, image, {&image}};
-    draw_pattern(op, call.argument(0));
+    const Token pattern = parse_token("--" + call.argument(0));
+    const Call own(call.row(), pattern, {});
+    Op op{session, own, image, {&image}};
+    draw_pattern(op, pattern.name);
     push_created(session, std::move(image));
 }
 
@@ -233,7 +235,7 @@ std::vector<Command> create_commands() {
     std::vector<Command> all = {
         free_row(Group::Create, "create GEOM NCHANS", 0, 1, "A black image", run_create,
                  "type=TYPE: data type (float)"),
-        free_row(Group::Create, "pattern NAME GEOM NCHANS", 0, 1,
+        free_row(Group::Create, "pattern NAME[:...] GEOM NCHANS", 0, 1,
                  "An image of a pattern: black, constant, fill, checker, noise", run_pattern,
                  pattern),
         free_row(Group::Create, "kernel NAME WxH", 0, 1, "A convolution kernel",

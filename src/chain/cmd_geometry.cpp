@@ -51,7 +51,9 @@ bool trim(Op& op) {
             chosen.active[s] ? IBA::nonzero_region(image.part(s).pixels()) : OIIO::ROI();
         window = part.npixels() == 0 ? window : OIIO::roi_union(window, part);
     }
-    return crop_to(op, window.npixels() > 0 ? window : OIIO::ROI(0, 1, 0, 1));
+    const OIIO::ROI now = op.a().roi();
+    const OIIO::ROI first(now.xbegin, now.xbegin + 1, now.ybegin, now.ybegin + 1);
+    return crop_to(op, window.npixels() > 0 ? window : first);
 }
 
 // The data window keeps its place within the display window.
@@ -78,7 +80,7 @@ bool scale_to(Op& op, const OIIO::ROI& display, bool resample) {
     }
     op.dst.reset(scaled_spec(op.a(), display));
     const OIIO::ROI roi = op.dst.roi();
-    return resample ? IBA::resample(op.dst, op.a(), op.flag("interp"), roi)
+    return resample ? IBA::resample(op.dst, op.a(), op.flag("interp", true), roi)
                     : filtered(op, [&](const OIIO::ImageBuf& from) {
                           return IBA::resize(op.dst, from, op.text("filter"), 0, roi);
                       });
@@ -190,7 +192,7 @@ const std::vector<OpRow> window_rows = {
 
 const std::vector<OpRow> scale_rows = {
     {"resample GEOM", 1, "Resample (640x480, 640x0, 50%)", resample,
-     "interp=0|1: bilinear instead of nearest"},
+     "interp=0|1: bilinear (1) or nearest"},
     {"resize GEOM", 1, "Resize with a filter (640x480, 640x0, 50%)", resize, filters + highlights},
     {"fit GEOM", 1, "Resize to fit within a window", fit,
      filters + highlights +

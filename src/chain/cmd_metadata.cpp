@@ -2,6 +2,7 @@
 #include <OpenImageIO/strutil.h>
 #include <algorithm>
 #include <array>
+#include <cstdio>
 #include <regex>
 
 #include "chain/ops.h"
@@ -12,10 +13,45 @@ namespace {
 
 using OIIO::ImageSpec;
 
+// "01:02:03:04" as the decimal digits of a time code, "30/1" as a rational number.
+void set_packed(ImageSpec& spec, const std::string& name, const std::string& value,
+                OIIO::TypeDesc type) {
+    unsigned time[4] = {}, packed[2] = {};
+    int ratio[2] = {0, 1};
+    if (type == OIIO::TypeRational) {
+        std::sscanf(value.c_str(), "%d/%d", &ratio[0], &ratio[1]);
+        spec.attribute(name, type, ratio);
+        return;
+    }
+    std::sscanf(value.c_str(), "%u:%u:%u:%u", &time[0], &time[1], &time[2], &time[3]);
+    for (unsigned part : time) {
+        packed[0] = packed[0] << 8U | (part / 10 % 10) << 4U | part % 10;
+    }
+    spec.attribute(name, type, packed);
+}
+
+void set_strings(ImageSpec& spec, const std::string& name, const std::string& value,
+                 OIIO::TypeDesc type) {
+    OIIO::string_view rest = value;
+    std::vector<OIIO::ustring> words;
+    OIIO::string_view word;
+    while (OIIO::Strutil::parse_string(rest, word)) {
+        words.emplace_back(word);
+        OIIO::Strutil::parse_char(rest, ',');
+    }
+    words.resize(type.arraylen > 0 ? size_t(type.arraylen) : words.size());
+    type.arraylen = int(words.size());
+    spec.attribute(name, type, words.data());
+}
+
 void set_attribute(ImageSpec& spec, const std::string& name, const std::string& value,
                    OIIO::TypeDesc type) {
     if (value.empty()) {
         spec.erase_attribute(name);
+    } else if (type == OIIO::TypeTimeCode || type == OIIO::TypeRational) {
+        set_packed(spec, name, value, type);
+    } else if (type.basetype == OIIO::TypeDesc::STRING && type.arraylen != 0) {
+        set_strings(spec, name, value, type);
     } else if (type != OIIO::TypeUnknown) {
         spec.attribute(name, type, value);
     } else if (OIIO::Strutil::string_is_int(value)) {

@@ -102,7 +102,7 @@ std::optional<Size> parsed_size(const std::string& text);
 std::vector<ImagePtr> take_images(Session& session, size_t count);
 
 /// --noise and --pattern noise: onto the pixels of dst.
-bool add_noise(Op& op);
+bool add_noise(Op& op, bool to_blank);
 std::string noise_modifiers();
 
 void append(std::vector<Command>& all, std::vector<Command> more);
