@@ -1,4 +1,5 @@
 // Commands that set how the rest of the command line runs, and help.
+#include <OpenImageIO/imagecache.h>
 #include <OpenImageIO/imageio.h>
 #include <OpenImageIO/sysutil.h>
 #include <algorithm>
@@ -20,6 +21,10 @@ void run_help(Session& session, const Call& call) {
     session.produced = true;
     if (!call.has_argument(0)) {
         session.out << help_text();
+        return;
+    }
+    if (is_registry_format(call.argument(0))) {
+        session.out << registry_text(call.argument(0));
         return;
     }
     std::string name = call.argument(0);
@@ -52,10 +57,23 @@ void run_memory(Session& session, const Call& call) {
                            "\": not a size; valid: bytes, or a whole number with K, M or G "
                            "(powers of 1024), above 0: 268435456, 256M, 1G");
     }
-    session.memory = *size;
+    session.memory = *size / uint64_t(session.parallel);
     int cores = static_cast<int>(OIIO::Sysutil::hardware_concurrency());
     OIIO::attribute("exr_threads", std::min(cores, threads_within_memory));
     give_memory_back();
+}
+
+void run_oiioattrib(Session&, const Call& call) {
+    const std::string &name = call.argument(0), &value = call.argument(1);
+    const std::string type = call.text("type").value_or("");
+    auto whole = parse_integer(value);
+    auto number = parse_number(value);
+    bool known = type == "string" || (type.empty() && !number) ? OIIO::attribute(name, value)
+                 : type == "float" || !whole ? OIIO::attribute(name, float(number.value_or(0)))
+                                             : OIIO::attribute(name, *whole);
+    if (!known) {
+        throw CommandError("unknown attribute \"" + name + "\" of OpenImageIO");
+    }
 }
 
 } // namespace
@@ -64,8 +82,20 @@ std::vector<Command> general_commands() {
     const auto row = [](Strings names, Strings args, std::string help, Run run) {
         return setting(Group::General, std::move(names), std::move(args), std::move(help), run);
     };
+    Command autocc =
+        row({"autocc"}, {}, "Convert colour by file names, to the linear space and back",
+            [](Session& session, const Call& call) {
+                session.autocc = true;
+                session.autocc_unpremult = call.flag("unpremult", false);
+            });
+    autocc.modifiers = {{"unpremult", "0|1", "divide by alpha for that"}};
+    Command oiioattrib =
+        row({"oiioattrib"}, {"NAME", "VALUE"}, "Set an attribute of OpenImageIO", run_oiioattrib);
+    oiioattrib.modifiers = {{"type", "TYPE", "its data type (as it looks)"}};
     return {
-        row({"help"}, {"[COMMAND]"}, "List all commands, or tell more about one", run_help),
+        row({"help"}, {"[COMMAND]"},
+            "List all commands, tell more about one, or all as man, bash, zsh (completion) or json",
+            run_help),
         row({"version"}, {}, "Print the version",
             [](Session& session, const Call&) {
                 session.produced = true;
@@ -93,6 +123,44 @@ std::vector<Command> general_commands() {
             "Peak memory of the comparisons that follow, 256M or 1G: larger images are read in "
             "bands (half of the computer's)",
             run_memory),
+        row({"no-error-exit"}, {}, "After an error go on with the next command",
+            [](Session& session, const Call&) { session.error_exit = false; }),
+        row({"debug"}, {}, "Say what is done",
+            [](Session& session, const Call&) { session.debug = session.verbose = true; }),
+        row({"runstats"}, {}, "Print the time and the memory that the command line took",
+            [](Session& session, const Call&) { session.runstats = true; }),
+        row({"u"}, {}, "Update: outputs that are newer than all inputs stay as they are",
+            [](Session& session, const Call&) { session.update = true; }),
+        row({"no-clobber"}, {}, "Outputs that exist stay as they are",
+            [](Session& session, const Call&) { session.no_clobber = true; }),
+        row({"no-autopremult"}, {}, "Do not multiply colour by an alpha that is not associated",
+            [](Session& session, const Call&) {
+                session.input.config.attribute("oiio:UnassociatedAlpha", 1);
+            }),
+        row({"autopremult"}, {}, "Multiply colour by an alpha that is not associated",
+            [](Session& session, const Call&) {
+                session.input.config.erase_attribute("oiio:UnassociatedAlpha");
+            }),
+        row({"autoorient"}, {}, "--reorient every image that is read",
+            [](Session& session, const Call&) { session.autoorient = true; }),
+        autocc,
+        row({"noautocc"}, {}, "No colour conversion by file names",
+            [](Session& session, const Call&) { session.autocc = false; }),
+        row({"native"}, {}, "Pixels keep the file's data type in memory",
+            [](Session& session, const Call&) { session.input.type = OIIO::TypeUnknown; }),
+        row({"cache"}, {"MB"}, "Size of OpenImageIO's image cache",
+            [](Session&, const Call& call) {
+                auto* cache = OIIO::ImageCache::create();
+                cache->attribute("max_memory_MB", float(call.integer_argument(0, {0, 1 << 30})));
+            }),
+        row({"autotile"}, {"SIZE"}, "Tiles of OpenImageIO's image cache (0: none)",
+            [](Session&, const Call& call) {
+                auto* cache = OIIO::ImageCache::create();
+                cache->attribute("autotile", call.integer_argument(0, {0, 1 << 16}));
+            }),
+        row({"metamerge"}, {}, "Results have the metadata of all images they are made of",
+            [](Session& session, const Call&) { session.metamerge = true; }),
+        oiioattrib,
         row({"warnings-exit"}, {}, "Exit with status 2 when there were warnings",
             [](Session& session, const Call&) { session.warnings_exit = true; }),
     };

@@ -10,13 +10,6 @@ namespace tonetool::chain {
 
 namespace {
 
-OIIO::ColorConfig& config_of(Session& session) {
-    if (!session.ocio) {
-        session.ocio = std::make_shared<OIIO::ColorConfig>(session.color_config);
-    }
-    return *session.ocio;
-}
-
 // "" and "current": what the image says it is in.
 std::string space_of(const Op& op, const std::string& name) {
     const bool current = name.empty() || name == "current";
@@ -27,7 +20,7 @@ std::string space_of(const Op& op, const std::string& name) {
 bool convert(Op& op, const std::string& from, const std::string& to) {
     bool done = IBA::colorconvert(op.dst, op.a(), space_of(op, from), space_of(op, to),
                                   op.flag("unpremult"), op.text("key"), op.text("value"),
-                                  &config_of(op.session));
+                                  &color_config(op.session));
     if (!done && !op.flag("strict", true)) {
         op.session.warning("colorconvert", op.dst.geterror());
         done = op.dst.copy(op.a());
@@ -38,11 +31,11 @@ bool convert(Op& op, const std::string& from, const std::string& to) {
 bool look(Op& op) {
     return IBA::ociolook(op.dst, op.a(), op.call.argument(0), space_of(op, op.text("from")),
                          space_of(op, op.text("to")), op.flag("unpremult"), op.flag("inverse"),
-                         op.text("key"), op.text("value"), &config_of(op.session));
+                         op.text("key"), op.text("value"), &color_config(op.session));
 }
 
 void check_view(Session& session, const std::string& display, const std::string& view) {
-    const OIIO::ColorConfig& config = config_of(session);
+    const OIIO::ColorConfig& config = color_config(session);
     if (!config.error() && config.getNumDisplays() > 0) {
         check_choice("display", display, config.getDisplayNames());
         check_choice("view", view, config.getViewNames(display));
@@ -61,7 +54,7 @@ bool display(Op& op) {
     }
     return IBA::ociodisplay(op.dst, op.a(), name, view, space_of(op, op.text("from")),
                             op.text("looks"), op.flag("unpremult"), op.text("key"),
-                            op.text("value"), &config_of(op.session));
+                            op.text("value"), &color_config(op.session));
 }
 
 bool matrix(Op& op) {
@@ -129,7 +122,7 @@ const std::vector<OpRow> rows = {
     {"ociofiletransform FILENAME", 1, "Apply the transform of a file (a LUT)",
      [](Op& op) {
          return IBA::ociofiletransform(op.dst, op.a(), op.call.argument(0), op.flag("unpremult"),
-                                       op.flag("inverse"), &config_of(op.session));
+                                       op.flag("inverse"), &color_config(op.session));
      },
      alpha + "inverse=0|1: undo the transform"},
     {"ccmatrix MATRIXVALS", 1, "Multiply the colour by a matrix of 9 or 16 numbers", matrix,

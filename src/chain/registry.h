@@ -83,9 +83,11 @@ std::string suggest_command(const std::string& name);
 
 // The families, one file each.
 std::vector<Command> general_commands();
+std::vector<Command> control_commands();
 std::vector<Command> io_commands();
 std::vector<Command> inspect_commands();
 std::vector<Command> compare_commands();
+std::vector<Command> diff_commands();
 std::vector<Command> color_commands();
 std::vector<Command> channel_commands();
 std::vector<Command> stack_commands();
