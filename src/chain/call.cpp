@@ -64,11 +64,13 @@ void check_choice(const std::string& what, const std::string& value, const Strin
     }
 }
 
-Call::Call(const Command& row, Token token, Strings arguments)
+Call::Call(const Command& row, Token token, Strings arguments, bool lenient)
     : m_row(&row),
       m_token(std::move(token)),
       m_arguments(std::move(arguments)) {
-    check_keys(row, m_token);
+    if (!lenient) {
+        check_keys(row, m_token);
+    }
 }
 
 int Call::pops() const {

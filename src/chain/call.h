@@ -22,10 +22,18 @@ struct Range {
 
 class Call {
 public:
-    /// Checks the keys of the modifiers against the row.
-    Call(const Command& row, Token token, Strings arguments);
+    /// Checks the keys of the modifiers against the row; if `lenient`, unknown ones are ignored.
+    Call(const Command& row, Token token, Strings arguments, bool lenient = false);
 
     const Command& row() const { return *m_row; }
+    /// As typed: "--resize:filter=box".
+    const std::string& text() const { return m_token.text; }
+    /// As typed, with the arguments: "--mulc", "2".
+    std::string quoted_words() const {
+        Strings words = m_arguments;
+        words.insert(words.begin(), m_token.text);
+        return '"' + join(words, "\", \"") + '"';
+    }
     const std::string& argument(size_t index) const { return m_arguments.at(index); }
     bool has_argument(size_t index) const { return index < m_arguments.size(); }
     int pops() const;

@@ -5,6 +5,7 @@
 
 #include "chain/call.h"
 #include "chain/error.h"
+#include "chain/session.h"
 
 namespace tonetool::chain {
 
@@ -22,31 +23,40 @@ struct Selection {
     }
 };
 
-int required_channel(const OIIO::ImageSpec& spec, const std::string& name) {
+int required_channel(const OIIO::ImageSpec& spec, const std::string& name, Session* session) {
     int index = channel_index(spec, name);
-    if (index < 0) {
+    if (index < 0 && session && session->compat) {
+        session->warning("--ch", "Unknown channel name \"" + name +
+                                     "\", filling with 0 (actual channels: \"" +
+                                     join(spec.channelnames, ",") + "\")");
+    } else if (index < 0) {
         throw CommandError("Unknown channel name \"" + name + "\" (actual channels: \"" +
                            join(spec.channelnames, ",") + "\")");
     }
     return index;
 }
 
-void add_plain(Selection& selection, const OIIO::ImageSpec& spec, const std::string& word) {
+void add_plain(Selection& selection, const OIIO::ImageSpec& spec, const std::string& word,
+               Session* session) {
+    const bool lenient = session && session->compat;
     int index = channel_index(spec, word);
     if (index < 0 && parse_integer(word)) {
-        index = checked_integer("channel index", word, {0.0, spec.nchannels - 1.0});
+        const int asked = *parse_integer(word);
+        index = lenient ? (asked < spec.nchannels ? asked : -1)
+                        : checked_integer("channel index", word, {0.0, spec.nchannels - 1.0});
+    } else if (index < 0 && !(lenient && word.empty())) {
+        index = required_channel(spec, word, session);
     }
-    index = index < 0 ? required_channel(spec, word) : index;
-    selection.add(index, 0, spec.channelnames[static_cast<size_t>(index)]);
+    selection.add(index, 0, "");
 }
 
 void add_assigned(Selection& selection, const OIIO::ImageSpec& spec, const std::string& name,
-                  const std::string& source) {
+                  const std::string& source, Session* session) {
     if (parse_number(source) && channel_index(spec, source) < 0) {
         double value = checked_number("channel value", source, {-3e38, 3e38});
         selection.add(-1, static_cast<float>(value), name);
     } else {
-        selection.add(required_channel(spec, source), 0, name);
+        selection.add(required_channel(spec, source, session), 0, name);
     }
 }
 
@@ -62,18 +72,17 @@ int channel_index(const OIIO::ImageSpec& spec, const std::string& name) {
     return index;
 }
 
-OIIO::ImageBuf select_channels(const OIIO::ImageBuf& pixels, const std::string& list) {
+OIIO::ImageBuf select_channels(const OIIO::ImageBuf& pixels, const std::string& list,
+                               Session* session) {
     const OIIO::ImageSpec& spec = pixels.spec();
     Selection selection;
-    for (const std::string& word : split(list, ',')) {
+    for (const std::string& part : split(list, ',')) {
+        const std::string word = OIIO::Strutil::strip(part);
         size_t equals = word.find('=');
-        if (word.empty()) {
-            throw CommandError("empty channel name in \"" + list + "\"");
-        }
         if (equals == std::string::npos) {
-            add_plain(selection, spec, word);
+            add_plain(selection, spec, word, session);
         } else {
-            add_assigned(selection, spec, word.substr(0, equals), word.substr(equals + 1));
+            add_assigned(selection, spec, word.substr(0, equals), word.substr(equals + 1), session);
         }
     }
     OIIO::ImageBuf chosen =

@@ -1,91 +1,174 @@
-// Commands that choose channels and subimages.
+// Commands that choose channels, subimages and MIP levels, and count pixels.
+#include <OpenImageIO/strutil.h>
 #include <algorithm>
 
-#include "chain/call.h"
 #include "chain/channels.h"
-#include "chain/error.h"
-#include "chain/first_part.h"
-#include "chain/session.h"
+#include "chain/ops.h"
 
 namespace tonetool::chain {
 
 namespace {
 
-void run_ch(Session& session, const Call& call) {
-    const Image& image = *call.images[0];
-    warn_of_other_parts(session, call, image);
-    session.push(Image::derived(image, select_channels(image.part().pixels(), call.argument(0))));
+bool ch(Op& op) {
+    op.dst = select_channels(op.a(), op.call.argument(0), &op.session);
+    return !op.dst.has_error();
 }
 
-void run_chnames(Session& session, const Call& call) {
-    const Image& image = *call.images[0];
-    warn_of_other_parts(session, call, image);
-    OIIO::ImageBuf renamed = image.part().pixels();
-    Strings& names = renamed.specmod().channelnames;
-    Strings wanted = split(call.argument(0), ',');
-    if (wanted.size() > names.size()) {
-        throw CommandError("\"" + call.argument(0) + "\" names " + std::to_string(wanted.size()) +
-                           " channels, the image has " + std::to_string(names.size()));
-    }
-    for (size_t c = 0; c < wanted.size(); ++c) {
-        names[c] = wanted[c].empty() ? names[c] : wanted[c];
-    }
-    Strings sorted = names;
-    std::sort(sorted.begin(), sorted.end());
-    auto twice = std::adjacent_find(sorted.begin(), sorted.end());
-    if (twice != sorted.end()) {
-        throw CommandError("two channels would be called \"" + *twice + "\"");
-    }
-    session.push(Image::derived(image, std::move(renamed)));
-}
-
-size_t subimage_index(const Image& image, const std::string& which) {
-    if (parse_integer(which)) {
-        int last = static_cast<int>(image.part_count()) - 1;
-        return static_cast<size_t>(checked_integer("subimage", which, {0.0, last + 0.0}));
-    }
+size_t subimage_index(const Session& session, const Image& image, const std::string& which) {
+    const size_t count = image.part_count();
     Strings names;
-    for (size_t i = 0; i < image.part_count(); ++i) {
+    for (size_t i = 0; i < count; ++i) {
         names.push_back(image.part(i).header().get_string_attribute("oiio:subimagename"));
         if (names.back() == which) {
             return i;
         }
     }
+    auto index = parse_integer(which);
+    if (index && *index >= 0 && size_t(*index) < count) {
+        return size_t(*index);
+    }
+    if (session.compat) {
+        throw CommandError("Invalid -subimage (" + which + "): " +
+                           (index ? image.name() + " has " + std::to_string(count) + " subimages"
+                                  : "named subimage not found"));
+    }
     throw CommandError("no subimage \"" + which + "\" in " + image.name() + " (valid: 0 to " +
-                       std::to_string(image.part_count() - 1) + ", " + join(names, ", ") + ")");
+                       std::to_string(count - 1) + ", " + join(names, ", ") + ")");
+}
+
+void push_parts(Session& session, const std::string& name, std::vector<PartPtr> parts) {
+    session.push(std::make_shared<Image>(name, std::move(parts)));
 }
 
 void run_subimage(Session& session, const Call& call) {
     const Image& image = *call.images[0];
-    size_t index = subimage_index(image, call.argument(0));
-    std::vector<PartPtr> parts{image.parts()[index]};
+    auto index = std::ptrdiff_t(subimage_index(session, image, call.argument(0)));
+    std::vector<PartPtr> parts = image.parts();
     if (call.flag("delete", false)) {
-        parts = image.parts();
-        parts.erase(parts.begin() + static_cast<std::ptrdiff_t>(index));
-        if (parts.empty()) {
-            throw CommandError("cannot delete the only subimage of " + image.name());
-        }
+        parts.erase(parts.begin() + index);
+    } else {
+        parts = {parts[size_t(index)]};
     }
-    session.push(std::make_shared<Image>(image.name(), std::move(parts)));
+    if (parts.empty()) {
+        throw CommandError("cannot delete the only subimage of " + image.name());
+    }
+    push_parts(session, image.name(), std::move(parts));
+}
+
+void run_sisplit(Session& session, const Call& call) {
+    for (const PartPtr& part : call.images[0]->parts()) {
+        push_parts(session, call.images[0]->name(), {part});
+    }
+}
+
+void push_appended(Session& session, const std::vector<ImagePtr>& images) {
+    std::vector<PartPtr> parts;
+    for (const ImagePtr& image : images) {
+        parts.insert(parts.end(), image->parts().begin(), image->parts().end());
+    }
+    push_parts(session, images.front()->name(), std::move(parts));
+}
+
+void push_level(Session& session, const Image& image, int level) {
+    std::vector<PartPtr> parts;
+    for (const PartPtr& part : image.parts()) {
+        const int levels = part->mip_levels();
+        if (levels > 1 && level >= levels) {
+            throw CommandError("Selecting MIP level " + std::to_string(level) + " of subimage " +
+                               std::to_string(parts.size()) + ", which has only " +
+                               std::to_string(levels) + " MIP levels");
+        }
+        parts.push_back(levels > 1 ? Part::of_level(part, level) : part);
+    }
+    push_parts(session, image.name(), std::move(parts));
+}
+
+// Prints lines about the values of the first subimage.
+template <class Lines>
+void run_count(Session& session, const Call& call, Lines lines) {
+    OIIO::ImageBuf none;
+    lines(Op{session, call, none, {&call.images[0]->part().pixels()}});
+    session.produced = true;
+    session.push(call.images[0]);
+}
+
+void print_count(Session& session, OIIO::imagesize_t count, const std::string& of) {
+    session.print(OIIO::Strutil::fmt::format("{:8}  {}", count, of));
+}
+
+void colorcount(const Op& op) {
+    const Strings colors = split(op.call.argument(0), ';');
+    Floats values;
+    for (const std::string& color : colors) {
+        const Floats one = op.per_channel("COLORLIST", color, 0);
+        values.insert(values.end(), one.begin(), one.end());
+    }
+    std::vector<OIIO::imagesize_t> counts(colors.size());
+    if (!IBA::color_count(op.a(), counts.data(), int(colors.size()), values,
+                          op.values("eps", 0.001F))) {
+        throw CommandError(op.a().geterror());
+    }
+    for (size_t i = 0; i < colors.size(); ++i) {
+        print_count(op.session, counts[i], colors[i]);
+    }
+}
+
+void rangecheck(const Op& op) {
+    OIIO::imagesize_t below = 0, above = 0, within = 0;
+    const std::string &low = op.call.argument(0), &high = op.call.argument(1);
+    if (!IBA::color_range_check(op.a(), &below, &above, &within, op.per_channel("MIN", low, 0),
+                                op.per_channel("MAX", high, 1))) {
+        throw CommandError(op.a().geterror());
+    }
+    print_count(op.session, below, "< " + low);
+    print_count(op.session, above, "> " + high);
+    print_count(op.session, within, "within range");
+}
+
+const std::vector<OpRow> rows = {
+    {"ch CHANLIST", 1, "Select or shuffle channels (\"R,G,B\", \"2,1,0\", \"R,G=0.5,B,A=1.0\")", ch,
+     "", Scope::Levels},
+    {"chappend", 2, "The channels of the last two images in one",
+     [](Op& op) { return IBA::channel_append(op.dst, op.a(), op.b()); }},
+};
+
+std::vector<Command> subimage_commands() {
+    auto row = [](const char* usage, int pops, int pushes, const char* help, Run run,
+                  const char* modifiers = "") {
+        return free_row(Group::Channels, usage, pops, pushes, help, std::move(run), modifiers);
+    };
+    return {
+        row("subimage INDEX", 1, 1, "Select one subimage by index or name", run_subimage,
+            "delete=0|1: keep all but this one"),
+        row("sisplit", 1, any_number, "An image of its own for each subimage", run_sisplit),
+        row("siappend", 2, 1, "The subimages of the last two images in one image",
+            [](Session& session, const Call& call) { push_appended(session, call.images); }),
+        row("siappendall", 0, any_number, "The subimages of all images of the stack in one image",
+            [](Session& session, const Call&) { push_appended(session, take_images(session, 0)); }),
+        row("selectmip MIPLEVEL", 1, 1, "Select one MIP level (0: the largest)",
+            [](Session& session, const Call& call) {
+                OIIO::ImageBuf none;
+                push_level(session, *call.images[0], Op{session, call, none, {}}.integer(0));
+            }),
+        row("unmip", 1, 1, "Keep only the largest MIP level",
+            [](Session& session, const Call& call) { push_level(session, *call.images[0], 0); }),
+    };
 }
 
 } // namespace
 
 std::vector<Command> channel_commands() {
-    return {
-        {{{"ch"}, {"CHANLIST"}, 1, 1, Group::Channels},
-         {},
-         "Select or shuffle channels (\"R,G,B\", \"2,1,0\", \"R,G=0.5,B,A=1.0\", \"Y=G\")",
-         run_ch},
-        {{{"chnames"}, {"NAMELIST"}, 1, 1, Group::Channels},
-         {},
-         "Rename the channels (an empty name stays as it is)",
-         run_chnames},
-        {{{"subimage"}, {"INDEX"}, 1, 1, Group::Channels},
-         {{"delete", "0|1", "keep all but this one"}},
-         "Select one subimage by index or name",
-         run_subimage},
-    };
+    std::vector<Command> all = op_rows(Group::Channels, rows);
+    append(all, subimage_commands());
+    all.push_back(free_row(
+        Group::Print, "colorcount COLORLIST", 1, 1,
+        "Count the pixels of each colour (COLOR;COLOR...)",
+        [](Session& session, const Call& call) { run_count(session, call, colorcount); },
+        "eps=VALUES: how near a value must be (0.001)"));
+    all.push_back(free_row(
+        Group::Print, "rangecheck MIN MAX", 1, 1, "Count the pixels outside a range of values",
+        [](Session& session, const Call& call) { run_count(session, call, rangecheck); }));
+    return all;
 }
 
 } // namespace tonetool::chain

@@ -1,32 +1,120 @@
-// Commands that print what images are.
+// Commands that print what images are, and other texts.
+#include <OpenImageIO/imageio.h>
+#include <OpenImageIO/strutil.h>
+#include <ostream>
+
 #include "chain/call.h"
-#include "chain/session.h"
+#include "chain/error.h"
+#include "chain/expression.h"
+#include "chain/inspect.h"
 
 namespace tonetool::chain {
 
 namespace {
 
 void run_info(Session& session, const Call& call) {
-    session.info = true;
-    session.info_verbose = session.info_verbose || call.flag("verbose", false);
+    session.list.info = true;
+    session.list.format = call.choice("format", {"text", "xml"}).value_or("");
+    session.list.verbose = session.list.verbose || call.flag("verbose", false);
 }
 
-void run_stats(Session& session, const Call&) {
-    session.stats = true;
+void run_dumpdata(Session& session, const Call& call) {
+    session.list.dump = call.text("C").value_or("");
+    session.list.dump_black = call.flag("empty", true);
+}
+
+void print_listing(Session& session, const Call& call, Listing what) {
+    what.named = false;
+    what.all_subimages = call.flag("allsubimages", session.all_subimages);
+    what.metamatch = session.list.metamatch;
+    what.no_metamatch = session.list.no_metamatch;
+    session.push(call.images[0]);
+    session.out << listing_text(*call.images[0], what);
+    session.produced = session.produced_by_name = true;
+}
+
+void run_printinfo(Session& session, const Call& call) {
+    Listing what;
+    what.verbose = call.flag("verbose", true);
+    what.format = call.choice("format", {"text", "xml"}).value_or("");
+    print_listing(session, call, what);
+}
+
+void run_printstats(Session& session, const Call& call) {
+    Listing what;
+    what.stats = true;
+    what.verbose = session.verbose;
+    OIIO::ROI& roi = what.roi;
+    if (auto text = call.text("roi"); text && !session.compat) {
+        if (std::sscanf(text->c_str(), "%dx%d%d%d", &roi.xend, &roi.yend, &roi.xbegin,
+                        &roi.ybegin) != 4) {
+            throw CommandError("roi \"" + *text + "\" is not WxH+X+Y");
+        }
+        roi = {roi.xbegin, roi.xbegin + roi.xend,
+               roi.ybegin, roi.ybegin + roi.yend,
+               0,          1,
+               0,          call.images[0]->part().header().nchannels};
+    }
+    print_listing(session, call, what);
+}
+
+void run_echo(Session& session, const Call& call) {
+    int lines = call.integer("newline", {0, 99}).value_or(1);
+    session.out << OIIO::Strutil::unescape_chars(call.argument(0))
+                << std::string(static_cast<size_t>(lines), '\n') << std::flush;
+    session.produced = session.produced_by_name = true;
+}
+
+void run_list_formats(Session& session, const Call&) {
+    session.print("All OIIO supported formats and their extensions:");
+    for (const std::string& entry :
+         OIIO::Strutil::splits(OIIO::get_string_attribute("extension_list"), ";")) {
+        const std::vector<std::string> words = OIIO::Strutil::splits(entry, ":");
+        session.print("    " + words[0] + " : " +
+                      OIIO::Strutil::join(OIIO::Strutil::splits(words.back(), ","), ", "));
+    }
+    session.produced = true;
 }
 
 } // namespace
 
 std::vector<Command> inspect_commands() {
+    const auto row = [](const char* name, Strings args, const char* help, Run run,
+                        std::vector<Modifier> modifiers = {}) {
+        return setting(Group::Print, {name}, std::move(args), help, run, std::move(modifiers));
+    };
+    const Modifier format{"format", "text|xml", "how it is printed (text)"};
+    const auto image_row = [&](const char* name, const char* help, Run run,
+                               std::vector<Modifier> modifiers) {
+        modifiers.push_back({"allsubimages", "0|1", "of all subimages and MIP levels (-a)"});
+        Command made = row(name, {}, help, run, std::move(modifiers));
+        made.pops = made.pushes = 1;
+        return made;
+    };
     return {
-        {{{"info"}, {}, 0, 0, Group::Print},
-         {{"verbose", "0|1", "with the metadata, as -v does"}},
-         "Print size, channels and format of every image read after it (-v: and its metadata)",
-         run_info},
-        {{{"stats"}, {}, 0, 0, Group::Print},
-         {},
-         "Print pixel statistics of every image read after it",
-         run_stats},
+        row("info", {}, "Print size, channels and format of every image read after it", run_info,
+            {{"verbose", "0|1", "with the metadata, as -v does"}, format}),
+        row("stats", {}, "Print pixel statistics of every image read after it",
+            [](Session& session, const Call&) { session.list.stats = true; }),
+        row("hash", {}, "Print the SHA-1 of the pixels of every image read after it",
+            [](Session& session, const Call&) { session.list.hash = true; }),
+        row("dumpdata", {}, "Print all pixel values of every image read after it", run_dumpdata,
+            {{"empty", "0|1", "also pixels that are all 0 (1)"},
+             {"C", "NAME", "as an array of C of that name"}}),
+        row("metamatch", {"REGEX"}, "Print only metadata whose names match",
+            [](Session& session, const Call& call) { session.list.metamatch = call.argument(0); }),
+        row("no-metamatch", {"REGEX"}, "Do not print metadata whose names match",
+            [](Session& session, const Call& call) {
+                session.list.no_metamatch = call.argument(0);
+            }),
+        row("echo", {"TEXT"}, "Print a text", run_echo,
+            {{"newline", "N", "line ends after it (1)"}}),
+        image_row("printinfo", "Print information about the current image", run_printinfo,
+                  {format, {"verbose", "0|1", "with the metadata (1)"}}),
+        image_row("printstats", "Print pixel statistics of the current image", run_printstats,
+                  {{"roi", "WxH+X+Y", "of that part of it"}}),
+        row("list-formats", {}, "List the image formats and their file name extensions",
+            run_list_formats),
     };
 }
 

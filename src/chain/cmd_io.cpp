@@ -1,21 +1,110 @@
 // Commands that read and write images.
 #include <OpenImageIO/filesystem.h>
+#include <OpenImageIO/imagebufalgo.h>
+#include <OpenImageIO/strutil.h>
 #include <algorithm>
 #include <cstdio>
+#include <sstream>
 
-#include "chain/channels.h"
 #include "chain/error.h"
-#include "chain/first_part.h"
 #include "chain/inspect.h"
 #include "chain/io.h"
+#include "chain/ops.h"
 #include "chain/output.h"
+#include "chain/runner.h"
 
 namespace tonetool::chain {
 
+namespace {
+
+// The format that outputs of computed images get: the widest of the first image's subimages.
+void note_first_format(Session& session, const Image& image) {
+    if (session.first_format) {
+        return;
+    }
+    session.first_format = image.part().format();
+    for (const PartPtr& part : image.parts()) {
+        OIIO::TypeDesc::BASETYPE widest =
+            OIIO::TypeDesc::basetype_merge(session.first_format->type, part->format()->type);
+        session.first_format->type = OIIO::TypeDesc(widest);
+        const OIIO::ImageSpec& spec = part->header();
+        for (int c = 0; c < spec.nchannels; ++c) {
+            session.first_types.emplace(spec.channel_name(c), spec.channelformat(c));
+        }
+    }
+    session.first_header = image.part().header();
+}
+
+// What --missingfile puts in the place of a file that is not there.
+ImagePtr substitute(Session& session, const std::string& filename) {
+    OIIO::ImageSpec spec =
+        session.first_header.value_or(OIIO::ImageSpec(1920, 1080, 4, OIIO::TypeFloat));
+    spec.set_format(OIIO::TypeFloat);
+    spec.extra_attribs.clear();
+    OIIO::ImageBuf pixels(spec);
+    const std::vector<float> black(size_t(spec.nchannels), 0.0f), white(black.size(), 1.0f);
+    session.missing_file == "black" ? OIIO::ImageBufAlgo::zero(pixels)
+                                    : OIIO::ImageBufAlgo::checker(pixels, 64, 64, 1, black, white);
+    return Image::created(filename, std::move(pixels));
+}
+
+ImagePtr open_or_substitute(Session& session, const std::string& filename) {
+    if (session.missing_file == "error" || OIIO::Filesystem::exists(filename)) {
+        return Image::open(filename, session.input);
+    }
+    const std::string missing = "File does not exist: \"" + filename + "\"";
+    if (session.compat) {
+        session.error("read", missing);
+    } else {
+        session.warning("read", missing + ", " + session.missing_file + " instead");
+    }
+    return substitute(session, filename);
+}
+
+std::string linear_space(Session& session) {
+    const char* name = color_config(session).getColorSpaceNameByRole("linear");
+    return name && *name ? name : "Linear";
+}
+
+void convert(Session& session, const std::string& from, const std::string& to, bool unpremult) {
+    if (!OIIO::Strutil::iequals(from, to)) {
+        run_command(session,
+                    unpremult ? "colorconvert:strict=0:unpremult=1" : "colorconvert:strict=0",
+                    {from, to});
+    }
+}
+
+// From the colour space that the file's name or its metadata tell to the linear one.
+void convert_input(Session& session, const std::string& filename, bool unpremult) {
+    std::string space = color_config(session).parseColorSpaceFromString(filename);
+    if (space.empty()) {
+        space = session.stack.back()->part().header().get_string_attribute("oiio:ColorSpace");
+    }
+    if (!space.empty()) {
+        convert(session, space, linear_space(session), unpremult);
+    }
+}
+
+} // namespace
+
 void push_file(Session& session, const std::string& filename) {
-    ImagePtr image = Image::open(filename);
+    ImagePtr image = open_or_substitute(session, filename);
+    bool real = image->part().from_file();
+    if (real) {
+        note_first_format(session, *image);
+        session.newest_input =
+            std::max(session.newest_input, OIIO::Filesystem::last_write_time(filename));
+    }
     session.push(image);
-    inspect_if_asked(session, *image);
+    if (real) {
+        inspect_if_asked(session, *image);
+    }
+    if (session.autoorient) {
+        run_command(session, "reorient", {});
+    }
+    if (session.autocc) {
+        convert_input(session, filename, session.autocc_unpremult);
+    }
 }
 
 void push_file_or_label(Session& session, const std::string& word) {
@@ -40,33 +129,45 @@ namespace {
 
 // Settings of one -i, put back when it is done.
 struct InfoForOne {
-    InfoForOne(Session& the_session, int level)
-        : session(the_session),
-          info(session.info),
-          verbose(session.info_verbose) {
-        session.info = session.info || level > 0;
-        session.info_verbose = session.info_verbose || level > 1;
+    InfoForOne(Session& the_session, int level) : session(the_session), before(session.list) {
+        session.list.info = session.list.info || level > 0;
+        session.list.verbose = session.list.verbose || level > 1;
     }
-    ~InfoForOne() {
-        session.info = info;
-        session.info_verbose = verbose;
-    }
+    ~InfoForOne() { session.list = before; }
     Session& session;
-    bool info, verbose;
+    Listing before;
 };
 
 void run_input(Session& session, const Call& call) {
     int level = call.integer("info", {0, 2}).value_or(0);
+    const ReadOptions usual = session.input;
+    const bool autocc = session.autocc, unpremult = session.autocc_unpremult;
+    if (auto type = call.text("type")) {
+        session.input.type = parse_data_type("data format", *type).type;
+    }
+    session.autocc = call.flag("autocc", autocc);
+    session.autocc_unpremult = call.flag("unpremult", unpremult);
     {
         InfoForOne settings(session, level);
+        session.list.format = call.text("infoformat").value_or(session.list.format);
         push_file(session, call.argument(0));
     }
-    if (auto list = call.text("ch")) {
-        ImagePtr whole = session.stack.back();
-        warn_of_other_parts(session, call, *whole);
-        session.stack.back() =
-            Image::derived(*whole, select_channels(whole->part().pixels(), *list));
+    session.input = usual;
+    session.autocc = autocc;
+    session.autocc_unpremult = unpremult;
+    if (call.flag("now", false)) {
+        session.stack.back()->part().pixels();
     }
+    if (auto list = call.text("ch")) {
+        run_command(session, "ch", {*list});
+    }
+}
+
+void set_tile(OutputSettings& settings, const std::string& text) {
+    const Strings words = split(text, 'x');
+    settings.tile_width = checked_integer("tile", words.front(), {0, 1 << 16});
+    settings.tile_height = checked_integer("tile", words.back(), {0, 1 << 16});
+    settings.scanline = false;
 }
 
 OutputSettings settings_of(const Session& session, const Call& call) {
@@ -75,10 +176,25 @@ OutputSettings settings_of(const Session& session, const Call& call) {
         settings.type = parse_data_type("data format", *name);
         settings.type_of_channel.clear();
     }
+    if (auto bits = call.integer("bits", {1, 32})) {
+        settings.type = settings.type.value_or(NamedType{OIIO::TypeUInt16, 0});
+        settings.type->bits = *bits;
+    }
     if (auto compression = call.text("compression")) {
         check_compression(*compression);
         settings.compression = *compression;
     }
+    if (auto tile = call.text("tile")) {
+        set_tile(settings, *tile);
+    }
+    settings.scanline = call.flag("scanline", settings.scanline);
+    settings.dither = call.flag("dither", settings.dither);
+    settings.autocrop = call.flag("autocrop", settings.autocrop);
+    settings.autotrim = call.flag("autotrim", settings.autotrim);
+    settings.format_name = call.text("fileformatname").value_or("");
+    settings.planarconfig = call.flag("separate", false) ? "separate"
+                            : call.flag("contig", false) ? "contig"
+                                                         : settings.planarconfig;
     return settings;
 }
 
@@ -102,25 +218,122 @@ std::string numbered_name(const std::string& pattern, int number) {
     return pattern.substr(0, percent) + digits + pattern.substr(end + 1);
 }
 
-void write_one(Session& session, const Call& call, const Image& image,
+// The colour space that the file's name tells; else sRGB for 8 bits and the linear one for more.
+void convert_output(Session& session, const Call& call, const std::string& filename,
+                    const OutputSettings& settings) {
+    const std::string linear = linear_space(session);
+    const Part& part = session.stack.back()->part();
+    std::string space = color_config(session).parseColorSpaceFromString(filename);
+    if (space.empty()) {
+        OIIO::TypeDesc type = settings.type ? settings.type->type : part.header().format;
+        const std::string extension = OIIO::Strutil::lower(OIIO::Filesystem::extension(filename));
+        bool bytes = type == OIIO::TypeUInt8 || extension == ".jpg" || extension == ".gif" ||
+                     extension == ".webp";
+        space = bytes ? "sRGB" : linear;
+    }
+    convert(session, part.header().get_string_attribute("oiio:ColorSpace", linear), space,
+            call.flag("unpremult", false));
+}
+
+bool keeps_old(Session& session, const std::string& filename) {
+    if (session.no_clobber && OIIO::Filesystem::exists(filename)) {
+        session.warning(session.compat ? "-o" : "-o",
+                        filename + " already exists, not overwriting.");
+        return true;
+    }
+    return session.update && OIIO::Filesystem::exists(filename) &&
+           OIIO::Filesystem::last_write_time(filename) > session.newest_input;
+}
+
+void write_one(Session& session, const Call& call, const ImagePtr& image,
                const std::string& filename) {
+    if (keeps_old(session, filename)) {
+        return;
+    }
     if (session.verbose) {
         session.print("Writing " + filename);
     }
-    write_output(session, call.row().label(), image, filename, settings_of(session, call));
+    session.produced = true;
+    if (session.dry_run) {
+        return;
+    }
+    const OutputSettings settings = settings_of(session, call);
+    session.push(image);
+    if (call.flag("autocc", session.autocc)) {
+        convert_output(session, call, filename, settings);
+    }
+    if (settings.autotrim) {
+        run_command(session, "trim", {});
+    }
+    write_output(session, call.row().label(), *session.stack.back(), filename, settings);
+    session.stack.pop_back();
 }
 
 void run_output(Session& session, const Call& call) {
-    session.push(call.images.front());
-    if (auto first = call.integer("all", {0, 1e9})) {
-        std::vector<ImagePtr> all = session.stack;
-        for (const ImagePtr& image : all) {
-            int index = static_cast<int>(&image - all.data());
-            write_one(session, call, *image, numbered_name(call.argument(0), *first + index));
+    if (session.stack.empty()) {
+        if (!session.compat) {
+            throw CommandError("needs 1 image(s), the stack has 0");
         }
+        session.warning(call.text(),
+                        call.argument(0) + " did not have any current image to output.");
         return;
     }
-    write_one(session, call, *call.images.front(), call.argument(0));
+    session.stack.back()->used = true;
+    auto first = call.integer("all", {0, 1e9});
+    const std::vector<ImagePtr> all =
+        first ? session.stack : std::vector<ImagePtr>{session.stack.back()};
+    for (size_t i = 0; i < all.size(); ++i) {
+        write_one(session, call, all[i],
+                  first ? numbered_name(call.argument(0), *first + int(i)) : call.argument(0));
+    }
+}
+
+// -otex and its like: every modifier but these is an option of OpenImageIO's make_texture.
+void run_texture(Session& session, const Call& call) {
+    using OIIO::ImageBufAlgo::MakeTextureMode;
+    const Image& image = *call.images[0];
+    const std::string label = call.row().label();
+    OIIO::ImageSpec config;
+    for (const Modifier& modifier : call.row().modifiers) {
+        if (auto value = call.text(modifier.key)) {
+            auto number = parse_integer(*value);
+            number ? config.attribute("maketx:" + modifier.key, *number)
+                   : config.attribute("maketx:" + modifier.key, *value);
+        }
+    }
+    if (session.output.type) {
+        config.set_format(session.output.type->type);
+    }
+    if (!session.output.compression.empty()) {
+        config.attribute("compression", session.output.compression);
+    }
+    config.tile_width = session.output.tile_width;
+    config.tile_height = session.output.tile_height;
+    if (session.output.history) {
+        config.attribute("maketx:full_command_line", session.command_line);
+    }
+    MakeTextureMode mode = label == "oenv"    ? OIIO::ImageBufAlgo::MakeTxEnvLatl
+                           : label == "obump" ? OIIO::ImageBufAlgo::MakeTxBumpWithSlopes
+                                              : OIIO::ImageBufAlgo::MakeTxTexture;
+    std::ostringstream told;
+    if (!OIIO::ImageBufAlgo::make_texture(mode, image.part().pixels(), call.argument(0), config,
+                                          &told)) {
+        throw CommandError(std::string(OIIO::Strutil::strip(told.str())) + OIIO::geterror());
+    }
+    session.produced = true;
+    session.push(call.images[0]);
+}
+
+void run_iconfig(Session& session, const Call& call) {
+    const std::string type = call.text("type").value_or("");
+    const std::string& value = call.argument(1);
+    if (!type.empty()) {
+        session.input.config.attribute(call.argument(0), OIIO::TypeDesc(type), value);
+    } else if (auto number = parse_integer(value)) {
+        session.input.config.attribute(call.argument(0), *number);
+    } else {
+        session.input.config.attribute(call.argument(0), value);
+    }
 }
 
 void run_data_type(Session& session, const Call& call) {
@@ -151,28 +364,97 @@ void run_compression(Session& session, const Call& call) {
 
 std::vector<Command> io_commands() {
     const std::string types = join(data_type_names(), "|");
-    return {
-        {{{"i"}, {"FILENAME"}, 0, 1, Group::Read},
-         {{"ch", "CHANLIST", "keep these channels only, as --ch"},
-          {"info", "0|1|2", "print information about the file; 2: with its metadata"}},
-         "Read an image (as a bare file name does)",
-         run_input},
-        {{{"o"}, {"FILENAME"}, 1, 1, Group::Write},
-         {{"datatype", types, "data type of this file"},
-          {"compression", "NAME", "compression of this file, name or name:quality"},
-          {"all", "N", "write all images of the stack; the file name has a %d, from N on"}},
-         "Write the current image",
-         run_output,
-         false},
-        {{{"d"}, {"TYPE"}, 0, 0, Group::Write},
-         {},
-         "Data type of the outputs that follow, or CHAN=TYPE of one channel (" + types + ")",
-         run_data_type},
-        {{{"compression"}, {"NAME"}, 0, 0, Group::Write},
-         {},
-         "Compression of the outputs that follow, name or name:quality",
-         run_compression},
+    const auto set = [](const char* usage, const std::string& help, Run run,
+                        const std::string& modifiers = "") {
+        return free_row(Group::Write, usage, 0, 0, help, std::move(run), modifiers);
     };
+    std::vector<Command> rows = {
+        free_row(Group::Read, "i FILENAME", 0, any_number,
+                 "Read an image (as a bare file name does)", run_input,
+                 "ch=CHANLIST: keep these channels only, as --ch\n"
+                 "info=0|1|2: print information about the file; 2: with its metadata\n"
+                 "infoformat=text|xml: how that is printed\n"
+                 "autocc=0|1: convert to the linear space from the one that the name tells\n"
+                 "unpremult=0|1: divide by alpha for that\n"
+                 "now=0|1: read the pixels at once\n"
+                 "type=TYPE: data type of the pixels in memory"),
+        free_row(Group::Read, "iconfig NAME VALUE", 0, 0, "Set an option of the file reader",
+                 run_iconfig, "type=TYPE: its data type"),
+        free_row(Group::Read, "missingfile POLICY", 0, 0,
+                 "What a file that is not there becomes: error, black or checker",
+                 [](Session& session, const Call& call) {
+                     check_choice("POLICY", call.argument(0), {"error", "black", "checker"});
+                     session.missing_file = call.argument(0);
+                 }),
+        free_row(Group::Write, "o FILENAME", 0, any_number, "Write the current image", run_output,
+                 "datatype=TYPE: data type of this file (" + types + ")\n" +
+                     "bits=N: of each channel\n"
+                     "compression=NAME: compression of this file, name or name:quality\n"
+                     "all=N: write all images of the stack; the file name has a %d, from N on\n"
+                     "autocc=0|1: convert to the colour space that the name tells\n"
+                     "unpremult=0|1: divide by alpha for that\n"
+                     "autocrop=0|1: to the display window where the format has no other\n"
+                     "autotrim=0|1: cut off a black border\n"
+                     "contig=0|1: channels interleaved\n"
+                     "separate=0|1: each channel by itself\n"
+                     "dither=0|1: add dither to 8 bits\n"
+                     "fileformatname=NAME: instead of the one that the extension tells\n"
+                     "scanline=0|1: not in tiles\n"
+                     "tile=WxH: in tiles of this size"),
+        set("d TYPE",
+            "Data type of the outputs that follow, or CHAN=TYPE of one channel (" + types + ")",
+            run_data_type),
+        set("compression NAME", "Compression of the outputs that follow, name or name:quality",
+            run_compression),
+        set("quality N", "Quality of JPEG and the like, 1 to 100",
+            [](Session& session, const Call& call) {
+                session.output.quality = call.integer_argument(0, {1, 100});
+            }),
+        set("scanline", "Outputs are not in tiles",
+            [](Session& session, const Call&) { session.output.scanline = true; }),
+        set("tile WIDTH HEIGHT", "Outputs are in tiles of this size",
+            [](Session& session, const Call& call) {
+                set_tile(session.output, call.argument(0) + "x" + call.argument(1));
+            }),
+        set("planarconfig CONFIG", "How channels are stored: contig, separate, default",
+            [](Session& session, const Call& call) {
+                check_choice("CONFIG", call.argument(0), {"contig", "separate", "default"});
+                session.output.planarconfig = call.argument(0);
+            }),
+        set("dither", "Add dither where 8 bits are made of more",
+            [](Session& session, const Call&) { session.output.dither = true; }),
+        set("adjust-time", "Files get the time of their DateTime",
+            [](Session& session, const Call&) { session.output.adjust_time = true; }),
+        set("noautocrop", "Do not crop to the display window",
+            [](Session& session, const Call&) { session.output.autocrop = false; }),
+        set("autotrim", "Cut off a black border where the format can say so",
+            [](Session& session, const Call&) { session.output.autotrim = true; }),
+        set("nosoftwareattrib", "Do not write the command line into the metadata",
+            [](Session& session, const Call&) { session.output.history = false; }),
+        set("sansattrib", "Leave --attrib and --sattrib out of the command line that is written",
+            [](Session& session, const Call&) { session.output.arguments_in_history = false; }),
+    };
+    const std::string options =
+        "wrap=MODE: black, clamp, periodic, mirror\nswrap=MODE: in x\ntwrap=MODE: in y\n"
+        "resize=0|1: to a power of 2\nnomipmap=0|1: the top level only\n"
+        "updatemode=0|1: only if the texture would change\n"
+        "monochrome_detect=0|1: one channel where all are the same\n"
+        "opaque_detect=0|1: without an alpha that is 1 everywhere\n"
+        "unpremult=0|1: divide by alpha for the colour conversion\n"
+        "incolorspace=NAME: colour space of the image\noutcolorspace=NAME: of the texture\n"
+        "highlightcomp=0|1: soften highlights before filtering\n"
+        "sharpen=X: each level\nfilter=NAME: of the levels\n"
+        "prman=0|1: settings of RenderMan\noiio=0|1: settings of OpenImageIO\n"
+        "fovcot=X: field of view\nfileformatname=NAME: of the texture\n"
+        "bumpformat=height|normal|auto: of a bump map\nuvslopes_scale=X: of its slopes";
+    for (const char* usage : {"otex FILENAME", "oenv FILENAME", "obump FILENAME"}) {
+        rows.push_back(free_row(Group::Write, usage, 1, 1,
+                                usage[1] == 't'   ? "Write the current image as a texture"
+                                : usage[1] == 'e' ? "Write it as an environment map"
+                                                  : "Write a bump map with its slopes",
+                                run_texture, options));
+    }
+    return rows;
 }
 
 } // namespace tonetool::chain

@@ -1,25 +1,11 @@
 // Commands that rearrange the image stack.
-#include "chain/call.h"
-#include "chain/error.h"
-#include "chain/session.h"
+#include "chain/ops.h"
 
 namespace tonetool::chain {
 
 namespace {
 
-void run_dup(Session& session, const Call& call) {
-    session.push(call.images[0]);
-    session.push(call.images[0]);
-}
-
-void run_swap(Session& session, const Call& call) {
-    session.push(call.images[1]);
-    session.push(call.images[0]);
-}
-
-void run_pop(Session&, const Call&) {}
-
-void run_label(Session& session, const Call& call) {
+void label(Session& session, const Call& call) {
     if (call.argument(0).empty()) {
         throw CommandError("empty label");
     }
@@ -27,19 +13,31 @@ void run_label(Session& session, const Call& call) {
     session.push(call.images[0]);
 }
 
+void dup(Session& session, const Call& call) {
+    session.push(call.images[0]);
+    session.push(call.images[0]);
+}
+
+void swap(Session& session, const Call& call) {
+    session.push(call.images[1]);
+    session.push(call.images[0]);
+}
+
 } // namespace
 
 std::vector<Command> stack_commands() {
-    return {
-        {{{"dup"}, {}, 1, 2, Group::Stack}, {}, "Push a copy of the current image", run_dup, false},
-        {{{"swap"}, {}, 2, 2, Group::Stack}, {}, "Swap the two images on top", run_swap, false},
-        {{{"pop"}, {}, 1, 0, Group::Stack}, {}, "Throw away the current image", run_pop, false},
-        {{{"label"}, {"NAME"}, 1, 1, Group::Stack},
-         {},
-         "Label the current image: the bare word NAME pushes it again",
-         run_label,
-         false},
+    std::vector<Command> all = {
+        free_row(Group::Stack, "dup", 1, 2, "Push a copy of the current image", dup),
+        free_row(Group::Stack, "swap", 2, 2, "Swap the two images on top", swap),
+        free_row(Group::Stack, "pop", 1, 0, "Throw away the current image",
+                 [](Session&, const Call&) {}),
+        free_row(Group::Stack, "label NAME", 1, 1,
+                 "Label the current image: the bare word NAME pushes it again", label),
     };
+    for (Command& row : all) {
+        row.postponable = false;
+    }
+    return all;
 }
 
 } // namespace tonetool::chain

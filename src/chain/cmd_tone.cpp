@@ -13,6 +13,7 @@ namespace {
 
 void run_colorconfig(Session& session, const Call& call) {
     session.color_config = call.argument(0);
+    session.ocio.reset();
 }
 
 void add_calibration(Lines& lines, const CalibrationSummary& found) {

@@ -28,7 +28,7 @@ void check_color(Session& session, const Call& call, const Image& image,
     Part& part = image.part();
     OIIO::ImageSpec header = part.header();
     if (part.integer_encoded()) {
-        header.format = part.format().type;
+        header.format = part.format().value_or(DataFormat{OIIO::TypeUInt8, {}, 0}).type;
     }
     check_header(image, header, options);
 }

@@ -30,7 +30,7 @@ std::string images_text(const Command& row) {
         return varies ? std::string("as many as asked for") : std::to_string(images);
     };
     return "    images popped: " + count(row.pops_of != nullptr, row.pops) +
-           ", pushed: " + count(row.pushes_of != nullptr, row.pushes) + "\n";
+           ", pushed: " + count(row.pushes_of != nullptr || row.pushes < 0, row.pushes) + "\n";
 }
 
 } // namespace

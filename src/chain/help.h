@@ -13,5 +13,9 @@ std::string usage_text();
 std::string help_text();
 /// One command with its modifiers.
 std::string help_text(const Command& row);
+/// The whole registry as "man" (troff), "bash" or "zsh" (completion), "json"; a CommandError for
+/// any other format.
+std::string registry_text(const std::string& format);
+bool is_registry_format(const std::string& format);
 
 } // namespace tonetool::chain

@@ -2,6 +2,7 @@
 
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
+#include <algorithm>
 
 #include "chain/error.h"
 #include "chain/oiio_compat.h"
@@ -20,7 +21,7 @@ FileState state_of(const std::string& filename) {
             std::filesystem::file_size(filename, ignored)};
 }
 
-std::unique_ptr<OIIO::ImageInput> open_input(const std::string& filename) {
+std::unique_ptr<OIIO::ImageInput> open_input(const std::string& filename, const ReadOptions& how) {
     if (!OIIO::Filesystem::exists(filename)) {
         throw CommandError("File does not exist: \"" + filename + "\"");
     }
@@ -28,7 +29,7 @@ std::unique_ptr<OIIO::ImageInput> open_input(const std::string& filename) {
     if (std::filesystem::is_fifo(filename, ignored)) {
         throw CommandError("\"" + filename + "\" is a pipe, which images cannot be read from");
     }
-    auto input = OIIO::ImageInput::open(filename);
+    auto input = OIIO::ImageInput::open(filename, &how.config);
     if (!input) {
         std::string why = OIIO::geterror();
         throw CommandError(why.empty() ? "cannot read \"" + filename + "\"" : why);
@@ -36,45 +37,82 @@ std::unique_ptr<OIIO::ImageInput> open_input(const std::string& filename) {
     return input;
 }
 
-int count_mip_levels(OIIO::ImageInput& input, int subimage) {
-    int level = 1;
-    while (input.seek_subimage(subimage, level)) {
-        ++level;
+std::vector<OIIO::ImageSpec> level_headers(OIIO::ImageInput& input, int subimage) {
+    std::vector<OIIO::ImageSpec> levels;
+    while (input.seek_subimage(subimage, int(levels.size()))) {
+        levels.push_back(input.spec());
     }
     (void)input.geterror();
-    return level;
+    return levels;
 }
 
 } // namespace
 
-Part::Part(std::string file, int subimage, int mip_levels, const OIIO::ImageSpec& header)
-    : m_header(header),
-      m_format(format_of(header)),
+Part::Part(std::string file, int subimage, std::vector<OIIO::ImageSpec> levels, ReadOptions how)
+    : m_headers(std::move(levels)),
+      m_format(format_of(m_headers.front())),
       m_file(std::move(file)),
       m_state(state_of(m_file)),
+      m_how(std::move(how)),
       m_subimage(subimage),
-      m_mip_levels(mip_levels),
-      m_integer_encoded(!header.format.is_floating_point()) {}
+      m_integer_encoded(!m_headers.front().format.is_floating_point()),
+      m_pixels(m_headers.size()) {}
 
-Part::Part(OIIO::ImageBuf pixels, DataFormat format, bool integer_encoded)
-    : m_header(pixels.spec()),
-      m_format(std::move(format)),
+Part::Part(std::vector<OIIO::ImageBuf> levels, std::optional<DataFormat> format,
+           bool integer_encoded)
+    : m_format(std::move(format)),
       m_integer_encoded(integer_encoded),
-      m_read(true),
-      m_pixels(std::move(pixels)) {}
-
-const OIIO::ImageBuf& Part::pixels() {
-    if (!m_read) {
-        read();
-        m_read = true;
+      m_pixels(std::move(levels)) {
+    for (const OIIO::ImageBuf& level : m_pixels) {
+        m_headers.push_back(level.spec());
     }
-    return m_pixels;
+}
+
+PartPtr Part::with_headers(PartPtr source, const std::function<void(OIIO::ImageSpec&)>& edit) {
+    auto part = std::make_shared<Part>(std::vector<OIIO::ImageBuf>(), source->m_format,
+                                       source->m_integer_encoded);
+    part->m_headers = source->m_headers;
+    part->m_pixels.resize(source->m_pixels.size());
+    std::for_each(part->m_headers.begin(), part->m_headers.end(), edit);
+    part->m_source = std::move(source);
+    return part;
+}
+
+PartPtr Part::of_level(PartPtr source, int level) {
+    PartPtr part = with_headers(std::move(source), [](OIIO::ImageSpec&) {});
+    part->m_headers = {part->header(level)};
+    part->m_pixels.resize(1);
+    part->m_first_level = level;
+    return part;
+}
+
+void Part::share(int level) {
+    const OIIO::ImageBuf& pixels = m_source->pixels(m_first_level + level);
+    OIIO::ImageSpec spec = header(level);
+    if (pixels.deep()) {
+        m_pixels[size_t(level)].copy(pixels);
+        m_pixels[size_t(level)].specmod() = spec;
+        return;
+    }
+    spec.set_format(pixels.spec().format);
+    m_pixels[size_t(level)] = view_with_spec(pixels, spec);
+}
+
+const OIIO::ImageBuf& Part::pixels(int level) {
+    if (!m_pixels.at(size_t(level)).initialized()) {
+        m_source ? share(level) : read(level);
+    }
+    return m_pixels[size_t(level)];
 }
 
 void Part::read_before_replacing(const std::string& filename) {
     std::error_code ignored;
-    if (!m_read && std::filesystem::equivalent(m_file, filename, ignored)) {
-        pixels();
+    if (m_source) {
+        m_source->read_before_replacing(filename);
+    } else if (from_file() && std::filesystem::equivalent(m_file, filename, ignored)) {
+        for (int level = 0; level < mip_levels(); ++level) {
+            pixels(level);
+        }
     }
 }
 
@@ -84,31 +122,29 @@ void Part::check_unchanged() const {
     }
 }
 
-void Part::read() {
+void Part::read(int level) {
     check_unchanged();
-    auto input = open_input(m_file);
-    const OIIO::ImageSpec now = input->spec(m_subimage, 0);
-    if (now.roi() != m_header.roi() || now.deep != m_header.deep) {
+    auto input = open_input(m_file, m_how);
+    OIIO::ImageSpec spec = header(level);
+    const OIIO::ImageSpec now = input->spec(m_subimage, level);
+    if (now.roi() != spec.roi() || now.deep != spec.deep) {
         throw CommandError("\"" + m_file + "\" has changed since it was opened");
     }
-    OIIO::ImageSpec spec = m_header;
-    bool done = false;
-    if (spec.deep) {
-        m_pixels.reset(spec);
-        done = read_deep_pixels(*input, m_subimage, *m_pixels.deepdata());
-    } else {
-        spec.set_format(OIIO::TypeFloat);
-        m_pixels.reset(spec);
-        if (!m_pixels.localpixels()) {
-            throw CommandError("not enough memory for \"" + m_file + "\"");
-        }
-        done = read_float_pixels(*input, m_subimage, spec.nchannels, m_pixels.localpixels());
+    if (!spec.deep) {
+        spec.set_format(m_how.type == OIIO::TypeUnknown ? spec.format : m_how.type);
     }
+    OIIO::ImageBuf buffer(spec);
+    if (!spec.deep && !buffer.localpixels()) {
+        throw CommandError("not enough memory for \"" + m_file + "\"");
+    }
+    bool done = spec.deep ? read_deep_pixels(*input, m_subimage, level, *buffer.deepdata())
+                          : read_flat_pixels(*input, m_subimage, level, spec, buffer.localpixels());
     if (!done || input->has_error()) {
         std::string why = input->geterror();
         throw CommandError("cannot read the pixels of \"" + m_file + "\"" +
                            (why.empty() ? "" : ": " + why));
     }
+    m_pixels[size_t(level)] = std::move(buffer);
 }
 
 OIIO::ImageBuf Part::color_view() {
@@ -125,23 +161,22 @@ OIIO::ImageBuf Part::color_view() {
 }
 
 OIIO::ImageBuf Part::color_source() {
-    if (m_read || m_header.deep) {
+    if (m_source || m_pixels.front().initialized() || header().deep) {
         return color_view();
     }
     check_unchanged();
     m_cache = make_header_cache();
     OIIO::ImageBuf buffer = unread_file(m_file, m_subimage, m_cache);
-    return buffer.has_error() || buffer.spec().roi() != m_header.roi() ? color_view()
+    return buffer.has_error() || buffer.spec().roi() != header().roi() ? color_view()
                                                                        : std::move(buffer);
 }
 
-ImagePtr Image::open(const std::string& filename) {
-    auto input = open_input(filename);
+ImagePtr Image::open(const std::string& filename, const ReadOptions& how) {
+    auto input = open_input(filename, how);
     std::vector<PartPtr> parts;
     for (int subimage = 0; input->seek_subimage(subimage, 0); ++subimage) {
-        OIIO::ImageSpec header = input->spec();
-        int levels = count_mip_levels(*input, subimage);
-        parts.push_back(std::make_shared<Part>(filename, subimage, levels, header));
+        parts.push_back(
+            std::make_shared<Part>(filename, subimage, level_headers(*input, subimage), how));
     }
     (void)input->geterror();
     if (parts.empty()) {
@@ -152,18 +187,31 @@ ImagePtr Image::open(const std::string& filename) {
     return image;
 }
 
+ImagePtr Image::derived(const Image& from, std::vector<std::vector<OIIO::ImageBuf>> subimages) {
+    std::vector<PartPtr> parts;
+    for (std::vector<OIIO::ImageBuf>& levels : subimages) {
+        const Part& source = from.part(std::min(parts.size(), from.part_count() - 1));
+        std::optional<DataFormat> own = source.from_file() ? std::nullopt : source.format();
+        parts.push_back(std::make_shared<Part>(std::move(levels), own, source.integer_encoded()));
+    }
+    return std::make_shared<Image>(from.name(), std::move(parts));
+}
+
 ImagePtr Image::derived(const Image& from, OIIO::ImageBuf pixels) {
-    const Part& first = from.part();
-    DataFormat format = first.format();
-    format.of_channel.clear();
-    auto part = std::make_shared<Part>(std::move(pixels), format, first.integer_encoded());
-    return std::make_shared<Image>(from.name(), std::vector<PartPtr>{part});
+    std::vector<std::vector<OIIO::ImageBuf>> subimages(1);
+    subimages.front().push_back(std::move(pixels));
+    return derived(from, std::move(subimages));
+}
+
+ImagePtr Image::created(std::string name, OIIO::ImageBuf pixels, std::optional<DataFormat> format) {
+    std::vector<OIIO::ImageBuf> levels;
+    levels.push_back(std::move(pixels));
+    auto part = std::make_shared<Part>(std::move(levels), std::move(format), false);
+    return std::make_shared<Image>(std::move(name), std::vector<PartPtr>{part});
 }
 
 ImagePtr Image::computed(std::string name, OIIO::ImageBuf pixels) {
-    DataFormat format{OIIO::TypeFloat, {}, 0};
-    auto part = std::make_shared<Part>(std::move(pixels), format, false);
-    return std::make_shared<Image>(std::move(name), std::vector<PartPtr>{part});
+    return created(std::move(name), std::move(pixels), DataFormat{});
 }
 
 } // namespace tonetool::chain

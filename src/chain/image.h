@@ -5,7 +5,9 @@
 #include <OpenImageIO/imagecache.h>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,9 +15,15 @@ namespace tonetool::chain {
 
 /// The data types that an image would be written with.
 struct DataFormat {
-    OIIO::TypeDesc type;                    ///< the widest
+    OIIO::TypeDesc type = OIIO::TypeFloat;  ///< the widest
     std::vector<OIIO::TypeDesc> of_channel; ///< empty where all are the same
     int bits = 0;                           ///< 10 or 12 in a uint16; 0: all of them
+};
+
+/// How files are opened: --iconfig, and the data type of their pixels in memory.
+struct ReadOptions {
+    OIIO::ImageSpec config;
+    OIIO::TypeDesc type = OIIO::TypeFloat; ///< unknown: the file's own
 };
 
 /// What tells whether a file is still the one that was opened.
@@ -25,23 +33,31 @@ struct FileState {
     bool operator==(const FileState& o) const { return written == o.written && size == o.size; }
 };
 
-/// One subimage. Its header is there at once, its pixels come with the first use.
+/// One subimage with its MIP levels. The headers are there at once, pixels come with the first use.
 class Part {
 public:
-    /// A subimage of a file, whose header is `header`.
-    Part(std::string file, int subimage, int mip_levels, const OIIO::ImageSpec& header);
-    /// Pixels that a command made.
-    Part(OIIO::ImageBuf pixels, DataFormat format, bool integer_encoded);
+    /// A subimage of a file, whose levels have these headers.
+    Part(std::string file, int subimage, std::vector<OIIO::ImageSpec> levels, ReadOptions how);
+    /// Pixels that a command made, a level each. Without a format the file they are written to
+    /// follows the first image that was read.
+    Part(std::vector<OIIO::ImageBuf> levels, std::optional<DataFormat> format,
+         bool integer_encoded);
 
-    const OIIO::ImageSpec& header() const { return m_header; }
-    int mip_levels() const { return m_mip_levels; }
-    const DataFormat& format() const { return m_format; }
-    bool from_file() const { return !m_file.empty(); }
+    /// The same pixels under headers that `edit` changes in anything but their size and type.
+    static std::shared_ptr<Part> with_headers(std::shared_ptr<Part> source,
+                                              const std::function<void(OIIO::ImageSpec&)>& edit);
+    /// One MIP level.
+    static std::shared_ptr<Part> of_level(std::shared_ptr<Part> source, int level);
+
+    const OIIO::ImageSpec& header(int level = 0) const { return m_headers.at(size_t(level)); }
+    int mip_levels() const { return int(m_headers.size()); }
+    const std::optional<DataFormat>& format() const { return m_format; }
+    bool from_file() const { return m_source ? m_source->from_file() : !m_file.empty(); }
     /// The values come from an integer file: display-encoded unless the header says otherwise.
     bool integer_encoded() const { return m_integer_encoded; }
 
     /// The pixels as float (deep ones as they are). A CommandError where they cannot be read.
-    const OIIO::ImageBuf& pixels();
+    const OIIO::ImageBuf& pixels(int level = 0);
 
     /// Reads the pixels now if they are still to come from `filename`.
     void read_before_replacing(const std::string& filename);
@@ -55,16 +71,20 @@ public:
     OIIO::ImageBuf color_source();
 
 private:
-    void read();
+    void read(int level);
+    void share(int level);
     void check_unchanged() const;
 
-    OIIO::ImageSpec m_header;
-    DataFormat m_format;
+    std::vector<OIIO::ImageSpec> m_headers; ///< of the MIP levels
+    std::optional<DataFormat> m_format;
+    std::shared_ptr<Part> m_source; ///< whose pixels these are; else nullptr
+    int m_first_level = 0;          ///< of the source
     std::string m_file;
     FileState m_state; ///< of the file when its header was read
-    int m_subimage = 0, m_mip_levels = 1;
-    bool m_integer_encoded = false, m_read = false;
-    OIIO::ImageBuf m_pixels;
+    ReadOptions m_how;
+    int m_subimage = 0;
+    bool m_integer_encoded = false;
+    std::vector<OIIO::ImageBuf> m_pixels; ///< of the MIP levels; not initialized: still to be read
     std::shared_ptr<OIIO::ImageCache> m_cache; ///< of the header, for color_source
 };
 
@@ -81,10 +101,15 @@ public:
           m_parts(std::move(parts)) {}
 
     /// Opens the file and reads the headers of its subimages; a CommandError if that fails.
-    static ImagePtr open(const std::string& filename);
-    /// What a command made of `from`: data format and encoding go on.
+    static ImagePtr open(const std::string& filename, const ReadOptions& how = {});
+    /// What a command made of `from`: a format that is its own and the encoding go on.
     static ImagePtr derived(const Image& from, OIIO::ImageBuf pixels);
-    /// What a command computed: float, and not display-encoded unless its header says so.
+    /// Several subimages (of one or more MIP levels) that a command made of those of `from`.
+    static ImagePtr derived(const Image& from, std::vector<std::vector<OIIO::ImageBuf>> subimages);
+    /// What a command made of nothing, written in the format of the first image that was read.
+    static ImagePtr created(std::string name, OIIO::ImageBuf pixels,
+                            std::optional<DataFormat> format = {});
+    /// What a command measured: float, and not display-encoded unless its header says so.
     static ImagePtr computed(std::string name, OIIO::ImageBuf pixels);
 
     /// Whether some command has taken the image from the stack.

@@ -4,8 +4,8 @@
 #include <OpenImageIO/strutil.h>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <ostream>
+#include <regex>
 
 #include "chain/error.h"
 #include "chain/text.h"
@@ -15,28 +15,6 @@ namespace tonetool::chain {
 namespace {
 
 using OIIO::Strutil::fmt::format;
-
-std::string type_name(OIIO::TypeDesc type, int bits) {
-    bool fewer = bits > 0 && bits < static_cast<int>(type.size()) * 8;
-    return fewer ? "uint" + std::to_string(bits) : std::string(type.c_str());
-}
-
-std::string type_names(const DataFormat& data) {
-    Strings names;
-    for (OIIO::TypeDesc type : data.of_channel) {
-        names.push_back(type.c_str());
-    }
-    return names.empty() ? type_name(data.type, data.bits) : join(names, "/");
-}
-
-std::string head_line(const Image& image) {
-    const Part& part = image.part();
-    const OIIO::ImageSpec& spec = part.header();
-    std::string depth = spec.depth > 1 ? format(" x {:4}", spec.depth) : "";
-    return format("{:<20} : {:4} x {:4}{}, {} channel, {}{} {}", image.name(), spec.width,
-                  spec.height, depth, spec.nchannels, spec.deep ? "deep " : "",
-                  type_names(part.format()), image.file_format());
-}
 
 char type_letter(OIIO::TypeDesc type) {
     if (type == OIIO::TypeDesc::HALF) {
@@ -60,52 +38,11 @@ std::string subimages_line(const Image& image) {
 }
 
 std::string mip_line(const Part& part) {
-    const OIIO::ImageSpec& spec = part.header();
     std::string line = "    MIP-map levels:";
     for (int level = 0; level < part.mip_levels(); ++level) {
-        line +=
-            format(" {}x{}", std::max(1, spec.width >> level), std::max(1, spec.height >> level));
+        line += format(" {}x{}", part.header(level).width, part.header(level).height);
     }
     return line + "\n";
-}
-
-std::string window_lines(const OIIO::ImageSpec& spec) {
-    std::string text;
-    if (spec.x != 0 || spec.y != 0 || spec.z != 0) {
-        text += format("    pixel data origin: x={}, y={}\n", spec.x, spec.y);
-    }
-    if (spec.full_x != spec.x || spec.full_y != spec.y || spec.full_width != spec.width ||
-        spec.full_height != spec.height) {
-        text += format("    full/display size: {} x {}\n", spec.full_width, spec.full_height);
-        text += format("    full/display origin: {}, {}\n", spec.full_x, spec.full_y);
-    }
-    if (spec.tile_width > 0) {
-        text += format("    tile size: {} x {}\n", spec.tile_width, spec.tile_height);
-    }
-    return text;
-}
-
-std::string channel_line(const OIIO::ImageSpec& spec) {
-    Strings names;
-    for (int c = 0; c < spec.nchannels; ++c) {
-        const std::string& name = spec.channelnames[static_cast<size_t>(c)];
-        bool mixed = !spec.channelformats.empty();
-        names.push_back(mixed ? name + " (" + spec.channelformat(c).c_str() + ")" : name);
-    }
-    return "    channel list: " + join(names, ", ") + "\n";
-}
-
-std::string metadata_lines(const OIIO::ImageSpec& spec) {
-    OIIO::ParamValueList attributes = spec.extra_attribs;
-    attributes.sort(false);
-    std::string text;
-    for (const OIIO::ParamValue& value : attributes) {
-        bool plain = value.type() == OIIO::TypeString;
-        text += format("    {}: {}\n", value.name().string(),
-                       plain ? "\"" + value.get_string() + "\""
-                             : OIIO::ImageSpec::metadata_val(value, true));
-    }
-    return text;
 }
 
 // How the values of a data type are shown: floats as they are, integers in their own range.
@@ -129,92 +66,208 @@ struct Scale {
 };
 
 template <typename Values, typename Show>
-std::string stats_line(const char* name, const Values& values, Show show, const std::string& end) {
+std::string shown(const Values& values, Show show, const char* between = " ") {
     Strings words;
     for (const auto& value : values) {
         words.push_back(show(value));
     }
-    return std::string("    Stats ") + name + ": " + join(words, " ") + end + "\n";
+    return join(words, between);
 }
 
-std::string constant_lines(const OIIO::ImageBuf& pixels, const Scale& scale) {
-    std::vector<float> color(static_cast<size_t>(pixels.nchannels()));
-    bool constant = OIIO::ImageBufAlgo::isConstantColor(pixels, 0.0f, color);
-    std::string text = std::string("    Constant: ") + (constant ? "Yes" : "No") + "\n";
-    if (constant) {
-        Strings words;
-        for (float value : color) {
-            words.push_back(scale.fraction(value));
-        }
-        text += "    Constant Color: " + join(words, " ") + scale.note() + "\n";
-    }
-    bool gray = OIIO::ImageBufAlgo::isMonochrome(pixels);
-    return text + "    Monochrome: " + (gray ? "Yes" : "No") + "\n";
-}
-
-// MIP-mapped images have their figures two columns further right.
-std::string indented(const std::string& text) {
-    std::string result;
-    for (const std::string& line : split(text.substr(0, text.size() - 1), '\n')) {
-        result += "  " + line + "\n";
-    }
-    return result;
-}
-
-} // namespace
-
-std::string info_text(const Image& image, bool verbose) {
-    const Part& part = image.part();
-    std::string text = head_line(image);
-    if (!verbose) {
-        text += image.part_count() > 1 ? format(" ({} subimages)", image.part_count()) : "";
-        return text + (part.mip_levels() > 1 ? " (+mipmap)" : "") + "\n";
-    }
-    text += "\n";
-    text += image.part_count() > 1 ? subimages_line(image) : "";
-    text += part.mip_levels() > 1 ? mip_line(part) : "";
-    const OIIO::ImageSpec& spec = part.header();
-    return text + channel_line(spec) + window_lines(spec) + metadata_lines(spec);
-}
-
-std::string stats_text(const Image& image) {
-    Part& part = image.part();
-    const OIIO::ImageBuf& pixels = part.pixels();
+const OIIO::ImageBuf& measured(const Image& image, size_t subimage, int level) {
+    const OIIO::ImageBuf& pixels = image.part(subimage).pixels(level);
     if (pixels.deep()) {
         throw CommandError("\"" + image.name() +
                            "\" is deep (valid: images without depth samples)");
     }
-    auto stats = OIIO::ImageBufAlgo::computePixelStats(pixels);
+    return pixels;
+}
+
+std::string constant_lines(const OIIO::ImageBuf& pixels, const Scale& scale,
+                           const std::string& indent) {
+    std::vector<float> color(static_cast<size_t>(pixels.nchannels()));
+    bool constant = OIIO::ImageBufAlgo::isConstantColor(pixels, 0.0f, color);
+    std::string text = indent + "Constant: " + (constant ? "Yes" : "No") + "\n";
+    if (constant) {
+        auto fraction = [&](float value) { return scale.fraction(value); };
+        text += indent + "Constant Color: " + shown(color, fraction) + scale.note() + "\n";
+    }
+    bool gray = OIIO::ImageBufAlgo::isMonochrome(pixels);
+    return text + indent + "Monochrome: " + (gray ? "Yes" : "No") + "\n";
+}
+
+std::string all_stats(const Image& image, const Listing& what, size_t subimage) {
+    const Part& part = image.part(subimage);
+    if (part.mip_levels() == 1) {
+        return stats_text(image, "    ", subimage, 0, what.roi);
+    }
+    std::string text;
+    for (int level = 0; level < (what.all_subimages ? part.mip_levels() : 1); ++level) {
+        const OIIO::ImageSpec& spec = part.header(level);
+        text += what.all_subimages ? format("    MIP {} of {} ({} x {}):\n", level,
+                                            part.mip_levels(), spec.width, spec.height)
+                                   : "";
+        text += stats_text(image, "      ", subimage, level, what.roi);
+    }
+    return text;
+}
+
+// One pixel's values: integers as they are stored, then as numbers between 0 and 1.
+std::string pixel_text(const std::vector<float>& values, OIIO::TypeDesc type, bool in_c) {
+    Scale scale({type, {}, 0});
+    auto stored = [&](float value) {
+        return type.is_floating_point() ? format("{:.9f}", value) : scale.whole(value);
+    };
+    if (in_c) {
+        return "{ " + shown(values, stored, ", ") + " }";
+    }
+    std::string text = shown(values, stored);
+    auto plain = [](float value) { return format("{}", value); };
+    return type.is_floating_point() ? text : text + " (" + shown(values, plain) + ")";
+}
+
+std::string dump_text(const Image& image, const Listing& what, size_t subimage) {
+    const OIIO::ImageBuf& pixels = measured(image, subimage, 0);
+    const OIIO::ImageSpec& spec = pixels.spec();
+    OIIO::TypeDesc type = image.part(subimage).format().value_or(DataFormat{}).type;
+    std::string text = what.dump->empty() ? ""
+                                          : format("{} {}[{}][{}][{}] =\n{{\n", type, *what.dump,
+                                                   spec.height, spec.width, spec.nchannels);
+    std::vector<float> values(static_cast<size_t>(spec.nchannels));
+    for (OIIO::ImageBuf::ConstIterator<float> pixel(pixels); !pixel.done(); ++pixel) {
+        for (int c = 0; c < spec.nchannels; ++c) {
+            values[static_cast<size_t>(c)] = pixel[c];
+        }
+        bool last = pixel.x() == spec.x + spec.width - 1;
+        if (!what.dump->empty()) {
+            text +=
+                format("{}/* ({}, {}): */ {}{}\n", pixel.x() == spec.x ? "  { " : "    ", pixel.x(),
+                       pixel.y(), pixel_text(values, type, true), last ? " }," : ",");
+        } else if (what.dump_black || values != std::vector<float>(values.size())) {
+            text += format("    Pixel ({}, {}): {}\n", pixel.x(), pixel.y(),
+                           pixel_text(values, type, false));
+        }
+    }
+    return text + (what.dump->empty() ? "" : "};\n");
+}
+
+std::string matching_lines(const std::string& text, const Listing& what) {
+    if (what.metamatch.empty() && what.no_metamatch.empty()) {
+        return text;
+    }
+    const std::regex wanted(what.metamatch), unwanted(what.no_metamatch);
+    std::string kept;
+    for (const std::string& line : OIIO::Strutil::splits(text, "\n")) {
+        std::string name = line.substr(0, line.find(": "));
+        bool keep = (what.metamatch.empty() || std::regex_search(name, wanted)) &&
+                    (what.no_metamatch.empty() || !std::regex_search(name, unwanted));
+        kept += keep && !line.empty() ? line + "\n" : "";
+    }
+    return kept;
+}
+
+std::string xml_text(const Image& image, size_t subimage, bool verbose) {
+    std::string text = image.part(subimage).header().serialize(
+        OIIO::ImageSpec::SerialXML,
+        verbose ? OIIO::ImageSpec::SerialDetailed : OIIO::ImageSpec::SerialBrief);
+    if (image.part_count() > 1) {
+        text.insert(text.find('\n') + 1, format("<subimages>{}</subimages>\n", image.part_count()));
+    }
+    return text;
+}
+
+// What follows the line of the image or of one of its subimages.
+std::string subimage_text(const Image& image, const Listing& what, size_t subimage) {
+    const Part& part = image.part(subimage);
+    std::string text = what.verbose && part.mip_levels() > 1 ? mip_line(part) : "";
+    if (what.hash) {
+        ImagePtr file = Image::open(image.name(), {{}, OIIO::TypeUnknown});
+        const OIIO::ImageBuf& stored = file->part(subimage).pixels();
+        text += "    SHA-1: " + OIIO::ImageBufAlgo::computePixelHashSHA1(stored) + "\n";
+    }
+    if (what.verbose) {
+        std::string detailed = header_text(image, subimage, true, what.named);
+        text += detailed.substr(detailed.find('\n') + 1);
+    }
+    text += what.dump ? dump_text(image, what, subimage) : "";
+    return text + (what.stats ? all_stats(image, what, subimage) : "");
+}
+
+} // namespace
+
+std::string header_text(const Image& image, size_t subimage, bool detailed, bool native) {
+    OIIO::ImageSpec spec = image.part(subimage).header();
+    if (!native && !spec.deep) {
+        spec.set_format(OIIO::TypeFloat);
+    }
+    std::string text =
+        spec.serialize(OIIO::ImageSpec::SerialText, detailed ? OIIO::ImageSpec::SerialDetailedHuman
+                                                             : OIIO::ImageSpec::SerialBrief);
+    text.insert(std::min(text.find('\n'), text.size()), " " + image.file_format());
+    return OIIO::Strutil::unescape_chars(text);
+}
+
+std::string stats_text(const Image& image, const std::string& indent, size_t subimage, int level,
+                       OIIO::ROI roi) {
+    const OIIO::ImageBuf& pixels = measured(image, subimage, level);
+    auto stats = OIIO::ImageBufAlgo::computePixelStats(pixels, roi);
     if (stats.min.empty()) {
         throw CommandError("cannot measure \"" + image.name() + "\": " + pixels.geterror());
     }
-    Scale scale(part.format());
+    Part& part = image.part(subimage);
+    Scale scale(part.from_file() ? *part.format() : DataFormat{});
     auto whole = [&](float value) { return scale.whole(value); };
     auto fraction = [&](float value) { return scale.fraction(value); };
     auto count = [](auto value) { return std::to_string(value); };
-    std::string text = stats_line("Min", stats.min, whole, scale.note()) +
-                       stats_line("Max", stats.max, whole, scale.note()) +
-                       stats_line("Avg", stats.avg, fraction, scale.note()) +
-                       stats_line("StdDev", stats.stddev, fraction, scale.note()) +
-                       stats_line("NanCount", stats.nancount, count, " ") +
-                       stats_line("InfCount", stats.infcount, count, " ") +
-                       stats_line("FiniteCount", stats.finitecount, count, " ") +
-                       constant_lines(pixels, scale);
-    return part.mip_levels() > 1 ? indented(text) : text;
+    const std::pair<const char*, std::string> lines[] = {
+        {"Min", shown(stats.min, whole) + scale.note()},
+        {"Max", shown(stats.max, whole) + scale.note()},
+        {"Avg", shown(stats.avg, fraction) + scale.note()},
+        {"StdDev", shown(stats.stddev, fraction) + scale.note()},
+        {"NanCount", shown(stats.nancount, count) + " "},
+        {"InfCount", shown(stats.infcount, count) + " "},
+        {"FiniteCount", shown(stats.finitecount, count) + " "}};
+    std::string text;
+    for (const auto& [name, value] : lines) {
+        text += indent + "Stats " + name + ": " + value + "\n";
+    }
+    return text + constant_lines(pixels, scale, indent);
+}
+
+std::string listing_text(const Image& image, const Listing& what) {
+    if (what.format == "xml") {
+        return xml_text(image, 0, what.verbose);
+    }
+    const size_t count = image.part_count();
+    const bool each = what.all_subimages && count > 1;
+    auto brief = [&](size_t subimage) -> std::string {
+        return OIIO::Strutil::rstrip(header_text(image, subimage, false, what.named), "\n");
+    };
+    std::string more = what.verbose ? "" : (count > 1 ? format(" ({} subimages)", count) : "");
+    std::string text = what.dump && !what.dump->empty() ? "// " : "";
+    text += (what.named ? format("{:<20} : ", image.name()) : std::string()) + brief(0) + more;
+    text += !what.verbose && image.part().mip_levels() > 1 ? " (+mipmap)\n" : "\n";
+    text += what.verbose && count > 1 ? subimages_line(image) : "";
+    for (size_t subimage = 0; subimage < (each ? count : 1); ++subimage) {
+        text += each ? format(" subimage {:2}: ", subimage) + brief(subimage) +
+                           (subimage + 1 == count ? more : "") + "\n"
+                     : "";
+        text += subimage_text(image, what, subimage);
+    }
+    return matching_lines(text, what);
 }
 
 void inspect_if_asked(Session& session, const Image& image) {
     if (session.verbose) {
         session.print("Reading " + image.name());
     }
-    if (!session.info && !session.stats) {
-        return;
+    if (session.listing()) {
+        Listing what = session.list;
+        what.verbose = session.verbose || what.verbose;
+        what.all_subimages = session.all_subimages;
+        session.out << listing_text(image, what);
+        session.produced = true;
     }
-    session.out << info_text(image, session.verbose || session.info_verbose);
-    if (session.stats) {
-        session.out << stats_text(image);
-    }
-    session.produced = true;
 }
 
 } // namespace tonetool::chain

@@ -1,19 +1,20 @@
-// What --info and --stats print, in oiiotool's words.
+// What --info, -v, --stats, --hash and --dumpdata print of an image, as oiiotool does.
 #pragma once
-
-#include <string>
 
 #include "chain/session.h"
 
 namespace tonetool::chain {
 
-/// One line: name, size, channels, data types, format; `verbose` adds the metadata.
-std::string info_text(const Image& image, bool verbose);
+/// What `what` asks for of an image.
+std::string listing_text(const Image& image, const Listing& what);
 
-/// Minimum, maximum, average, ... of the first subimage, per channel.
-std::string stats_text(const Image& image);
+/// Size, channels and data type in a line, and the metadata if `detailed`.
+std::string header_text(const Image& image, size_t subimage, bool detailed, bool native = false);
+/// Pixel statistics, each line after `indent`.
+std::string stats_text(const Image& image, const std::string& indent, size_t subimage = 0,
+                       int level = 0, OIIO::ROI roi = {});
 
-/// Print what the session's --info, -v and --stats ask for about an image just read.
+/// Prints what --info, --stats, ... ask for of a file that was just read.
 void inspect_if_asked(Session& session, const Image& image);
 
 } // namespace tonetool::chain

@@ -40,13 +40,15 @@ inline OIIO::ImageBuf unread_file(const std::string& file, int subimage, const H
     return buffer;
 }
 
-/// Read one subimage as float into `buffer`.
-inline bool read_float_pixels(OIIO::ImageInput& input, int subimage, int channels, void* buffer) {
-    return input.read_image(subimage, 0, 0, channels, OIIO::TypeFloat, buffer);
+/// Read one subimage in the data type of `spec` into `buffer`.
+inline bool read_flat_pixels(OIIO::ImageInput& input, int subimage, int level,
+                             const OIIO::ImageSpec& spec, void* buffer) {
+    return input.read_image(subimage, level, 0, spec.nchannels, spec.format, buffer);
 }
 
-inline bool read_deep_pixels(OIIO::ImageInput& input, int subimage, OIIO::DeepData& data) {
-    return input.read_native_deep_image(subimage, 0, data);
+inline bool read_deep_pixels(OIIO::ImageInput& input, int subimage, int level,
+                             OIIO::DeepData& data) {
+    return input.read_native_deep_image(subimage, level, data);
 }
 
 /// What a format can hold ("alpha", "nchannels", "displaywindow", ...).

@@ -1,8 +1,13 @@
 #include "chain/output.h"
 
+#include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imagebufalgo.h>
 #include <OpenImageIO/imageio.h>
+#include <OpenImageIO/strutil.h>
 #include <algorithm>
+#include <ctime>
+#include <deque>
+#include <regex>
 
 #include "chain/channels.h"
 #include "chain/error.h"
@@ -37,8 +42,9 @@ struct Outgoing {
     DataFormat format;
 };
 
-std::unique_ptr<OIIO::ImageOutput> find_writer(const std::string& filename) {
-    auto writer = OIIO::ImageOutput::create(filename);
+std::unique_ptr<OIIO::ImageOutput> find_writer(const std::string& filename,
+                                               const std::string& format_name) {
+    auto writer = OIIO::ImageOutput::create(format_name.empty() ? filename : format_name);
     if (!writer) {
         std::string why = OIIO::geterror();
         throw CommandError(why.empty() ? "no format for \"" + filename + "\"" : why);
@@ -105,6 +111,20 @@ void fit_channels(Session& session, const std::string& where, Outgoing& image,
     image.format.of_channel.clear();
 }
 
+// An image that a command made is written as the first image that was read.
+DataFormat first_format(const Session& session, const OIIO::ImageSpec& spec) {
+    if (!session.first_format) {
+        return {spec.format, {}, 0};
+    }
+    DataFormat format{session.first_format->type, {}, session.first_format->bits};
+    for (const std::string& name : spec.channelnames) {
+        auto known = session.first_types.find(name);
+        format.of_channel.push_back(known == session.first_types.end() ? format.type
+                                                                       : known->second);
+    }
+    return format;
+}
+
 void choose_format(Outgoing& image, const OutputSettings& asked, OutputSettings& memory) {
     DataFormat& format = image.format;
     if (asked.type) {
@@ -128,22 +148,58 @@ void choose_format(Outgoing& image, const OutputSettings& asked, OutputSettings&
     }
 }
 
-void note_history(OIIO::ImageSpec& spec, const std::string& command_line) {
-    spec.attribute("Software", "tonetool " TONETOOL_VERSION " : " + command_line);
+// The command line, without the values that only a file's owner is to see.
+std::string noted_command_line(const Session& session) {
+    if (session.output.arguments_in_history) {
+        return session.command_line;
+    }
+    const std::regex attributes("-?-s?attrib(:\\S*)? (\"[^\"]*\"|'[^']*'|\\S+) "
+                                "(\"[^\"]*\"|'[^']*'|\\S+) ?");
+    return std::regex_replace(session.command_line, attributes, "");
+}
+
+void note_history(OIIO::ImageSpec& spec, const Session& session) {
+    const std::string line = noted_command_line(session);
+    spec.attribute("Software", "tonetool " TONETOOL_VERSION " : " + line);
     std::string history = spec.get_string_attribute("Exif:ImageHistory");
     if (!history.empty() && history.back() != '\n') {
         history += '\n';
     }
-    spec.attribute("Exif:ImageHistory", history + command_line);
+    spec.attribute("Exif:ImageHistory", history + line);
+}
+
+void set_layout(OIIO::ImageSpec& spec, const OutputSettings& settings,
+                const OIIO::ImageOutput& writer) {
+    if (settings.scanline || !format_supports(writer, "tiles")) {
+        spec.tile_width = spec.tile_height = spec.tile_depth = 0;
+    } else if (settings.tile_width > 0) {
+        spec.tile_width = settings.tile_width;
+        spec.tile_height = settings.tile_height;
+        spec.tile_depth = 1;
+    }
+    if (!settings.planarconfig.empty() && settings.planarconfig != "default") {
+        spec.attribute("planarconfig", settings.planarconfig);
+    }
 }
 
 OIIO::ImageSpec output_spec(const Outgoing& image, const Session& session,
-                            const OutputSettings& settings) {
+                            const OutputSettings& settings, const std::string& filename,
+                            const OIIO::ImageOutput& writer) {
     OIIO::ImageSpec spec = image.pixels->spec();
-    note_history(spec, session.command_line);
+    if (settings.history) {
+        note_history(spec, session);
+    }
     if (!settings.compression.empty()) {
         spec.attribute("compression", settings.compression);
     }
+    if (settings.quality > 0) {
+        spec.attribute("CompressionQuality", settings.quality);
+    }
+    if (settings.dither) {
+        int seed = int(OIIO::Strutil::strhash(filename));
+        spec.attribute("oiio:dither", seed != 0 ? seed : 1);
+    }
+    set_layout(spec, settings, writer);
     spec.erase_attribute("oiio:BitsPerSample");
     if (image.format.bits > 0) {
         spec.attribute("oiio:BitsPerSample", image.format.bits);
@@ -217,20 +273,27 @@ void check_compression(const std::string& compression) {
 
 void write_output(Session& session, const std::string& where, const Image& image,
                   const std::string& filename, const OutputSettings& settings) {
-    auto writer = find_writer(filename);
-    size_t count = parts_to_write(session, where, image, *writer);
-    std::vector<Outgoing> parts(count);
+    auto writer = find_writer(filename, settings.format_name);
+    const size_t count = parts_to_write(session, where, image, *writer);
+    const bool mipmap = format_supports(*writer, "mipmap");
+    std::deque<Outgoing> outgoing; // addresses stay
     std::vector<OutputImage> ready;
     for (size_t i = 0; i < count; ++i) {
         Part& part = image.part(i);
-        parts[i].pixels = &part.pixels();
-        parts[i].format = part.format();
-        fit_windows(parts[i], *writer);
-        fit_channels(session, where, parts[i], *writer);
-        choose_format(parts[i], settings, session.output);
-        ready.push_back({parts[i].pixels, output_spec(parts[i], session, settings)});
-        warn_of_encoding(session, where, ready.back().spec, *writer);
-        if (part.mip_levels() > 1) {
+        for (int level = 0; level < (mipmap ? part.mip_levels() : 1); ++level) {
+            Outgoing& next = outgoing.emplace_back();
+            next.pixels = &part.pixels(level);
+            next.format = part.format() ? *part.format() : first_format(session, part.header());
+            if (settings.autocrop) {
+                fit_windows(next, *writer);
+            }
+            fit_channels(session, where, next, *writer);
+            choose_format(next, settings, session.output);
+            ready.push_back({next.pixels, output_spec(next, session, settings, filename, *writer),
+                             level > 0, settings.format_name});
+            warn_of_encoding(session, where, ready.back().spec, *writer);
+        }
+        if (part.mip_levels() > 1 && !mipmap && !session.compat) {
             session.warning(where, "only the largest of " + std::to_string(part.mip_levels()) +
                                        " MIP levels of " + image.name() + " is written");
         }
@@ -239,6 +302,14 @@ void write_output(Session& session, const std::string& where, const Image& image
     std::string why;
     if (!write_images(ready, filename, why)) {
         throw CommandError(why);
+    }
+    if (settings.adjust_time) {
+        std::tm taken{};
+        std::string date = ready.front().spec.get_string_attribute("DateTime");
+        if (strptime(date.c_str(), "%Y:%m:%d %H:%M:%S", &taken) != nullptr) {
+            taken.tm_isdst = -1;
+            OIIO::Filesystem::last_write_time(filename, std::mktime(&taken));
+        }
     }
     session.produced = true;
 }

@@ -12,8 +12,10 @@ namespace {
 std::vector<Command> collect() {
     std::vector<Command> all;
     for (auto family :
-         {general_commands, io_commands, inspect_commands, compare_commands, color_commands,
-          tone_commands, cgtmo_commands, light_commands, channel_commands, stack_commands}) {
+         {general_commands, control_commands, io_commands, inspect_commands, compare_commands,
+          diff_commands, color_commands, tone_commands, cgtmo_commands, light_commands,
+          metadata_commands, create_commands, arithmetic_commands, geometry_commands,
+          filter_commands, composite_commands, ocio_commands, channel_commands, stack_commands}) {
         std::vector<Command> rows = family();
         std::move(rows.begin(), rows.end(), std::back_inserter(all));
     }
@@ -25,11 +27,18 @@ std::vector<Command> collect() {
 std::string group_title(Group group) {
     static const char* const titles[group_count] = {
         "General",
+        "Control flow and scripting",
         "Commands that read images",
         "Commands that write images, and what they write",
         "Commands that print",
+        "Metadata, without touching pixels",
         "Comparing a test image with a reference",
         "Measuring",
+        "Creating and drawing",
+        "Arithmetic",
+        "Geometry",
+        "Filters",
+        "Compositing and deep images",
         "Colour and exposure",
         "Channels and subimages",
         "Image stack",
@@ -39,6 +48,12 @@ std::string group_title(Group group) {
 
 std::string Command::label() const {
     return names.front().size() == 1 ? "-" + names.front() : names.front();
+}
+
+Command setting(Group group, Strings names, Strings args, std::string help, Run run,
+                std::vector<Modifier> modifiers) {
+    Shape shape{std::move(names), std::move(args), 0, 0, group};
+    return {std::move(shape), std::move(modifiers), std::move(help), std::move(run)};
 }
 
 const std::vector<Command>& all_commands() {

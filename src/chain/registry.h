@@ -1,6 +1,7 @@
 // The commands: one row each. Help, checks and tests are all read from these rows.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -18,8 +19,25 @@ struct Modifier {
 };
 
 /// In the order in which help lists them.
-enum class Group { General, Read, Write, Print, Compare, Measure, Color, Channels, Stack };
-inline constexpr int group_count = 9;
+enum class Group {
+    General,
+    Control,
+    Read,
+    Write,
+    Print,
+    Metadata,
+    Compare,
+    Measure,
+    Create,
+    Arithmetic,
+    Geometry,
+    Filter,
+    Composite,
+    Color,
+    Channels,
+    Stack
+};
+inline constexpr int group_count = 16;
 std::string group_title(Group group);
 
 /// What a command takes and leaves, and where help lists it.
@@ -27,23 +45,32 @@ struct Shape {
     Strings names;  ///< without dashes; the first one is the one that messages use
     Strings args;   ///< names of the arguments; "[NAME]" may be left out, only as the last
     int pops = 0;   ///< images taken from the stack
-    int pushes = 0; ///< images put on it
+    int pushes = 0; ///< images put on it, or any_number
     Group group = Group::General;
 };
+
+using Run = std::function<void(Session&, const Call&)>;
+inline constexpr int any_number = -1;
 
 struct Command : Shape {
     std::vector<Modifier> modifiers;
     std::string help; ///< one line
-    void (*run)(Session&, const Call&) = nullptr;
+    Run run = nullptr;
     /// Wait for images that are still to come, as oiiotool does with operators.
     bool postponable = true;
     /// Where the numbers of images depend on a modifier; else nullptr.
     int (*pops_of)(const Call&) = nullptr;
     int (*pushes_of)(const Call&) = nullptr;
+    /// --if and the like: seen also where commands are skipped.
+    bool control = false;
 
     /// As messages call it: "hdrflip", "-o".
     std::string label() const;
 };
+
+/// The row of a command that takes and leaves no image.
+Command setting(Group group, Strings names, Strings args, std::string help, Run run,
+                std::vector<Modifier> modifiers = {});
 
 /// All rows.
 const std::vector<Command>& all_commands();
@@ -56,14 +83,23 @@ std::string suggest_command(const std::string& name);
 
 // The families, one file each.
 std::vector<Command> general_commands();
+std::vector<Command> control_commands();
 std::vector<Command> io_commands();
 std::vector<Command> inspect_commands();
 std::vector<Command> compare_commands();
+std::vector<Command> diff_commands();
 std::vector<Command> color_commands();
 std::vector<Command> channel_commands();
 std::vector<Command> stack_commands();
 std::vector<Command> tone_commands();
 std::vector<Command> cgtmo_commands();
 std::vector<Command> light_commands();
+std::vector<Command> metadata_commands();
+std::vector<Command> create_commands();
+std::vector<Command> arithmetic_commands();
+std::vector<Command> geometry_commands();
+std::vector<Command> filter_commands();
+std::vector<Command> composite_commands();
+std::vector<Command> ocio_commands();
 
 } // namespace tonetool::chain

@@ -6,8 +6,16 @@ namespace tonetool::chain {
 
 namespace {
 
-std::string prefix(const char* kind, const std::string& where) {
-    return std::string("tonetool ") + kind + ": " + (where.empty() ? "" : where + " : ");
+std::string prefix(const char* kind, const std::string& where, bool compat) {
+    const char* none = compat ? " : " : ": ";
+    return std::string("tonetool ") + kind + (where.empty() ? none : ": " + where + " : ");
+}
+
+std::string of_frame(const Session& session) {
+    return session.frame.loops && !session.compat
+               ? " (frame " + std::to_string(session.frame.number) +
+                     (session.frame.view.empty() ? "" : ", view " + session.frame.view) + ")"
+               : "";
 }
 
 } // namespace
@@ -15,14 +23,14 @@ std::string prefix(const char* kind, const std::string& where) {
 void Session::error(const std::string& where, const std::string& what) {
     ++errors;
     out.flush();
-    err << prefix("ERROR", where) << what << "\nFull command line was:\n> " << command_line
-        << std::endl;
+    err << prefix("ERROR", where, compat) << what << of_frame(*this)
+        << "\nFull command line was:\n> " << command_line << std::endl;
 }
 
 void Session::warning(const std::string& where, const std::string& what) {
     ++warnings;
     out.flush();
-    err << prefix("WARNING", where) << what << std::endl;
+    err << prefix("WARNING", where, compat) << what << of_frame(*this) << std::endl;
 }
 
 void Session::report(const std::string& line) {
@@ -49,12 +57,19 @@ void Session::keep_pixels_of(const std::string& filename) {
     }
 }
 
+OIIO::ColorConfig& color_config(Session& session) {
+    if (!session.ocio) {
+        session.ocio = std::make_shared<OIIO::ColorConfig>(session.color_config);
+    }
+    return *session.ocio;
+}
+
 int Session::exit_status() const {
-    if (errors > 0) {
+    if (errors > 0 || differs) {
         return 1;
     }
     if (failures > 0) {
-        return 3;
+        return compat ? 1 : 3;
     }
     return warnings > 0 && warnings_exit ? 2 : 0;
 }

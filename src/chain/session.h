@@ -1,8 +1,11 @@
 // What one command line knows while it runs: the stack, the settings, what was found.
 #pragma once
 
+#include <OpenImageIO/color.h>
+#include <ctime>
 #include <iosfwd>
 #include <map>
+#include <memory>
 #include <optional>
 #include <set>
 #include <string>
@@ -23,7 +26,51 @@ struct OutputSettings {
     std::optional<NamedType> type;
     std::map<std::string, NamedType> type_of_channel;
     std::set<std::string> matched_channels; ///< those of the above that some output had
-    std::string compression;
+    std::string compression, planarconfig, format_name;
+    int tile_width = 0, tile_height = 0;
+    bool scanline = false, dither = false, adjust_time = false, autocrop = true, autotrim = false;
+    bool history = true, arguments_in_history = true; ///< --nosoftwareattrib, --sansattrib
+    int quality = 0;                                  ///< 0: the format's own
+};
+
+/// What the frame loop has put in place of wildcards.
+struct Frame {
+    int number = 0, padding = 0;
+    std::string view;
+    bool loops = false;
+};
+
+/// What --diff lets pass.
+struct DiffLimits {
+    float fail = 1e-6f, fail_percent = 0, hard_fail = 1e30f;
+    float warn = 1e-6f, warn_percent = 0, hard_warn = 1e30f;
+};
+
+/// An --if, --while or --for that is not ended yet.
+struct Block {
+    std::string kind;
+    size_t begin = 0;                    ///< index of its first word
+    bool running = true;                 ///< its commands are executed
+    bool outside = true;                 ///< those around it are
+    std::string variable{};              ///< of a for
+    double value = 0, end = 0, step = 1; ///< of a for
+};
+
+struct Flow {
+    size_t next = 0;    ///< index of the next word
+    size_t command = 0; ///< and of the command's own
+    std::vector<Block> blocks;
+    bool running() const { return blocks.empty() || blocks.back().running; }
+};
+
+/// What is printed of an image that is read: --info, --stats, --hash, --dumpdata.
+struct Listing {
+    bool info = false, verbose = false, all_subimages = false, hash = false, stats = false;
+    bool named = true; ///< a file, in its own data type; else pixels in memory
+    std::string format, metamatch, no_metamatch; ///< "xml"; lines that (do not) match
+    std::optional<std::string> dump;             ///< name of a C array, or "" for plain text
+    bool dump_black = true;
+    OIIO::ROI roi{}; ///< of the statistics
 };
 
 struct Session {
@@ -38,16 +85,40 @@ struct Session {
 
     std::vector<ImagePtr> stack; ///< the top is the last
     std::map<std::string, ImagePtr> labels;
+    OIIO::ParamValueList variables; ///< of --set and --for
+    bool evaluate = true;           ///< {expressions} are replaced by their values
+    Frame frame;
+    Flow flow;
+
+    bool compat = false;        ///< lenient as oiiotool is
+    bool all_subimages = false; ///< -a: and all MIP levels
+    bool dry_run = false, no_clobber = false, update = false, debug = false, runstats = false;
+    bool verbose = false, quiet = false, warnings_exit = false, error_exit = true;
+
+    ReadOptions input;
+    std::string missing_file = "error"; ///< or what stands in for it: "black", "checker"
+    bool autocc = false, autocc_unpremult = false, autoorient = false;
+    bool metamerge = false; ///< results have the metadata of all inputs
+    // Of the first image that was read; what commands make is written alike.
+    std::optional<DataFormat> first_format;
+    std::map<std::string, OIIO::TypeDesc> first_types; ///< by the channel's name
+    std::optional<OIIO::ImageSpec> first_header;
+    std::time_t newest_input = 0;
     OutputSettings output;
 
-    bool verbose = false, quiet = false, warnings_exit = false;
-    bool info = false, info_verbose = false, stats = false;
+    std::map<std::string, double> seconds; ///< that commands took, for --runstats
+    DiffLimits diff;
+    bool differs = false; ///< a --diff has failed
+    Listing list;         ///< what is printed of files as they are read
 
     std::string color_config; ///< file of the OpenColorIO configuration; empty: $OCIO
-    uint64_t memory = 0;      ///< bound of the comparisons in bytes; 0: none was given
+    std::shared_ptr<OIIO::ColorConfig> ocio; ///< what is in it, once it is needed
+    uint64_t memory = 0; ///< bound of the comparisons in bytes; 0: none was given
+    int parallel = 1;    ///< frames that share that memory
 
     // What the exit status is made from.
-    bool produced = false; ///< something was written, printed or measured
+    bool produced = false;         ///< something was written, printed or measured
+    bool produced_by_name = false; ///< --echo and the like: also of images that no command used
     int errors = 0, warnings = 0, failures = 0;
 
     /// The name of an operator that waits for images; empty if none does.
@@ -55,6 +126,9 @@ struct Session {
 
     /// Reads what the stack and the labels still have to read from a file about to be replaced.
     void keep_pixels_of(const std::string& filename);
+
+    /// Files are described when they are read.
+    bool listing() const { return list.info || list.stats || list.hash || list.dump; }
 
     void push(ImagePtr image) { stack.push_back(std::move(image)); }
 
@@ -68,5 +142,8 @@ struct Session {
     /// 1 any error, 3 a threshold exceeded, 2 only warnings and --warnings-exit, else 0.
     int exit_status() const;
 };
+
+/// The OpenColorIO configuration, loaded with its first use.
+OIIO::ColorConfig& color_config(Session& session);
 
 } // namespace tonetool::chain

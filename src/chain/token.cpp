@@ -41,18 +41,15 @@ std::string take_value(const std::string& word, size_t& at) {
 void take_modifier(Token& token, size_t& at) {
     const std::string& word = token.text;
     size_t colon = std::min(word.find(':', at), word.size());
-    size_t equals = word.find('=', at);
-    if (equals == std::string::npos || equals > colon) {
-        std::string bad = word.substr(at, colon - at);
-        throw CommandError(bad.empty() ? "empty modifier in \"" + word + "\""
-                                       : "malformed modifier \"" + bad + "\", not key=value");
+    const std::string text = word.substr(at, colon - at);
+    const std::string key = text.substr(0, text.find('='));
+    if (text.empty()) {
+        throw CommandError("empty modifier in \"" + word + "\"");
     }
-    std::string key = word.substr(at, equals - at);
-    if (!is_identifier(key)) {
-        throw CommandError("malformed modifier \"" + word.substr(at, colon - at) +
-                           "\", not key=value");
+    if (key.size() == text.size() || !is_identifier(key)) {
+        throw CommandError("malformed modifier \"" + text + "\", not key=value");
     }
-    at = equals + 1;
+    at += key.size() + 1;
     std::string value = take_value(word, at);
     if (value.empty()) {
         throw CommandError("modifier \"" + key + "\" has no value");
@@ -67,7 +64,7 @@ void take_modifier(Token& token, size_t& at) {
 
 } // namespace
 
-Token parse_token(const std::string& word) {
+Token parse_token(const std::string& word, bool lenient) {
     Token token;
     token.text = word;
     if (word.size() < 2 || word[0] != '-') {
@@ -77,9 +74,20 @@ Token parse_token(const std::string& word) {
     size_t begin = word[1] == '-' ? 2 : 1;
     size_t at = std::min(word.find(':', begin), word.size());
     token.name = word.substr(begin, at - begin);
+    if (size_t equals = token.name.find('='); equals != std::string::npos) {
+        token.value.push_back(token.name.substr(equals + 1));
+        token.name.erase(equals);
+    }
     while (at < word.size()) {
-        ++at; // the ':'
-        take_modifier(token, at);
+        size_t begins = ++at; // behind the ':'
+        try {
+            take_modifier(token, at);
+        } catch (const CommandError&) {
+            if (!lenient) {
+                throw;
+            }
+            at = std::min(word.find(':', begins), word.size());
+        }
     }
     return token;
 }

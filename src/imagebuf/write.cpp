@@ -4,6 +4,7 @@
 #include <OpenImageIO/deepdata.h>
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/strutil.h>
+#include <algorithm>
 #include <atomic>
 #include <cerrno>
 #include <climits>
@@ -220,10 +221,13 @@ bool write_through(OIIO::ImageOutput& out, const std::vector<OutputImage>& image
                    const std::string& filename, std::string& error) {
     std::vector<OIIO::ImageSpec> specs;
     for (const OutputImage& image : images)
-        specs.push_back(image.spec);
+        if (!image.mip_level)
+            specs.push_back(image.spec);
     for (size_t i = 0; i < images.size(); ++i) {
         const bool opened =
-            i > 0 ? out.open(filename, specs[i], OIIO::ImageOutput::AppendSubimage)
+            i > 0 ? out.open(filename, images[i].spec,
+                             images[i].mip_level ? OIIO::ImageOutput::AppendMIPLevel
+                                                 : OIIO::ImageOutput::AppendSubimage)
                   : (specs.size() > 1 ? out.open(filename, int(specs.size()), specs.data())
                                       : out.open(filename, specs[0]));
         if (!opened) {
@@ -241,6 +245,11 @@ bool write_through(OIIO::ImageOutput& out, const std::vector<OutputImage>& image
         return true;
     error = out.geterror();
     return false;
+}
+
+size_t count_subimages(const std::vector<OutputImage>& images) {
+    return size_t(std::count_if(images.begin(), images.end(),
+                                [](const OutputImage& image) { return !image.mip_level; }));
 }
 
 bool check_images(const std::vector<OutputImage>& images, const OIIO::ImageOutput& out,
@@ -261,7 +270,7 @@ bool check_images(const std::vector<OutputImage>& images, const OIIO::ImageOutpu
             error = "the spec to write does not have the image's size and channels";
             return false;
         }
-    if (images.size() > 1 && !out.supports("multiimage")) {
+    if (count_subimages(images) > 1 && !out.supports("multiimage")) {
         error = format("{} files hold one image, there are {}", out.format_name(), images.size());
         return false;
     }
@@ -322,7 +331,8 @@ bool takes_proxy(const OIIO::ImageOutput& out) {
 
 bool write_checked(const std::vector<OutputImage>& images, const std::string& filename,
                    std::string& error) {
-    const auto out = OIIO::ImageOutput::create(filename);
+    const std::string kind = images.empty() ? "" : images.front().format_name;
+    const auto out = OIIO::ImageOutput::create(kind.empty() ? filename : kind);
     if (!out) {
         error = OIIO::geterror();
         return false;
@@ -346,7 +356,7 @@ bool write_checked(const std::vector<OutputImage>& images, const std::string& fi
         return false;
     // Writers without a proxy, and those that pass it over (several subimages, deep pixels), have
     // opened the file by its name.
-    if (proxy.size() == 0 && !reads_back(target.path(), images.size(), error))
+    if (proxy.size() == 0 && !reads_back(target.path(), count_subimages(images), error))
         return false;
     return target.commit(error);
 }

@@ -15,6 +15,8 @@ namespace tonetool {
 struct OutputImage {
     const OIIO::ImageBuf* pixels = nullptr;
     OIIO::ImageSpec spec;
+    bool mip_level = false;    ///< the next smaller level of the image before it
+    std::string format_name{}; ///< instead of the one that the extension tells
 };
 
 /// Write images (one: a plain file; several: subimages) to `filename`.

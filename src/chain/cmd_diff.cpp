@@ -1,0 +1,161 @@
+// --diff and --pdiff, with oiiotool's report and exit status.
+#include <OpenImageIO/imagebufalgo.h>
+#include <OpenImageIO/strutil.h>
+#include <ostream>
+
+#include "chain/call.h"
+#include "chain/error.h"
+#include "chain/first_part.h"
+
+namespace tonetool::chain {
+
+namespace {
+
+using OIIO::Strutil::fmt::format;
+using Results = OIIO::ImageBufAlgo::CompareResults;
+
+enum class Verdict { Pass, Warning, Failure };
+
+std::string values_at(const OIIO::ImageBuf& image, const Results& found) {
+    Strings words;
+    for (int c = 0; c < image.nchannels(); ++c) {
+        words.push_back(format("{:g}", image.getchannel(found.maxx, found.maxy, found.maxz, c)));
+    }
+    return join(words, ", ");
+}
+
+void print_report(Session& session, const OIIO::ImageBuf& a, const OIIO::ImageBuf& b,
+                  const Results& found) {
+    const double pixels = double(std::max(a.spec().image_pixels(), b.spec().image_pixels()));
+    const DiffLimits& limits = session.diff;
+    const OIIO::ImageSpec& named = a.nchannels() > found.maxc ? a.spec() : b.spec();
+    session.out << format("  Mean error = {:g}\n  RMS error = {:g}\n  Peak SNR = {:g}\n",
+                          found.meanerror, found.rms_error, found.PSNR);
+    session.out << format("  Max error  = {:g}", found.maxerror);
+    if (found.maxerror != 0) {
+        std::string layer = a.spec().depth > 1 ? format("{}, ", found.maxz) : "";
+        session.out << format(" @ ({}, {}, {}{})  values are {} vs {}", found.maxx, found.maxy,
+                              layer, named.channel_name(found.maxc), values_at(a, found),
+                              values_at(b, found));
+    }
+    session.out << '\n';
+    const std::pair<OIIO::imagesize_t, float> counts[] = {{found.nwarn, limits.warn},
+                                                          {found.nfail, limits.fail}};
+    for (const auto& [count, limit] : counts) {
+        session.out << format("  {} pixels ({:.3g}%) over {:g}\n", count,
+                              100.0 * double(count) / pixels, limit);
+    }
+}
+
+Verdict judge(const Results& found, const DiffLimits& limits, double pixels) {
+    auto beyond = [&](OIIO::imagesize_t count, float percent, float hard) {
+        return double(count) > double(percent) / 100 * pixels || found.maxerror > double(hard);
+    };
+    if (beyond(found.nfail, limits.fail_percent, limits.hard_fail)) {
+        return Verdict::Failure;
+    }
+    return beyond(found.nwarn, limits.warn_percent, limits.hard_warn) ? Verdict::Warning
+                                                                      : Verdict::Pass;
+}
+
+Verdict compare_pixels(Session& session, const OIIO::ImageBuf& a, const OIIO::ImageBuf& b,
+                       bool perceptual) {
+    const double pixels = double(std::max(a.spec().image_pixels(), b.spec().image_pixels()));
+    Results found;
+    if (perceptual) {
+        found.nfail = OIIO::imagesize_t(OIIO::ImageBufAlgo::compare_Yee(a, b, found));
+        found.nwarn = 0;
+        if (found.nfail > 0) {
+            session.out << format("  {} pixels ({:.3g}%) failed the perceptual test\n", found.nfail,
+                                  100.0 * double(found.nfail) / pixels);
+        }
+        return judge(found, session.diff, pixels);
+    }
+    found = OIIO::ImageBufAlgo::compare(a, b, session.diff.fail, session.diff.warn);
+    if (a.has_error() || b.has_error()) {
+        throw CommandError(a.has_error() ? a.geterror() : b.geterror());
+    }
+    Verdict verdict = judge(found, session.diff, pixels);
+    if (verdict != Verdict::Pass || (session.verbose && found.maxerror > 0)) {
+        print_report(session, a, b, found);
+    }
+    return verdict;
+}
+
+Verdict compare_images(Session& session, const Image& a, const Image& b, bool perceptual) {
+    const size_t parts = std::min(a.part_count(), b.part_count());
+    if (session.all_subimages && a.part_count() != b.part_count()) {
+        session.print(format("Images had differing numbers of subimages ({} vs {})", a.part_count(),
+                             b.part_count()));
+        return Verdict::Failure;
+    }
+    if (!session.all_subimages && (a.part_count() > 1 || b.part_count() > 1)) {
+        session.print(format("Only compared the first subimage (of {} and {}, respectively)",
+                             a.part_count(), b.part_count()));
+        session.warnings += session.compat ? 0 : 1;
+    }
+    Verdict worst = Verdict::Pass;
+    for (size_t s = 0; s < (session.all_subimages ? parts : 1); ++s) {
+        Part &first = a.part(s), &second = b.part(s);
+        if (session.all_subimages && first.mip_levels() != second.mip_levels()) {
+            session.print("Files do not match in their number of MIPmap levels");
+            return Verdict::Failure;
+        }
+        for (int level = 0; level < (session.all_subimages ? first.mip_levels() : 1); ++level) {
+            worst = std::max(worst, compare_pixels(session, first.pixels(level),
+                                                   second.pixels(level), perceptual));
+        }
+    }
+    return worst;
+}
+
+void run_diff(Session& session, const Call& call) {
+    const bool perceptual = call.row().label() == "pdiff";
+    const Image &a = *call.images[0], &b = *call.images[1];
+    session.print(format("Computing {}diff of \"{}\" vs \"{}\"", perceptual ? "perceptual " : "",
+                         a.name(), b.name()));
+    Verdict verdict = compare_images(session, a, b, perceptual);
+    session.print(verdict == Verdict::Pass      ? "PASS"
+                  : verdict == Verdict::Warning ? "WARNING"
+                                                : "FAILURE");
+    session.warnings += verdict == Verdict::Warning ? 1 : 0;
+    session.differs |= verdict == Verdict::Failure;
+    session.produced |= !(perceptual && session.compat);
+    session.push(call.images[0]);
+    session.push(call.images[1]);
+}
+
+template <float DiffLimits::*Limit>
+Command limit_row(const char* name, const char* argument, const char* help) {
+    return setting(Group::Compare, {name}, {argument}, help,
+                   [](Session& session, const Call& call) {
+                       session.diff.*Limit = float(call.number_argument(0, {0, 1e30}));
+                   });
+}
+
+} // namespace
+
+std::vector<Command> diff_commands() {
+    std::vector<Command> rows = {
+        limit_row<&DiffLimits::fail>("fail", "THRESH", "--diff: a pixel fails above it (1e-6)"),
+        limit_row<&DiffLimits::fail_percent>("failpercent", "PCNT",
+                                             "--diff: so many failing pixels are allowed (0)"),
+        limit_row<&DiffLimits::hard_fail>("hardfail", "THRESH",
+                                          "--diff: no pixel may exceed it (infinity)"),
+        limit_row<&DiffLimits::warn>("warn", "THRESH", "--diff: a pixel warns above it (1e-6)"),
+        limit_row<&DiffLimits::warn_percent>("warnpercent", "PCNT",
+                                             "--diff: so many warning pixels are allowed (0)"),
+        limit_row<&DiffLimits::hard_warn>("hardwarn", "THRESH",
+                                          "--diff: a pixel above it is a warning (infinity)")};
+    for (const char* name : {"diff", "pdiff"}) {
+        const bool perceptual = name[0] == 'p';
+        rows.push_back({{{name}, {}, 2, 2, Group::Compare},
+                        {},
+                        perceptual ? "Report the perceptual difference of two images (Yee)"
+                                   : "Report the difference of two images; status 1 if it fails",
+                        run_diff});
+    }
+    return rows;
+}
+
+} // namespace tonetool::chain

@@ -1,0 +1,17 @@
+// "{TOP.width/2}": values of images, variables and the frame, put into words.
+#pragma once
+
+#include <string>
+
+#include "chain/session.h"
+
+namespace tonetool::chain {
+
+/// The word with each {...} replaced by its value. What is not understood is a CommandError; with
+/// --compat it is reported and the text stays.
+std::string with_values(Session& session, const std::string& word);
+
+/// What --if and --while take for true: neither empty nor 0 nor "false".
+bool is_true(const std::string& value);
+
+} // namespace tonetool::chain

@@ -1,0 +1,164 @@
+#include "chain/frames.h"
+
+#include <OpenImageIO/strutil.h>
+#include <algorithm>
+#include <iostream>
+#include <unistd.h>
+
+#include "chain/call.h"
+#include "chain/error.h"
+#include "sequence/file_sequence.h"
+
+namespace tonetool::chain {
+
+namespace {
+
+using sequence::Files;
+
+// Words with wildcards, by their place on the command line.
+struct Pattern {
+    size_t at;
+    bool is_output;
+};
+
+struct Scan {
+    FramePlan plan;
+    sequence::PatternOptions options;
+    std::vector<Pattern> patterns;
+};
+
+bool is_output(const std::string& name) {
+    static const Strings names = {"o", "otex", "oenv", "obump"};
+    return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+// The settings that hold for the whole command line; true if `name` was one with an argument.
+bool take_setting(Scan& scan, const std::string& name, const std::string& argument) {
+    if (name == "frames") {
+        scan.options.frames = argument;
+    } else if (name == "framepadding") {
+        scan.options.padding = checked_integer("DIGITS", argument, {1, 9});
+    } else if (name == "views") {
+        scan.options.views = split(argument, ',');
+    } else if (name == "parallel-frames") {
+        scan.plan.parallel = checked_integer("N", argument, {1, 1024});
+    } else {
+        return false;
+    }
+    return true;
+}
+
+Scan scan_words(const Strings& words) {
+    Scan scan;
+    scan.plan.compat = is_compat(words);
+    bool wildcards = true, output = false, all = false;
+    for (size_t i = 0; i < words.size(); ++i) {
+        const std::string& word = words[i];
+        std::string name =
+            word.size() > 1 && word[0] == '-' ? word.substr(word[1] == '-' ? 2 : 1) : std::string();
+        wildcards = name == "wildcardon" || (wildcards && name != "wildcardoff");
+        scan.plan.skip_bad |= name == "skip-bad-frames";
+        scan.plan.progress = name == "progress=json" ? "json" : scan.plan.progress;
+        if (i + 1 < words.size() && take_setting(scan, name, words[i + 1])) {
+            ++i;
+            continue;
+        }
+        if (wildcards && !all && sequence::is_pattern(word)) {
+            scan.patterns.push_back({i, output});
+        }
+        output = is_output(name.substr(0, name.find(':')));
+        all = output && name.find(":all=") != std::string::npos;
+    }
+    return scan;
+}
+
+// A pattern that names no file may be a text or an output that takes its numbers from the first.
+Files listing_of(const Scan& scan, const Pattern& pattern, const std::string& word,
+                 const Files& first) {
+    bool inherits = &pattern != scan.patterns.data();
+    Files listing;
+    if (!(inherits && pattern.is_output && scan.options.frames.empty())) {
+        listing = sequence::list_files(word, scan.options);
+    }
+    bool unmatched = listing.names.empty() && (pattern.is_output || !scan.plan.compat);
+    if (inherits && unmatched) {
+        listing.items = first.items;
+        listing.names = sequence::file_names(word, scan.options, first.items);
+    }
+    return listing;
+}
+
+void check_length(const Strings& words, const Scan& scan, const Pattern& pattern, size_t frames,
+                  size_t expected) {
+    if (frames != expected) {
+        throw CommandError(
+            "Not all sequence specifications matched: " + words[scan.patterns.front().at] + " (" +
+            std::to_string(expected) + " frames) vs. " + words[pattern.at] + " (" +
+            std::to_string(frames) + " frames)");
+    }
+}
+
+} // namespace
+
+bool is_compat(const Strings& words) {
+    return std::find(words.begin(), words.end(), "--compat") != words.end();
+}
+
+FramePlan plan_frames(const Strings& words) {
+    Scan scan = scan_words(words);
+    std::vector<FrameRun>& runs = scan.plan.runs;
+    Files first;
+    for (int frame : scan.options.frames.empty() || !scan.patterns.empty()
+                         ? std::vector<int>{}
+                         : sequence::parse_frames(scan.options.frames)) {
+        first.items.push_back({frame, ""});
+    }
+    std::vector<Files> listings;
+    for (const Pattern& pattern : scan.patterns) {
+        listings.push_back(listing_of(scan, pattern, words[pattern.at], first));
+        first = listings.front();
+        if (first.names.empty() && !scan.plan.compat) {
+            throw CommandError("no file matches \"" + words[pattern.at] +
+                               "\" (a word that is no pattern goes after --wildcardoff)");
+        }
+        check_length(words, scan, pattern, listings.back().names.size(), first.names.size());
+    }
+    scan.plan.loops = !scan.patterns.empty() || !first.items.empty();
+    runs.resize(scan.plan.loops ? first.items.size() : 1);
+    for (size_t i = 0; i < runs.size(); ++i) {
+        runs[i].words = words;
+        for (size_t p = 0; p < listings.size(); ++p) {
+            runs[i].words[scan.patterns[p].at] = listings[p].names[i];
+        }
+        if (scan.plan.loops) {
+            runs[i].frame = {first.items[i].frame, scan.options.padding, first.items[i].view, true};
+        }
+    }
+    return scan.plan;
+}
+
+Progress::Progress(std::ostream& stream, const FramePlan& plan)
+    : m_stream(stream),
+      m_json(plan.progress == "json"),
+      m_terminal(!m_json && plan.loops && &stream == &std::cerr && isatty(STDERR_FILENO) == 1),
+      m_total(plan.runs.size()) {}
+
+void Progress::done(const FrameRun& run, int status) {
+    ++m_done;
+    double elapsed = m_time();
+    double rate = elapsed > 0 ? double(m_done) / elapsed : 0;
+    double left = rate > 0 ? double(m_total - m_done) / rate : 0;
+    if (m_json) {
+        m_stream << OIIO::Strutil::fmt::format(
+                        "{{\"frame\": {}, \"status\": {}, \"done\": {}, \"total\": {}, "
+                        "\"frames_per_second\": {:.4g}, \"seconds_left\": {:.1f}}}",
+                        run.frame.number, status, m_done, m_total, rate, left)
+                 << std::endl;
+    } else if (m_terminal) {
+        m_stream << OIIO::Strutil::fmt::format("\r{} of {} frames, {:.3g} a second, {:.0f} s left ",
+                                               m_done, m_total, rate, left)
+                 << (m_done == m_total ? "\n" : "") << std::flush;
+    }
+}
+
+} // namespace tonetool::chain

@@ -1,0 +1,47 @@
+// The frame loop: a command line with wildcards is run once for each frame.
+#pragma once
+
+#include <OpenImageIO/timer.h>
+#include <string>
+#include <vector>
+
+#include "chain/session.h"
+#include "chain/text.h"
+
+namespace tonetool::chain {
+
+/// One run of the command line, its wildcards replaced.
+struct FrameRun {
+    Strings words;
+    Frame frame;
+};
+
+/// What the whole command line says about its frames.
+struct FramePlan {
+    std::vector<FrameRun> runs; ///< one, where there is nothing to loop over
+    bool loops = false;
+    bool compat = false, skip_bad = false;
+    int parallel = 1;
+    std::string progress; ///< "json", or "" for a terminal
+};
+
+/// --compat holds for the whole command line.
+bool is_compat(const Strings& words);
+
+/// A CommandError where sequences do not fit together or match no file.
+FramePlan plan_frames(const Strings& words);
+
+/// Frames done, rate and time left: a line on a terminal, or a line of JSON for each frame.
+class Progress {
+public:
+    Progress(std::ostream& stream, const FramePlan& plan);
+    void done(const FrameRun& run, int status);
+
+private:
+    std::ostream& m_stream;
+    bool m_json, m_terminal;
+    size_t m_total, m_done = 0;
+    OIIO::Timer m_time;
+};
+
+} // namespace tonetool::chain

@@ -1,0 +1,236 @@
+#include "chain/ops.h"
+
+#include <OpenImageIO/strutil.h>
+#include <algorithm>
+#include <cstdio>
+#include <iterator>
+
+#include "chain/first_part.h"
+
+namespace tonetool::chain {
+
+namespace {
+
+constexpr Range any_number_at_all{-3.4e38, 3.4e38};
+constexpr Range any_integer{-2147483648.0, 2147483647.0};
+
+bool listed(const Strings& list, const Image& image, size_t subimage) {
+    const std::string name =
+        image.part(subimage).header().get_string_attribute("oiio:subimagename");
+    return std::any_of(list.begin(), list.end(), [&](const std::string& word) {
+        return parse_integer(word) ? size_t(*parse_integer(word)) == subimage : word == name;
+    });
+}
+
+OIIO::ImageBuf made(Session& session, const Call& call, const Kernel& kernel, int subimage,
+                    int level, bool& changed) {
+    OIIO::ImageBuf result;
+    Op op{session, call, result, {}, subimage};
+    for (const ImagePtr& image : call.images) {
+        Part& part = image->part(std::min(size_t(subimage), image->part_count() - 1));
+        op.src.push_back(&part.pixels(std::min(level, part.mip_levels() - 1)));
+    }
+    bool done = kernel(op);
+    if (!done || result.has_error()) {
+        throw CommandError(result.has_error() ? result.geterror() : "failed");
+    }
+    if (op.unchanged) {
+        result.copy(op.a());
+    }
+    for (size_t i = 1; i < op.src.size() && session.metamerge; ++i) {
+        result.specmod().extra_attribs.merge(op.src[i]->spec().extra_attribs);
+    }
+    changed |= !op.unchanged;
+    return result;
+}
+
+Shape shape_of(const std::string& usage, int pops, int pushes, Group group) {
+    Strings words = split(usage, ' ');
+    return {{words.front()}, {words.begin() + 1, words.end()}, pops, pushes, group};
+}
+
+std::vector<Modifier> modifiers_of(const std::string& lines, bool of_subimages) {
+    std::vector<Modifier> all;
+    for (const std::string& line : OIIO::Strutil::splits(lines, "\n")) {
+        size_t equals = line.find('='), colon = line.find(": ");
+        if (!line.empty()) {
+            all.push_back({line.substr(0, equals), line.substr(equals + 1, colon - equals - 1),
+                           line.substr(colon + 2)});
+        }
+    }
+    if (of_subimages) {
+        all.push_back({"subimages", "N,NAME,...", "of these subimages (-...: of all but these)"});
+        all.push_back({"allsubimages", "0|1", "of all subimages (as -a says)"});
+    }
+    return all;
+}
+
+} // namespace
+
+float Op::number(size_t argument) const {
+    return parsed(call.row().args.at(argument), call.argument(argument));
+}
+
+float Op::number(const std::string& key, float otherwise) const {
+    auto value = call.text(key);
+    return value ? parsed(key, *value) : otherwise;
+}
+
+float Op::parsed(const std::string& what, const std::string& value) const {
+    return session.compat ? OIIO::Strutil::stof(value)
+                          : float(checked_number(what, value, any_number_at_all));
+}
+
+int Op::integer(size_t argument) const {
+    const std::string& value = call.argument(argument);
+    return session.compat ? OIIO::Strutil::stoi(value)
+                          : checked_integer(call.row().args.at(argument), value, any_integer);
+}
+
+int Op::integer(const std::string& key, int otherwise) const {
+    auto value = call.text(key);
+    if (!value) {
+        return otherwise;
+    }
+    return session.compat ? OIIO::Strutil::stoi(*value) : checked_integer(key, *value, any_integer);
+}
+
+bool Op::flag(const std::string& key, bool otherwise) const {
+    return session.compat ? integer(key, int(otherwise)) != 0 : call.flag(key, otherwise);
+}
+
+std::string Op::text(const std::string& key, const std::string& otherwise) const {
+    return call.text(key).value_or(otherwise);
+}
+
+Floats Op::list(const std::string& what, const std::string& words) const {
+    Floats values;
+    for (const std::string& word : split(words, ',')) {
+        values.push_back(parsed(what, OIIO::Strutil::strip(word)));
+    }
+    return values;
+}
+
+Floats Op::per_channel(const std::string& what, const std::string& words, float rest) const {
+    Floats values = list(what, words);
+    const size_t channels = size_t(a().nchannels());
+    if (values.size() > channels && values.size() > 1 && !session.compat) {
+        throw CommandError(what + " \"" + words + "\" has " + std::to_string(values.size()) +
+                           " numbers (valid: one, or up to one for each of the " +
+                           std::to_string(channels) + " channels)");
+    }
+    values.resize(channels, values.size() == 1 ? values.front() : rest);
+    return values;
+}
+
+Floats Op::values(const std::string& key, float rest) const {
+    auto words = call.text(key);
+    return words ? per_channel(key, *words, rest) : Floats(size_t(a().nchannels()), rest);
+}
+
+Chosen chosen_subimages(const Session& session, const Call& call, const Image& image) {
+    const size_t count = image.part_count();
+    auto subimages = call.text("subimages");
+    if (!subimages) {
+        bool all = call.flag("allsubimages", session.all_subimages);
+        return {all ? count : 1, std::vector<bool>(all ? count : 1, true)};
+    }
+    bool except = OIIO::Strutil::starts_with(*subimages, "-");
+    Strings list = split(subimages->substr(except ? 1 : 0), ',');
+    Chosen chosen{count, {}};
+    for (size_t s = 0; s < count; ++s) {
+        chosen.active.push_back(listed(list, image, s) != except);
+    }
+    if (!session.compat && std::count(chosen.active.begin(), chosen.active.end(), true) == 0) {
+        throw CommandError("subimages \"" + *subimages + "\" chooses none of the " +
+                           std::to_string(count) + " subimages of " + image.name());
+    }
+    return chosen;
+}
+
+void run_kernel(Session& session, const Call& call, const Kernel& kernel, Scope scope) {
+    const Image& first = *call.images.front();
+    const Chosen chosen = chosen_subimages(session, call, first);
+    std::vector<std::vector<OIIO::ImageBuf>> subimages(chosen.count);
+    bool changed = false;
+    for (size_t s = 0; s < chosen.count; ++s) {
+        Part& part = first.part(s);
+        const bool all_levels = scope == Scope::Levels && session.all_subimages;
+        for (int level = 0; level < (all_levels ? part.mip_levels() : 1); ++level) {
+            subimages[s].push_back(chosen.active[s]
+                                       ? made(session, call, kernel, int(s), level, changed)
+                                       : part.pixels(level).copy(OIIO::TypeUnknown));
+        }
+    }
+    if (!changed) {
+        session.push(call.images.front());
+        return;
+    }
+    if (chosen.count == 1 && !session.compat) {
+        warn_of_other_parts(session, call, first);
+    }
+    session.push(Image::derived(first, std::move(subimages)));
+}
+
+ImagePtr with_headers(const Image& image, const Chosen& chosen,
+                      const std::function<void(OIIO::ImageSpec&)>& edit) {
+    std::vector<PartPtr> parts = image.parts();
+    for (size_t s = 0; s < chosen.count; ++s) {
+        if (chosen.active[s]) {
+            parts[s] = Part::with_headers(parts[s], edit);
+        }
+    }
+    return std::make_shared<Image>(image.name(), std::move(parts));
+}
+
+std::vector<Command> op_rows(Group group, const std::vector<OpRow>& rows) {
+    std::vector<Command> all;
+    for (const OpRow& row : rows) {
+        Run run = [kernel = row.kernel, scope = row.scope](Session& session, const Call& call) {
+            run_kernel(session, call, kernel, scope);
+        };
+        all.push_back({shape_of(row.usage, row.images, 1, group), modifiers_of(row.modifiers, true),
+                       row.help, run});
+    }
+    return all;
+}
+
+std::vector<Command> header_rows(Group group, const std::vector<HeaderRow>& rows) {
+    std::vector<Command> all;
+    for (const HeaderRow& row : rows) {
+        Run run = [edit = row.edit](Session& session, const Call& call) {
+            const Image& image = *call.images.front();
+            session.push(with_headers(image, chosen_subimages(session, call, image),
+                                      [&](OIIO::ImageSpec& spec) { edit(spec, call, session); }));
+        };
+        all.push_back(
+            {shape_of(row.usage, 1, 1, group), modifiers_of(row.modifiers, true), row.help, run});
+    }
+    return all;
+}
+
+Command free_row(Group group, const std::string& usage, int pops, int pushes,
+                 const std::string& help, Run run, const std::string& modifiers) {
+    return {shape_of(usage, pops, pushes, group), modifiers_of(modifiers, false), help,
+            std::move(run)};
+}
+
+std::vector<ImagePtr> take_images(Session& session, size_t count) {
+    count = count == 0 ? std::max(session.stack.size(), size_t(1)) : count;
+    if (session.stack.size() < count) {
+        throw CommandError("needs " + std::to_string(count) + " image(s), the stack has " +
+                           std::to_string(session.stack.size()));
+    }
+    std::vector<ImagePtr> images(session.stack.end() - std::ptrdiff_t(count), session.stack.end());
+    session.stack.resize(session.stack.size() - count);
+    for (const ImagePtr& image : images) {
+        image->used = true;
+    }
+    return images;
+}
+
+void append(std::vector<Command>& all, std::vector<Command> more) {
+    std::move(more.begin(), more.end(), std::back_inserter(all));
+}
+
+} // namespace tonetool::chain

@@ -1,0 +1,251 @@
+#include "chain/runner.h"
+
+#include <OpenImageIO/imageio.h>
+#include <OpenImageIO/strutil.h>
+#include <OpenImageIO/sysutil.h>
+#include <new>
+#include <ostream>
+
+#include "chain/error.h"
+#include "chain/expression.h"
+#include "chain/io.h"
+
+namespace tonetool::chain {
+
+namespace {
+
+void execute(Session& session, Call& call) {
+    std::vector<ImagePtr>& stack = session.stack;
+    auto first = stack.end() - call.pops();
+    call.images.assign(first, stack.end());
+    stack.erase(first, stack.end());
+    for (const ImagePtr& image : call.images) {
+        image->used = true;
+    }
+    size_t expected = stack.size() + static_cast<size_t>(call.pushes());
+    call.row().run(session, call);
+    if (call.pushes() != any_number && stack.size() != expected) {
+        throw CommandError("internal error: wrong number of images on the stack");
+    }
+}
+
+} // namespace
+
+void run_command(Session& session, const std::string& word, Strings arguments) {
+    Token token = parse_token("--" + word, session.compat);
+    const Command* row = find_command(token.name);
+    if (!row) {
+        throw CommandError("internal error: no command " + word);
+    }
+    Call call(*row, std::move(token), std::move(arguments), session.compat);
+    execute(session, call);
+}
+
+void Runner::run_all() {
+    Flow& flow = m_session.flow;
+    while (flow.next < m_words.size() && !(m_failed && m_session.error_exit)) {
+        m_where.clear();
+        guarded(&Runner::run_word);
+        m_failed = m_session.errors > 0;
+    }
+    m_where.clear();
+    if (!m_failed) {
+        guarded(&Runner::finish);
+    }
+    if (m_session.runstats) {
+        print_statistics();
+    }
+}
+
+void Runner::guarded(void (Runner::*step)()) {
+    try {
+        (this->*step)();
+    } catch (const std::bad_alloc&) {
+        m_session.error(m_where, "not enough memory");
+    } catch (const std::exception& problem) {
+        m_session.error(m_where, problem.what());
+    } catch (...) {
+        m_session.error(m_where, "unknown error");
+    }
+}
+
+void Runner::run_word() {
+    Flow& flow = m_session.flow;
+    const std::string raw = m_words[flow.next];
+    flow.command = flow.next++;
+    m_where = raw.substr(0, raw.find(':'));
+    const std::string word = flow.running() ? with_values(m_session, raw) : raw;
+    Token token = parse_token(word, m_session.compat);
+    if (!token.is_command) {
+        run_file(word);
+        return;
+    }
+    const Command& row = find(token);
+    m_where = m_session.compat ? word : row.label();
+    Call checked(row, token, {}, m_session.compat);
+    Strings arguments = take_arguments(row, token);
+    if (flow.running() || row.control) {
+        run_or_postpone(Call(row, std::move(token), std::move(arguments), m_session.compat));
+    }
+    run_postponed();
+}
+
+void Runner::run_file(const std::string& word) {
+    if (m_session.flow.running()) {
+        m_where = "read";
+        OIIO::Timer time;
+        push_file_or_label(m_session, word);
+        m_session.seconds["-i"] += time();
+        run_postponed();
+    }
+}
+
+const Command& Runner::find(const Token& token) {
+    const Command* row = find_command(token.name);
+    if (!row) {
+        m_where.clear();
+        throw CommandError("unknown command \"" + token.text + "\", " +
+                           suggest_command(token.name));
+    }
+    return *row;
+}
+
+// An argument that is itself a command was forgotten, not meant.
+Strings Runner::take_arguments(const Command& row, const Token& token) {
+    Strings arguments = token.value;
+    size_t& next = m_session.flow.next;
+    for (size_t i = arguments.size(); i < row.args.size(); ++i) {
+        const std::string& name = row.args[i];
+        bool optional = name.front() == '[';
+        if (name.front() == '=' || (optional && next >= m_words.size())) {
+            break;
+        }
+        if (next >= m_words.size()) {
+            throw CommandError("missing argument " + name);
+        }
+        const std::string& word = m_words[next];
+        bool dashed = word.size() > 1 && word[0] == '-' && !parse_number(word);
+        if (!optional && dashed && !m_session.compat) {
+            std::string bare = word.substr(word[1] == '-' ? 2 : 1);
+            if (find_command(bare.substr(0, bare.find(':')))) {
+                throw CommandError("missing argument " + name + ", \"" + word +
+                                   "\" is a command (a file of that name is \"./" + word + "\")");
+            }
+        }
+        arguments.push_back(m_session.flow.running() ? with_values(m_session, word) : word);
+        ++next;
+    }
+    return arguments;
+}
+
+// A waiting operator's image must not be changed under it.
+void Runner::refuse_to_overtake(const Call& call) const {
+    if (call.pops() > 0 && !m_postponed.empty() && !m_session.compat) {
+        throw CommandError("--" + m_session.waiting +
+                           " still waits for an image, so this would not work on its result");
+    }
+}
+
+void Runner::run_or_postpone(Call call) {
+    if (enough_images(call)) {
+        refuse_to_overtake(call);
+        run_call(call);
+        return;
+    }
+    if (!call.row().postponable) {
+        throw CommandError("needs " + std::to_string(call.pops()) + " image(s), the stack has " +
+                           std::to_string(m_session.stack.size()));
+    }
+    m_postponed.push_back(std::move(call));
+    m_session.waiting = m_postponed.front().row().label();
+}
+
+void Runner::run_call(Call& call) {
+    m_where = m_session.compat ? call.text() : call.row().label();
+    const bool told = m_session.debug && call.pops() > 0;
+    if (told) {
+        m_session.print("Performing '-" + call.row().names.front() +
+                        "' with args:  " + call.quoted_words());
+    }
+    OIIO::Timer time;
+    execute(m_session, call);
+    m_session.seconds["-" + call.row().names.front()] += time();
+    if (told) {
+        m_session.print(OIIO::Strutil::fmt::format(
+            "    -{} took {:.2f}s  (total time {:.2f}s, mem {})", call.row().names.front(), time(),
+            m_time(), OIIO::Strutil::memformat(OIIO::Sysutil::memory_used())));
+    }
+}
+
+void Runner::print_statistics() {
+    std::string text = OIIO::Strutil::fmt::format(
+        "\nThreads: {}\ntonetool runtime statistics:\n  Total time: {:.2f}s\n",
+        OIIO::get_int_attribute("threads"), m_time());
+    double rest = m_time();
+    for (const auto& [name, seconds] : m_session.seconds) {
+        text += OIIO::Strutil::fmt::format("      {:<12} : {:5.2f}\n", name, seconds);
+        rest -= seconds;
+    }
+    text += OIIO::Strutil::fmt::format("      {:<12} : {:5.2f}\n", "unaccounted", rest);
+    m_session.out << text
+                  << "  Peak memory:    " << OIIO::Strutil::memformat(OIIO::Sysutil::memory_used())
+                  << "\n";
+}
+
+void Runner::run_postponed() {
+    while (!m_postponed.empty() && enough_images(m_postponed.front())) {
+        Call call = std::move(m_postponed.front());
+        m_postponed.pop_front();
+        m_session.waiting = m_postponed.empty() ? "" : m_postponed.front().row().label();
+        run_call(call);
+    }
+}
+
+// "ref a b --hdrflip" compares a with b: the forgotten tests=2 must not go unnoticed.
+void Runner::warn_of_unused() {
+    const bool listing = m_session.listing() || m_session.produced_by_name;
+    for (const ImagePtr& image : m_session.stack) {
+        if (!listing && !image->used && image->part().from_file()) {
+            m_session.warning("", "\"" + image->name() + "\" was read, but no command used it");
+        }
+    }
+}
+
+void Runner::finish() {
+    if (m_session.compat) {
+        finish_leniently();
+        return;
+    }
+    if (!m_postponed.empty()) {
+        const Call& call = m_postponed.front();
+        m_where = call.row().label();
+        throw CommandError("never executed: needs " + std::to_string(call.pops()) +
+                           " image(s), the stack has " + std::to_string(m_session.stack.size()));
+    }
+    if (!m_session.flow.blocks.empty()) {
+        throw CommandError("--" + m_session.flow.blocks.back().kind + " without its --end" +
+                           m_session.flow.blocks.back().kind);
+    }
+    check_outputs(m_session);
+    warn_of_unused();
+    if (!m_session.produced) {
+        throw CommandError("produced no output. Did you forget -o?");
+    }
+}
+
+void Runner::finish_leniently() {
+    if (!m_postponed.empty()) {
+        m_session.warning(m_postponed.front().text(), "pending command never executed");
+    }
+    if (!m_session.flow.blocks.empty()) {
+        const std::string& kind = m_session.flow.blocks.back().kind;
+        m_session.warning(kind, "unterminated " + kind);
+    }
+    if (!m_session.produced && !m_session.listing() && !m_session.dry_run) {
+        bool made = !m_session.stack.empty() && !m_session.stack.back()->part().from_file();
+        m_session.warning("", made ? "modified images without outputting them. Did you forget -o?"
+                                   : no_output);
+    }
+}
+
+} // namespace tonetool::chain

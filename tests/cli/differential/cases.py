@@ -1,0 +1,8 @@
+"""All differential cases."""
+
+import importlib
+
+FAMILIES = ("arithmetic", "channels", "color", "drawing", "errors", "files", "geometry",
+            "language", "printing")
+CASES = [case for family in FAMILIES
+         for case in importlib.import_module(f"cases_{family}").CASES]

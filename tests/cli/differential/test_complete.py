@@ -1,0 +1,78 @@
+"""The registry against the tables: no command without help, a differential case, an error case."""
+
+import json
+import os
+import subprocess
+from collections import Counter
+
+import pytest
+from cases import CASES
+
+# Only tonetool has these; tests/cli/test_*.py run them.
+OWN_COMMANDS = set("""hdrflip ldrflip flipdiff exposure calibrate tonemap cgtmo lightindex errormap
+    tmqi luminancestats qc exportlut report json csv junit compat progress parallel-frames memory
+    warnings-exit""".split())
+
+OWN_MODIFIERS = set()
+OWN_TEXT = {"help"}     # each program's help is its own
+
+
+def stock_help(program):
+    return subprocess.run([program, "--help"], capture_output=True, text=True, check=True).stdout
+
+
+def stock_commands(program):
+    return {line.split()[0].lstrip("-") for line in stock_help(program).splitlines()
+            if line.startswith("    -")}
+
+
+@pytest.fixture(scope="module")
+def registry():
+    done = subprocess.run([os.environ["TONETOOL"], "--help=json"], capture_output=True, text=True,
+                          check=True)
+    return json.loads(done.stdout)
+
+
+def lacking(registry, has):
+    return [command["names"][0] for command in registry
+            if not set(command["names"]) & (OWN_COMMANDS | OWN_TEXT) and not has(command)]
+
+
+def test_every_command_of_oiiotool_is_there(registry, stock_program):
+    names = {name for command in registry for name in command["names"]}
+    assert not stock_commands(stock_program) - names
+
+
+def test_own_commands_are_not_oiiotools(registry, stock_program):
+    assert not OWN_COMMANDS & stock_commands(stock_program)
+    assert not OWN_COMMANDS - {name for command in registry for name in command["names"]}
+
+
+def test_every_command_has_help(registry):
+    assert not [command["names"] for command in registry if not command["help"].strip()]
+    assert not [(command["names"][0], modifier["key"]) for command in registry
+                for modifier in command["modifiers"] if not modifier["help"].strip()]
+
+
+def test_every_command_has_two_differential_cases(registry):
+    used = Counter(name for case in CASES for name in case.commands())
+    assert not lacking(registry, lambda row: sum(used[name] for name in row["names"]) >= 2)
+
+
+def test_every_command_has_an_error_case(registry):
+    used = {name for case in CASES if case.status for name in case.commands()}
+    assert not lacking(registry, lambda row: used & set(row["names"]))
+
+
+def test_every_modifier_has_a_differential_case(registry):
+    used = {one for case in CASES for one in case.modifiers()} | OWN_MODIFIERS
+    unused = {(row["names"][0], modifier["key"]) for row in registry
+              if not set(row["names"]) & OWN_COMMANDS for modifier in row["modifiers"]
+              if not used & {(name, modifier["key"]) for name in row["names"]}}
+    assert not unused
+
+
+def test_every_command_of_oiiotool_has_a_case(stock_program):
+    """Needs no registry: what oiiotool's own help lists is what the tables run."""
+    used = Counter(name for case in CASES for name in case.commands())
+    assert not {name for name in stock_commands(stock_program) - OWN_TEXT if used[name] < 2}
