@@ -57,6 +57,7 @@ private:
         Session session(out, err, full_command_line(run.words, m_plan.compat));
         session.compat = m_plan.compat;
         session.frame = run.frame;
+        session.plan = &m_plan;
         session.parallel = m_plan.parallel;
         Runner(session, run.words).run_all();
         return session.exit_status();

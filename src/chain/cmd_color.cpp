@@ -1,4 +1,7 @@
 // Commands that measure luminance, change exposure, and show values as colours.
+#include <OpenImageIO/imagebufalgo.h>
+#include <OpenImageIO/strutil.h>
+
 #include "chain/colormap.h"
 #include "chain/error.h"
 #include "chain/first_part.h"
@@ -59,8 +62,29 @@ void run_luminance(Session& session, const Call& call) {
     session.push(call.images[0]);
 }
 
+// oiiotool's: of the first channel, as linear light.
+OIIO::ImageBuf linear_colors(const OIIO::ImageBuf& pixels, const std::string& map) {
+    std::vector<float> knots;
+    const bool list = map.find(',') != std::string::npos;
+    for (const std::string& word : list ? split(map, ',') : Strings{}) {
+        knots.push_back(OIIO::Strutil::stof(word));
+    }
+    OIIO::ImageBuf result =
+        list ? OIIO::ImageBufAlgo::color_map(pixels, 0, int(knots.size()) / 3, 3, knots)
+             : OIIO::ImageBufAlgo::color_map(pixels, 0, map);
+    if (result.has_error()) {
+        throw CommandError(result.geterror());
+    }
+    return result;
+}
+
 void run_colormap(Session& session, const Call& call) {
     const Image& image = *call.images[0];
+    if (session.compat) {
+        OIIO::ImageBuf result = linear_colors(flat_pixels(image), call.argument(0));
+        session.push(Image::derived(image, std::move(result)));
+        return;
+    }
     check_colormap(call.argument(0));
     warn_of_other_parts(session, call, image);
     session.push(Image::derived(image, colored(flat_pixels(image), call.argument(0))));

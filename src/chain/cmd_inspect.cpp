@@ -1,6 +1,7 @@
 // Commands that print what images are, and other texts.
 #include <OpenImageIO/imageio.h>
 #include <OpenImageIO/strutil.h>
+#include <algorithm>
 #include <ostream>
 
 #include "chain/call.h"
@@ -67,8 +68,9 @@ void run_echo(Session& session, const Call& call) {
 
 void run_list_formats(Session& session, const Call&) {
     session.print("All OIIO supported formats and their extensions:");
-    for (const std::string& entry :
-         OIIO::Strutil::splits(OIIO::get_string_attribute("extension_list"), ";")) {
+    Strings entries = OIIO::Strutil::splits(OIIO::get_string_attribute("extension_list"), ";");
+    std::sort(entries.begin(), entries.end());
+    for (const std::string& entry : entries) {
         const std::vector<std::string> words = OIIO::Strutil::splits(entry, ":");
         session.print("    " + words[0] + " : " +
                       OIIO::Strutil::join(OIIO::Strutil::splits(words.back(), ","), ", "));

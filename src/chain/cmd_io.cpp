@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "chain/error.h"
+#include "chain/frames.h"
 #include "chain/inspect.h"
 #include "chain/io.h"
 #include "chain/ops.h"
@@ -17,28 +18,37 @@ namespace tonetool::chain {
 
 namespace {
 
-// The format that outputs of computed images get: the widest of the first image's subimages.
-void note_first_format(Session& session, const Image& image) {
-    if (session.first_format) {
-        return;
-    }
-    session.first_format = image.part().format();
+// What is computed is written in the widest type of the image that was read last.
+void note_format(Session& session, const Image& image) {
+    DataFormat format{image.part().format()->type, {}, image.part().format()->bits};
     for (const PartPtr& part : image.parts()) {
-        OIIO::TypeDesc::BASETYPE widest =
-            OIIO::TypeDesc::basetype_merge(session.first_format->type, part->format()->type);
-        session.first_format->type = OIIO::TypeDesc(widest);
-        const OIIO::ImageSpec& spec = part->header();
-        for (int c = 0; c < spec.nchannels; ++c) {
-            session.first_types.emplace(spec.channel_name(c), spec.channelformat(c));
+        format.type =
+            OIIO::TypeDesc(OIIO::TypeDesc::basetype_merge(format.type, part->format()->type));
+    }
+    session.read_format = format;
+    if (!session.first_header) {
+        session.first_header = image.part().header();
+    }
+}
+
+// Of the same file in another frame, or of the first image that was read.
+OIIO::ImageSpec missing_header(const Session& session) {
+    const OIIO::ImageSpec usual(1920, 1080, 4, OIIO::TypeFloat);
+    if (session.compat || session.first_header) {
+        return session.first_header.value_or(usual);
+    }
+    for (const FrameRun& run : session.plan ? session.plan->runs : std::vector<FrameRun>{}) {
+        const std::string& name = run.words.at(session.flow.next - 1);
+        if (OIIO::Filesystem::is_regular(name)) {
+            return Image::open(name, session.input)->part().header();
         }
     }
-    session.first_header = image.part().header();
+    return usual;
 }
 
 // What --missingfile puts in the place of a file that is not there.
 ImagePtr substitute(Session& session, const std::string& filename) {
-    OIIO::ImageSpec spec =
-        session.first_header.value_or(OIIO::ImageSpec(1920, 1080, 4, OIIO::TypeFloat));
+    OIIO::ImageSpec spec = missing_header(session);
     spec.set_format(OIIO::TypeFloat);
     spec.extra_attribs.clear();
     OIIO::ImageBuf pixels(spec);
@@ -91,7 +101,7 @@ void push_file(Session& session, const std::string& filename) {
     ImagePtr image = open_or_substitute(session, filename);
     bool real = image->part().from_file();
     if (real) {
-        note_first_format(session, *image);
+        note_format(session, *image);
         session.newest_input =
             std::max(session.newest_input, OIIO::Filesystem::last_write_time(filename));
     }
@@ -237,8 +247,7 @@ void convert_output(Session& session, const Call& call, const std::string& filen
 
 bool keeps_old(Session& session, const std::string& filename) {
     if (session.no_clobber && OIIO::Filesystem::exists(filename)) {
-        session.warning(session.compat ? "-o" : "-o",
-                        filename + " already exists, not overwriting.");
+        session.warning("-o", filename + " already exists, not overwriting.");
         return true;
     }
     return session.update && OIIO::Filesystem::exists(filename) &&
@@ -277,6 +286,10 @@ void run_output(Session& session, const Call& call) {
         session.warning(call.text(),
                         call.argument(0) + " did not have any current image to output.");
         return;
+    }
+    if (!session.waiting.empty() && !session.compat) {
+        throw CommandError("--" + session.waiting +
+                           " still waits for an image, so this would not work on its result");
     }
     session.stack.back()->used = true;
     auto first = call.integer("all", {0, 1e9});

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <stdexcept>
+#include <string>
+#include <utility>
 
 namespace tonetool::chain {
 
@@ -9,6 +11,20 @@ namespace tonetool::chain {
 /// be valid; the name of the command is put before it where it is printed.
 struct CommandError : std::runtime_error {
     using std::runtime_error::runtime_error;
+};
+
+/// The pixels of a file that cannot be read; with --compat the text is the reader's alone.
+struct ReadError : CommandError {
+    ReadError(const std::string& file, std::string reason)
+        : CommandError("cannot read the pixels of \"" + file + "\"" +
+                       (reason.empty() ? "" : ": " + reason)),
+          why(std::move(reason)) {}
+    std::string why;
+};
+
+/// With --compat: a command line that cannot be taken apart, which is answered with the help.
+struct UsageError : CommandError {
+    using CommandError::CommandError;
 };
 
 } // namespace tonetool::chain

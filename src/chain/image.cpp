@@ -140,9 +140,7 @@ void Part::read(int level) {
     bool done = spec.deep ? read_deep_pixels(*input, m_subimage, level, *buffer.deepdata())
                           : read_flat_pixels(*input, m_subimage, level, spec, buffer.localpixels());
     if (!done || input->has_error()) {
-        std::string why = input->geterror();
-        throw CommandError("cannot read the pixels of \"" + m_file + "\"" +
-                           (why.empty() ? "" : ": " + why));
+        throw ReadError(m_file, input->geterror());
     }
     m_pixels[size_t(level)] = std::move(buffer);
 }

@@ -39,7 +39,7 @@ public:
     /// A subimage of a file, whose levels have these headers.
     Part(std::string file, int subimage, std::vector<OIIO::ImageSpec> levels, ReadOptions how);
     /// Pixels that a command made, a level each. Without a format the file they are written to
-    /// follows the first image that was read.
+    /// follows the image that was read last.
     Part(std::vector<OIIO::ImageBuf> levels, std::optional<DataFormat> format,
          bool integer_encoded);
 
@@ -106,7 +106,7 @@ public:
     static ImagePtr derived(const Image& from, OIIO::ImageBuf pixels);
     /// Several subimages (of one or more MIP levels) that a command made of those of `from`.
     static ImagePtr derived(const Image& from, std::vector<std::vector<OIIO::ImageBuf>> subimages);
-    /// What a command made of nothing, written in the format of the first image that was read.
+    /// What a command made of nothing, written in the format of the image that was read last.
     static ImagePtr created(std::string name, OIIO::ImageBuf pixels,
                             std::optional<DataFormat> format = {});
     /// What a command measured: float, and not display-encoded unless its header says so.

@@ -111,20 +111,6 @@ void fit_channels(Session& session, const std::string& where, Outgoing& image,
     image.format.of_channel.clear();
 }
 
-// An image that a command made is written as the first image that was read.
-DataFormat first_format(const Session& session, const OIIO::ImageSpec& spec) {
-    if (!session.first_format) {
-        return {spec.format, {}, 0};
-    }
-    DataFormat format{session.first_format->type, {}, session.first_format->bits};
-    for (const std::string& name : spec.channelnames) {
-        auto known = session.first_types.find(name);
-        format.of_channel.push_back(known == session.first_types.end() ? format.type
-                                                                       : known->second);
-    }
-    return format;
-}
-
 void choose_format(Outgoing& image, const OutputSettings& asked, OutputSettings& memory) {
     DataFormat& format = image.format;
     if (asked.type) {
@@ -283,7 +269,10 @@ void write_output(Session& session, const std::string& where, const Image& image
         for (int level = 0; level < (mipmap ? part.mip_levels() : 1); ++level) {
             Outgoing& next = outgoing.emplace_back();
             next.pixels = &part.pixels(level);
-            next.format = part.format() ? *part.format() : first_format(session, part.header());
+            next.format =
+                part.format()
+                    ? *part.format()
+                    : session.read_format.value_or(DataFormat{part.header().format, {}, 0});
             if (settings.autocrop) {
                 fit_windows(next, *writer);
             }

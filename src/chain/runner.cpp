@@ -5,9 +5,11 @@
 #include <OpenImageIO/sysutil.h>
 #include <new>
 #include <ostream>
+#include <set>
 
 #include "chain/error.h"
 #include "chain/expression.h"
+#include "chain/help.h"
 #include "chain/io.h"
 
 namespace tonetool::chain {
@@ -27,6 +29,21 @@ void execute(Session& session, Call& call) {
     if (call.pushes() != any_number && stack.size() != expected) {
         throw CommandError("internal error: wrong number of images on the stack");
     }
+}
+
+// What messages call a command; oiiotool calls those that work on pixels "-name".
+std::string name_in_messages(const Call& call, bool compat) {
+    static const std::set<std::string> as_typed = {"crop",  "croptofull", "cut",    "trim",
+                                                   "paste", "pastemeta",  "mosaic", "fixnan"};
+    const Command& row = call.row();
+    const Group group = row.group;
+    const bool pixels = group == Group::Arithmetic || group == Group::Filter ||
+                        group == Group::Geometry || group == Group::Composite ||
+                        row.label() == "kernel";
+    if (!compat) {
+        return row.label();
+    }
+    return pixels && as_typed.count(row.label()) == 0 ? "-" + row.label() : call.text();
 }
 
 } // namespace
@@ -62,6 +79,14 @@ void Runner::guarded(void (Runner::*step)()) {
         (this->*step)();
     } catch (const std::bad_alloc&) {
         m_session.error(m_where, "not enough memory");
+    } catch (const ReadError& problem) {
+        m_session.error(m_session.compat ? "read" : m_where,
+                        m_session.compat ? problem.why : problem.what());
+    } catch (const UsageError& problem) {
+        ++m_session.errors;
+        m_session.out << help_text();
+        m_session.err << problem.what() << "\n\nFull command line was:\n> "
+                      << m_session.command_line << std::endl;
     } catch (const std::exception& problem) {
         m_session.error(m_where, problem.what());
     } catch (...) {
@@ -121,6 +146,10 @@ Strings Runner::take_arguments(const Command& row, const Token& token) {
             break;
         }
         if (next >= m_words.size()) {
+            if (m_session.compat) {
+                throw UsageError("Missing parameter " + std::to_string(i + 1) + " from option \"" +
+                                 (row.label()[0] == '-' ? "" : "--") + row.label() + "\"");
+            }
             throw CommandError("missing argument " + name);
         }
         const std::string& word = m_words[next];
@@ -161,7 +190,7 @@ void Runner::run_or_postpone(Call call) {
 }
 
 void Runner::run_call(Call& call) {
-    m_where = m_session.compat ? call.text() : call.row().label();
+    m_where = name_in_messages(call, m_session.compat);
     const bool told = m_session.debug && call.pops() > 0;
     if (told) {
         m_session.print("Performing '-" + call.row().names.front() +

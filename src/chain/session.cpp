@@ -2,6 +2,8 @@
 
 #include <ostream>
 
+#include "chain/registry.h"
+
 namespace tonetool::chain {
 
 namespace {
@@ -30,7 +32,9 @@ void Session::error(const std::string& where, const std::string& what) {
 void Session::warning(const std::string& where, const std::string& what) {
     ++warnings;
     out.flush();
-    err << prefix("WARNING", where, compat) << what << of_frame(*this) << std::endl;
+    const bool command = compat && find_command(where) != nullptr;
+    err << prefix("WARNING", command ? "--" + where : where, compat) << what << of_frame(*this)
+        << std::endl;
 }
 
 void Session::report(const std::string& line) {

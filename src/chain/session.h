@@ -73,6 +73,8 @@ struct Listing {
     OIIO::ROI roi{}; ///< of the statistics
 };
 
+struct FramePlan;
+
 struct Session {
     Session(std::ostream& out_stream, std::ostream& err_stream, std::string command)
         : out(out_stream),
@@ -88,6 +90,7 @@ struct Session {
     OIIO::ParamValueList variables; ///< of --set and --for
     bool evaluate = true;           ///< {expressions} are replaced by their values
     Frame frame;
+    const FramePlan* plan = nullptr; ///< of all frames
     Flow flow;
 
     bool compat = false;        ///< lenient as oiiotool is
@@ -98,11 +101,9 @@ struct Session {
     ReadOptions input;
     std::string missing_file = "error"; ///< or what stands in for it: "black", "checker"
     bool autocc = false, autocc_unpremult = false, autoorient = false;
-    bool metamerge = false; ///< results have the metadata of all inputs
-    // Of the first image that was read; what commands make is written alike.
-    std::optional<DataFormat> first_format;
-    std::map<std::string, OIIO::TypeDesc> first_types; ///< by the channel's name
-    std::optional<OIIO::ImageSpec> first_header;
+    bool metamerge = false;                      ///< results have the metadata of all inputs
+    std::optional<DataFormat> read_format;       ///< of the image read last: of what is computed
+    std::optional<OIIO::ImageSpec> first_header; ///< of the image read first
     std::time_t newest_input = 0;
     OutputSettings output;
 
