@@ -29,14 +29,16 @@ class Case:
                 if word.startswith("-") and len(word) > 1 and not word[1].isdigit()}
 
     def modifiers(self):
-        """(command, modifier) of every modifier used."""
+        """(command, modifier) of every modifier used; a pattern's name takes them as well."""
         used = set()
         for line in self.command_lines():
-            for word in line:
-                if word.startswith("-") and ":" in word:
-                    name, _, rest = word.lstrip("-").partition(":")
-                    used |= {(name, part.split("=")[0]) for part in rest.split(":")
-                             if "=" in part}
+            for before, word in zip(["", *line], line):
+                name, _, rest = word.lstrip("-").partition(":")
+                if before.lstrip("-") == "pattern":
+                    name = "pattern"
+                elif not word.startswith("-"):
+                    continue
+                used |= {(name, part.split("=")[0]) for part in rest.split(":") if "=" in part}
         return used
 
 

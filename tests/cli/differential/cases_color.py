@@ -14,6 +14,8 @@ tocolorspace-integer: in/u8.png --tocolorspace linear -d half -o out.exr
 tocolorspace-parts: -a in/pair.exr --tocolorspace sRGB -o out.exr
 tocolorspace-config: {CONFIG} in/u8.png --iscolorspace "sRGB - Texture" --tocolorspace ACEScg
     -d half -o out.exr
+tocolorspace-keys: {CONFIG} in/rgb.exr --tocolorspace:key=A:value=b:strict=0 ACEScg -o out.exr
+tocolorspace-strict: in/rgb.exr --tocolorspace:strict=0 nosuch -o out.exr
 iscolorspace: in/rgb.exr --iscolorspace sRGB -o out.exr
 iscolorspace-then: in/rgb.exr --iscolorspace sRGB --tocolorspace linear -o out.exr
 iscolorspace-parts: -a in/pair.exr --iscolorspace Rec709 -o out.exr

@@ -9,6 +9,17 @@ create: --create 32x24 3 -o out.exr
 create-offset: --create 32x24+5-7 4 -d half -o out.exr
 create-channels: --create 32x24 7 -o out.exr
 create-integer: --create 32x24 1 -d uint8 -o out.tif
+create-type: --create:type=half 32x24 3 -o out.exr
+create-type-integer: --create:type=uint8 32x24+2+2 3 -o out.tif
+pattern-type: --pattern constant:color=.1,.2,.3:type=uint16 16x16 3 -o out.tif
+pattern-type-half: --pattern checker:type=half:width=4:height=2 16x16 3 -o out.exr
+pattern-noise-options: --pattern
+    noise:type=gaussian:mean=1:stddev=.5:mono=1:seed=4 16x16 3 -o out.exr
+pattern-noise-salt-options: --pattern
+    noise:type=salt:value=2:portion=.4:seed=9:nchannels=1 16x16 3 -o out.exr
+pattern-noise-range: --pattern noise:type=uniform:min=-1:max=1 16x16 3 -o out.exr
+pattern-checker-depth: --pattern checker:depth=2:color1=1,0,0:color2=0,0,1 16x16 3 -o out.exr
+pattern-fill-top: --pattern fill:top=1,1,1 16x16 3 -o out.exr
 pattern-black: --pattern black 32x24 3 -o out.exr
 pattern-constant: --pattern constant:color=0.1,0.5,0.9 32x24 3 -o out.exr
 pattern-constant-offset: --pattern constant:color=0.1,0.5,0.9,1 32x24+4+4 4 -d half -o out.exr

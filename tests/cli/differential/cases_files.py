@@ -31,6 +31,7 @@ compression-modifier: in/rgb.exr -o:compression=rle out.exr
 compression-kept: in/piz.exr --mulc 0.5 -o out.exr
 compression-dwaa-kept: in/dwaa.exr -o out.exr
 quality: in/u8.tif --quality 30 -o out.jpg
+quality-high: in/photo.jpg --quality 98 -o out.jpg
 tile: in/rgb.exr --tile 16 16 -o out.exr
 tile-modifier: in/rgb.exr -o:tile=32x32 out.exr
 tile-tiff: in/u8.tif --tile 32 16 -o out.tif
@@ -76,6 +77,23 @@ otex-opaque: in/rgb.exr --ch R,G,B,A=1 -otex:opaque_detect=1 out.exr
 otex-half: in/float.exr -d half -otex:unpremult=1 out.exr
 otex-constant: --pattern constant:color=.5,.5,.5 64x64 3 -otex:constant_color_detect=1 out.exr
 otex-mono: in/grey.tif --ch Y,Y,Y --chnames R,G,B -otex:monochrome_detect=1:updatemode=0 out.tx
+otex-colors!: in/u8.tif -otex:incolorspace=sRGB:outcolorspace=linear out.exr
+otex-prman: in/rgb.exr -otex:prman=1 out.exr
+otex-oiio: in/rgb.exr -otex:oiio=1:fovcot=1.5:fileformatname=tiff out.exr
+otex-bump-keys: in/rgb.exr -otex:bumpformat=height:uvslopes_scale=2 out.exr
+oenv-wrap: in/rgb.exr --resize 64x32 -oenv:wrap=clamp:swrap=periodic:twrap=clamp:filter=box out.exr
+oenv-sizes: in/rgb.exr --resize 60x30 -oenv:resize=1:nomipmap=1:updatemode=0:sharpen=0.3 out.exr
+oenv-detect: in/rgba.exr --resize 64x32
+    -oenv:monochrome_detect=1:opaque_detect=1:unpremult=1:highlightcomp=1 out.exr
+oenv-colors!: in/u8.tif --resize 64x32 -oenv:incolorspace=sRGB:outcolorspace=linear out.exr
+oenv-kinds: in/rgb.exr --resize 64x32
+    -oenv:prman=1:oiio=0:fovcot=2:fileformatname=tiff:bumpformat=auto:uvslopes_scale=1 out.exr
+obump-wrap: in/grey.exr -obump:wrap=clamp:swrap=mirror:twrap=black:filter=box out.exr
+obump-sizes: in/grey.exr -obump:resize=1:nomipmap=1:updatemode=0:sharpen=0.3 out.exr
+obump-detect: in/grey.exr
+    -obump:monochrome_detect=1:opaque_detect=1:unpremult=1:highlightcomp=1 out.exr
+obump-colors!: in/grey.tif -obump:incolorspace=sRGB:outcolorspace=linear out.exr
+obump-kinds: in/grey.exr -obump:prman=1:oiio=0:fovcot=2:fileformatname=tiff out.exr
 oenv: --pattern fill:top=1,0,0:bottom=0,0,1 64x32 3 -oenv out.exr
 oenv-half: in/rgb.exr --resize 64x32 -d half -oenv out.exr
 obump: in/grey.exr -obump out.exr

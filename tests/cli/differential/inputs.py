@@ -239,8 +239,10 @@ def icc_profile():
     head[0:4] = struct.pack(">I", 144 + len(text))
     head[8:12] = bytes([2, 0x40, 0, 0])
     head[12:24] = b"mntrRGB XYZ "
-    head[36:40] = b"acsp"
+    head[36:44] = b"acspAPPL"
+    head[48:56] = b"nonenone"
     head[68:80] = struct.pack(">III", 0xF6D6, 0x10000, 0xD32D)
+    head[80:84] = b"none"
     return bytes(head) + table + text
 
 

@@ -87,7 +87,7 @@ def normalised(text, without=""):
     text = re.sub(r"(?ms)^(oiiotool|tonetool) -- .*", "", text)
     text = re.sub(r"\b(oiiotool|tonetool)\b", "PROGRAM", text).replace(" --compat", "")
     text = re.sub(r"\.[0-9a-f]{8}\.temp\.", ".TEMP.", text)
-    text = re.sub(r"\b\d+(\.\d+)? ?[KMG]?B\b", "SIZE", text)
+    text = re.sub(r"\b\d+(\.\d+)? ?[KMG]?B(?![\w=])", "SIZE", text)
     text = re.sub(r"\b\d+\.\d+ ?s\b|(?<=: )\s*\d+\.\d\d$", "TIME", text, flags=re.M)
     lines = [line.rstrip() for line in text.strip().splitlines()]
     return "\n".join(line for line in lines if not without or not re.search(without, line))
