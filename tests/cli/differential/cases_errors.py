@@ -1,6 +1,7 @@
 """Errors: one of every command at least, together with those of the other tables."""
 
 from case import table
+from cases_printing import RUNSTATS
 
 TAKE_ARGUMENTS = """metamatch no-metamatch threads cache autotile oiioattrib set if while for
     frames framepadding views i iconfig missingfile o d tile compression
@@ -128,4 +129,4 @@ flag-no-error-exit!: --no-error-exit nosuch.exr in/rgb.exr -o out.exr
 CAPTURE = {"without": r"^\[ WARN", "reason": "the camera library tells the time in its warnings"}
 
 CASES = table("error", "\n".join(MISSING + DEEP_ONE + DEEP_TWO + CUT) + ERRORS,
-              capture=CAPTURE, capture_camera=CAPTURE)
+              capture=CAPTURE, capture_camera=CAPTURE, flag_runstats=RUNSTATS)
