@@ -127,6 +127,12 @@ void Runner::run_file(const std::string& word) {
 
 const Command& Runner::find(const Token& token) {
     const Command* row = find_command(token.name);
+    // "--hdrflip=fail=1": a check that looks at no threshold would pass.
+    const bool takes_value = row && !row->args.empty() && row->args[0].front() == '=';
+    if (row && !token.value.empty() && !takes_value && !m_session.compat) {
+        m_where = row->label();
+        throw CommandError("takes no \"=" + token.value[0] + "\" (modifiers follow a colon)");
+    }
     if (!row) {
         m_where.clear();
         throw CommandError("unknown command \"" + token.text + "\", " +
