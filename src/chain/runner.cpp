@@ -3,6 +3,7 @@
 #include <OpenImageIO/imageio.h>
 #include <OpenImageIO/strutil.h>
 #include <OpenImageIO/sysutil.h>
+#include <cstring>
 #include <new>
 #include <ostream>
 #include <set>
@@ -128,7 +129,7 @@ void Runner::run_file(const std::string& word) {
 const Command& Runner::find(const Token& token) {
     const Command* row = find_command(token.name);
     // "--hdrflip=fail=1": a check that looks at no threshold would pass.
-    const bool takes_value = row && !row->args.empty() && row->args[0].front() == '=';
+    const bool takes_value = row && !row->args.empty() && std::strchr("=[", row->args[0].front());
     if (row && !token.value.empty() && !takes_value && !m_session.compat) {
         m_where = row->label();
         throw CommandError("takes no \"=" + token.value[0] + "\" (modifiers follow a colon)");
