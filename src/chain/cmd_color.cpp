@@ -70,8 +70,8 @@ OIIO::ImageBuf linear_colors(const OIIO::ImageBuf& pixels, const std::string& ma
         knots.push_back(OIIO::Strutil::stof(word));
     }
     OIIO::ImageBuf result =
-        list ? OIIO::ImageBufAlgo::color_map(pixels, 0, int(knots.size()) / 3, 3, knots)
-             : OIIO::ImageBufAlgo::color_map(pixels, 0, map);
+        list ? OIIO::ImageBufAlgo::color_map(pixels, -1, int(knots.size()) / 3, 3, knots)
+             : OIIO::ImageBufAlgo::color_map(pixels, -1, map);
     if (result.has_error()) {
         throw CommandError(result.geterror());
     }

@@ -37,7 +37,8 @@ void print_listing(Session& session, const Call& call, Listing what) {
 void run_printinfo(Session& session, const Call& call) {
     Listing what;
     what.verbose = call.flag("verbose", true);
-    what.format = call.choice("format", {"text", "xml"}).value_or("");
+    const auto format = call.choice("format", {"text", "xml"});
+    what.format = session.compat ? "" : format.value_or(""); // oiiotool takes no notice of it
     print_listing(session, call, what);
 }
 
@@ -69,7 +70,9 @@ void run_echo(Session& session, const Call& call) {
 void run_list_formats(Session& session, const Call&) {
     session.print("All OIIO supported formats and their extensions:");
     Strings entries = OIIO::Strutil::splits(OIIO::get_string_attribute("extension_list"), ";");
-    std::sort(entries.begin(), entries.end());
+    std::sort(entries.begin(), entries.end(), [](const std::string& a, const std::string& b) {
+        return a.substr(0, a.find(':')) < b.substr(0, b.find(':'));
+    });
     for (const std::string& entry : entries) {
         const std::vector<std::string> words = OIIO::Strutil::splits(entry, ":");
         session.print("    " + words[0] + " : " +

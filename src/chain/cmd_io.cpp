@@ -59,12 +59,13 @@ ImagePtr substitute(Session& session, const std::string& filename) {
 }
 
 ImagePtr open_or_substitute(Session& session, const std::string& filename) {
-    if (session.missing_file == "error" || OIIO::Filesystem::exists(filename)) {
+    if ((session.missing_file != "black" && session.missing_file != "checker") ||
+        OIIO::Filesystem::exists(filename)) {
         return Image::open(filename, session.input);
     }
     const std::string missing = "File does not exist: \"" + filename + "\"";
     if (session.compat) {
-        session.error("read", missing);
+        session.error("read", missing, false);
     } else {
         session.warning("read", missing + ", " + session.missing_file + " instead");
     }
@@ -153,7 +154,7 @@ void run_input(Session& session, const Call& call) {
     const ReadOptions usual = session.input;
     const bool autocc = session.autocc, unpremult = session.autocc_unpremult;
     if (auto type = call.text("type")) {
-        session.input.type = parse_data_type("data format", *type).type;
+        session.input.type = parse_data_type(session, *type).type;
     }
     session.autocc = call.flag("autocc", autocc);
     session.autocc_unpremult = call.flag("unpremult", unpremult);
@@ -183,14 +184,18 @@ void set_tile(OutputSettings& settings, const std::string& text) {
 OutputSettings settings_of(const Session& session, const Call& call) {
     OutputSettings settings = session.output;
     if (auto name = call.text("datatype")) {
-        settings.type = parse_data_type("data format", *name);
+        settings.type = parse_data_type(session, *name);
         settings.type_of_channel.clear();
     }
     if (auto bits = call.integer("bits", {1, 32})) {
-        settings.type = settings.type.value_or(NamedType{OIIO::TypeUInt16, 0});
-        settings.type->bits = *bits;
+        if (!settings.type && !session.compat) { // oiiotool takes no notice of it then
+            settings.type = NamedType{OIIO::TypeUInt16, 0};
+        }
+        if (settings.type) {
+            settings.type->bits = *bits;
+        }
     }
-    if (auto compression = call.text("compression")) {
+    if (auto compression = call.text("compression"); compression && !session.compat) {
         check_compression(*compression);
         settings.compression = *compression;
     }
@@ -250,7 +255,7 @@ bool keeps_old(Session& session, const std::string& filename) {
         session.warning("-o", filename + " already exists, not overwriting.");
         return true;
     }
-    return session.update && OIIO::Filesystem::exists(filename) &&
+    return session.update && !session.compat && OIIO::Filesystem::exists(filename) &&
            OIIO::Filesystem::last_write_time(filename) > session.newest_input;
 }
 
@@ -260,9 +265,10 @@ void write_one(Session& session, const Call& call, const ImagePtr& image,
         return;
     }
     if (session.verbose) {
+        session.out << (session.debug ? "Output: " + filename + "\n" : "");
         session.print("Writing " + filename);
     }
-    session.produced = true;
+    session.wrote = image->written = true;
     if (session.dry_run) {
         return;
     }
@@ -353,7 +359,7 @@ void run_data_type(Session& session, const Call& call) {
     OutputSettings& output = session.output;
     const std::string& text = call.argument(0);
     if (text.find('=') == std::string::npos) {
-        output.type = parse_data_type("data format", text);
+        output.type = parse_data_type(session, text);
         output.type_of_channel.clear();
         return;
     }
@@ -363,8 +369,14 @@ void run_data_type(Session& session, const Call& call) {
             throw CommandError("Malformed format designator \"" + word +
                                "\" (valid: TYPE or CHANNEL=TYPE)");
         }
-        output.type_of_channel[word.substr(0, equals)] =
-            parse_data_type("data format", word.substr(equals + 1));
+        const std::string type = word.substr(equals + 1);
+        try {
+            output.type_of_channel[word.substr(0, equals)] = parse_data_type(session, type);
+        } catch (const CommandError&) {
+            if (!session.compat) {
+                throw;
+            }
+        }
     }
 }
 
@@ -396,7 +408,9 @@ std::vector<Command> io_commands() {
         free_row(Group::Read, "missingfile POLICY", 0, 0,
                  "What a file that is not there becomes: error, black or checker",
                  [](Session& session, const Call& call) {
-                     check_choice("POLICY", call.argument(0), {"error", "black", "checker"});
+                     if (!session.compat) {
+                         check_choice("POLICY", call.argument(0), {"error", "black", "checker"});
+                     }
                      session.missing_file = call.argument(0);
                  }),
         free_row(Group::Write, "o FILENAME", 0, any_number, "Write the current image", run_output,
@@ -445,7 +459,7 @@ std::vector<Command> io_commands() {
         set("nosoftwareattrib", "Do not write the command line into the metadata",
             [](Session& session, const Call&) { session.output.history = false; }),
         set("sansattrib", "Leave --attrib and --sattrib out of the command line that is written",
-            [](Session& session, const Call&) { session.output.arguments_in_history = false; }),
+            [](Session&, const Call&) {}),
     };
     const std::string options =
         "wrap=MODE: black, clamp, periodic, mirror\nswrap=MODE: in x\ntwrap=MODE: in y\n"

@@ -112,9 +112,10 @@ public:
     /// What a command measured: float, and not display-encoded unless its header says so.
     static ImagePtr computed(std::string name, OIIO::ImageBuf pixels);
 
-    /// Whether some command has taken the image from the stack.
-    bool used = false;
+    /// Whether some command has taken the image from the stack, or has written it.
+    bool used = false, written = false;
 
+    void rename(std::string name) { m_name = std::move(name); }
     const std::string& name() const { return m_name; } ///< file, or what it was made from
     Part& part(size_t index = 0) const { return *m_parts.at(index); }
     size_t part_count() const { return m_parts.size(); }

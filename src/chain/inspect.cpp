@@ -250,7 +250,7 @@ std::string listing_text(const Image& image, const Listing& what) {
     text += what.verbose && count > 1 ? subimages_line(image) : "";
     for (size_t subimage = 0; subimage < (each ? count : 1); ++subimage) {
         text += each ? format(" subimage {:2}: ", subimage) + brief(subimage) +
-                           (subimage + 1 == count ? more : "") + "\n"
+                           (subimage > 0 ? more : "") + "\n"
                      : "";
         text += subimage_text(image, what, subimage);
     }

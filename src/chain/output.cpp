@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <ctime>
 #include <deque>
-#include <regex>
 
 #include "chain/channels.h"
 #include "chain/error.h"
@@ -29,10 +28,11 @@ struct TypeRow {
 const TypeRow type_rows[] = {
     {"uint8", OIIO::TypeDesc::UINT8, 0},    {"sint8", OIIO::TypeDesc::INT8, 0},
     {"uint10", OIIO::TypeDesc::UINT16, 10}, {"uint12", OIIO::TypeDesc::UINT16, 12},
-    {"uint16", OIIO::TypeDesc::UINT16, 0},  {"sint16", OIIO::TypeDesc::INT16, 0},
-    {"uint32", OIIO::TypeDesc::UINT32, 0},  {"sint32", OIIO::TypeDesc::INT32, 0},
-    {"half", OIIO::TypeDesc::HALF, 0},      {"float", OIIO::TypeDesc::FLOAT, 0},
-    {"double", OIIO::TypeDesc::DOUBLE, 0},
+    {"int8", OIIO::TypeDesc::INT8, 0},      {"int16", OIIO::TypeDesc::INT16, 0},
+    {"int32", OIIO::TypeDesc::INT32, 0},    {"uint16", OIIO::TypeDesc::UINT16, 0},
+    {"sint16", OIIO::TypeDesc::INT16, 0},   {"uint32", OIIO::TypeDesc::UINT32, 0},
+    {"sint32", OIIO::TypeDesc::INT32, 0},   {"half", OIIO::TypeDesc::HALF, 0},
+    {"float", OIIO::TypeDesc::FLOAT, 0},    {"double", OIIO::TypeDesc::DOUBLE, 0},
 };
 
 // One subimage on its way to the file: pixels (owned here where they had to change), data types.
@@ -134,18 +134,8 @@ void choose_format(Outgoing& image, const OutputSettings& asked, OutputSettings&
     }
 }
 
-// The command line, without the values that only a file's owner is to see.
-std::string noted_command_line(const Session& session) {
-    if (session.output.arguments_in_history) {
-        return session.command_line;
-    }
-    const std::regex attributes("-?-s?attrib(:\\S*)? (\"[^\"]*\"|'[^']*'|\\S+) "
-                                "(\"[^\"]*\"|'[^']*'|\\S+) ?");
-    return std::regex_replace(session.command_line, attributes, "");
-}
-
 void note_history(OIIO::ImageSpec& spec, const Session& session) {
-    const std::string line = noted_command_line(session);
+    const std::string& line = session.command_line;
     spec.attribute("Software", "tonetool " TONETOOL_VERSION " : " + line);
     std::string history = spec.get_string_attribute("Exif:ImageHistory");
     if (!history.empty() && history.back() != '\n') {
@@ -190,10 +180,8 @@ OIIO::ImageSpec output_spec(const Outgoing& image, const Session& session,
     if (image.format.bits > 0) {
         spec.attribute("oiio:BitsPerSample", image.format.bits);
     }
-    if (!spec.deep) {
-        spec.set_format(image.format.type);
-        spec.channelformats = image.format.of_channel;
-    }
+    spec.set_format(image.format.type);
+    spec.channelformats = image.format.of_channel;
     return spec;
 }
 
@@ -232,14 +220,14 @@ const Strings& data_type_names() {
     return names;
 }
 
-NamedType parse_data_type(const std::string& what, const std::string& name) {
+NamedType parse_data_type(const Session& session, const std::string& name) {
     for (const TypeRow& row : type_rows) {
-        if (name == row.name) {
+        if (name == row.name && (!session.compat || name.front() != 's')) {
             return {row.type, row.bits};
         }
     }
-    throw CommandError("Unknown " + what + " \"" + name +
-                       "\" (valid: " + join(data_type_names(), ", ") + ")");
+    const std::string valid = " (valid: " + join(data_type_names(), ", ") + ")";
+    throw CommandError("Unknown data format \"" + name + "\"" + (session.compat ? "" : valid));
 }
 
 void check_compression(const std::string& compression) {
@@ -300,7 +288,7 @@ void write_output(Session& session, const std::string& where, const Image& image
             OIIO::Filesystem::last_write_time(filename, std::mktime(&taken));
         }
     }
-    session.produced = true;
+    session.wrote = true;
 }
 
 } // namespace tonetool::chain

@@ -2,8 +2,6 @@
 
 #include <ostream>
 
-#include "chain/registry.h"
-
 namespace tonetool::chain {
 
 namespace {
@@ -22,19 +20,19 @@ std::string of_frame(const Session& session) {
 
 } // namespace
 
-void Session::error(const std::string& where, const std::string& what) {
+void Session::error(const std::string& where, const std::string& what, bool ends) {
     ++errors;
+    aborted |= ends;
     out.flush();
-    err << prefix("ERROR", where, compat) << what << of_frame(*this)
+    err << (what.empty() ? "tonetool ERROR: " + where + " (unknown error)"
+                         : prefix("ERROR", where, compat) + what + of_frame(*this))
         << "\nFull command line was:\n> " << command_line << std::endl;
 }
 
 void Session::warning(const std::string& where, const std::string& what) {
     ++warnings;
     out.flush();
-    const bool command = compat && find_command(where) != nullptr;
-    err << prefix("WARNING", command ? "--" + where : where, compat) << what << of_frame(*this)
-        << std::endl;
+    err << prefix("WARNING", where, compat) << what << of_frame(*this) << std::endl;
 }
 
 void Session::report(const std::string& line) {
