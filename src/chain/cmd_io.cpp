@@ -18,19 +18,6 @@ namespace tonetool::chain {
 
 namespace {
 
-// What is computed is written in the widest type of the image that was read last.
-void note_format(Session& session, const Image& image) {
-    DataFormat format{image.part().format()->type, {}, image.part().format()->bits};
-    for (const PartPtr& part : image.parts()) {
-        format.type =
-            OIIO::TypeDesc(OIIO::TypeDesc::basetype_merge(format.type, part->format()->type));
-    }
-    session.read_format = format;
-    if (!session.first_header) {
-        session.first_header = image.part().header();
-    }
-}
-
 // Of the same file in another frame, or of the first image that was read.
 OIIO::ImageSpec missing_header(const Session& session) {
     const OIIO::ImageSpec usual(1920, 1080, 4, OIIO::TypeFloat);
@@ -102,7 +89,9 @@ void push_file(Session& session, const std::string& filename) {
     ImagePtr image = open_or_substitute(session, filename);
     bool real = image->part().from_file();
     if (real) {
-        note_format(session, *image);
+        if (!session.first_header) {
+            session.first_header = image->part().header();
+        }
         session.newest_input =
             std::max(session.newest_input, OIIO::Filesystem::last_write_time(filename));
     }
@@ -170,6 +159,7 @@ void run_input(Session& session, const Call& call) {
         session.stack.back()->part().pixels();
     }
     if (auto list = call.text("ch")) {
+        session.stack.back()->noted = session.compat; // so float, as oiiotool
         run_command(session, "ch", {*list});
     }
 }
@@ -273,6 +263,7 @@ void write_one(Session& session, const Call& call, const ImagePtr& image,
         return;
     }
     const OutputSettings settings = settings_of(session, call);
+    session.note_format(*image);
     session.push(image);
     if (call.flag("autocc", session.autocc)) {
         convert_output(session, call, filename, settings);

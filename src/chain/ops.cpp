@@ -190,6 +190,7 @@ Command free_row(Group group, const std::string& usage, int pops, int pushes,
 }
 
 std::vector<ImagePtr> take_images(Session& session, size_t count) {
+    const bool some = count > 0;
     count = count == 0 ? std::max(session.stack.size(), size_t(1)) : count;
     if (session.stack.size() < count) {
         throw CommandError("needs " + std::to_string(count) + " image(s), the stack has " +
@@ -199,6 +200,9 @@ std::vector<ImagePtr> take_images(Session& session, size_t count) {
     session.stack.resize(session.stack.size() - count);
     for (const ImagePtr& image : images) {
         image->used = true;
+        if (some || !session.compat) { // oiiotool does not look at the types of "all"
+            session.note_format(*image);
+        }
     }
     return images;
 }

@@ -24,6 +24,9 @@ void execute(Session& session, Call& call) {
     stack.erase(first, stack.end());
     for (const ImagePtr& image : call.images) {
         image->used = true;
+        if (call.row().group != Group::Stack) {
+            session.note_format(*image);
+        }
     }
     size_t expected = stack.size() + static_cast<size_t>(call.pushes());
     call.row().run(session, call);

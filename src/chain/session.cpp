@@ -45,6 +45,20 @@ void Session::print(const std::string& line) {
     out << line << '\n';
 }
 
+void Session::note_format(Image& image) {
+    const DataFormat of_first = image.part().format().value_or(DataFormat{});
+    if (image.noted || !image.part().from_file()) {
+        return;
+    }
+    image.noted = true;
+    DataFormat widest = read_format.value_or(DataFormat{of_first.type, {}, of_first.bits});
+    for (const PartPtr& part : image.parts()) {
+        widest.type =
+            OIIO::TypeDesc(OIIO::TypeDesc::basetype_merge(widest.type, part->format()->type));
+    }
+    read_format = widest;
+}
+
 void Session::keep_pixels_of(const std::string& filename) {
     const auto keep = [&](const Image& image) {
         for (const PartPtr& part : image.parts()) {

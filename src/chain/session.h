@@ -102,7 +102,7 @@ struct Session {
     std::string missing_file = "error"; ///< or what stands in for it: "black", "checker"
     bool autocc = false, autocc_unpremult = false, autoorient = false;
     bool metamerge = false;                      ///< results have the metadata of all inputs
-    std::optional<DataFormat> read_format; ///< the widest of those read: of what is computed
+    std::optional<DataFormat> read_format;       ///< the widest of those read: of what is computed
     std::optional<OIIO::ImageSpec> first_header; ///< of the image read first
     std::time_t newest_input = 0;
     OutputSettings output;
@@ -132,6 +132,9 @@ struct Session {
 
     /// Files are described when they are read.
     bool listing() const { return list.info || list.stats || list.hash || list.dump; }
+
+    /// What is computed is written in the widest type of all images that were read for it.
+    void note_format(Image& image);
 
     void push(ImagePtr image) { stack.push_back(std::move(image)); }
 
