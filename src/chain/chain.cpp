@@ -65,17 +65,18 @@ public:
     }
 
 private:
-    int run_one(const FrameRun& run, std::ostream& out, std::ostream& err) const {
+    int run_one(const FrameRun& run, std::ostream& out, std::ostream& err) {
         Session session(out, err, full_command_line(run.words, m_plan.compat));
         session.compat = m_plan.compat;
         session.frame = run.frame;
         session.plan = &m_plan;
         session.parallel = m_plan.parallel;
         Runner(session, run.words).run_all();
+        m_aborted = m_aborted || session.aborted;
         return session.exit_status();
     }
 
-    bool ends() const { return m_status == 1 && !m_plan.skip_bad; }
+    bool ends() const { return m_aborted && !m_plan.skip_bad; }
 
     void finished(size_t index, int status) {
         m_status = worse(m_status, status);
@@ -90,6 +91,7 @@ private:
     std::ostream& m_err;
     Progress m_progress;
     int m_status = 0;
+    std::atomic<bool> m_aborted{false};
     std::mutex m_mutex;
     size_t m_next = 0, m_printed = 0;
     struct Texts {

@@ -132,11 +132,11 @@ const std::vector<OpRow> rows = {
      "", Scope::Levels},
     {"chappend", 2, "The channels of the last two images (or n=) in one",
      [](Op& op) {
-         bool done = op.dst.copy(op.a());
-         for (size_t i = 1; done && i < op.src.size(); ++i) {
-             done = IBA::channel_append(op.dst, OIIO::ImageBuf(op.dst), *op.src[i]);
+         op.dst.copy(op.a());
+         for (size_t i = 1; i < op.src.size(); ++i) {
+             op.dst = IBA::channel_append(op.dst, *op.src[i]);
          }
-         return done;
+         return !op.dst.has_error();
      },
      count_help},
 };

@@ -139,7 +139,9 @@ std::vector<Command> general_commands() {
             }),
         row({"autopremult"}, {}, "Multiply colour by an alpha that is not associated",
             [](Session& session, const Call&) {
-                session.input.config.erase_attribute("oiio:UnassociatedAlpha");
+                if (session.input.config.find_attribute("oiio:UnassociatedAlpha")) {
+                    session.input.config.attribute("oiio:UnassociatedAlpha", 0);
+                }
             }),
         row({"autoorient"}, {}, "--reorient every image that is read",
             [](Session& session, const Call&) { session.autoorient = true; }),

@@ -30,7 +30,18 @@ void print_listing(Session& session, const Call& call, Listing what) {
     what.metamatch = session.list.metamatch;
     what.no_metamatch = session.list.no_metamatch;
     session.push(call.images[0]);
-    session.out << listing_text(*call.images[0], what);
+    try {
+        session.out << listing_text(*call.images[0], what);
+    } catch (const ReadError& problem) {
+        if (!session.compat || !what.stats) {
+            throw;
+        }
+        session.error("read", problem.why);
+        session.print(OIIO::Strutil::rstrip(header_text(*call.images[0], 0, false)));
+        throw CommandError("unable to compute: " + problem.why + "\nError reading from \"" +
+                               call.images[0]->name() + "\" (subimg=0, mip=0, tile@0,0,0)",
+                           "stats");
+    }
     session.produced = session.produced_by_name = true;
 }
 

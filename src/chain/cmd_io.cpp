@@ -4,6 +4,7 @@
 #include <OpenImageIO/strutil.h>
 #include <algorithm>
 #include <cstdio>
+#include <map>
 #include <sstream>
 
 #include "chain/error.h"
@@ -20,7 +21,7 @@ namespace {
 
 // Of the same file in another frame, or of the first image that was read.
 OIIO::ImageSpec missing_header(const Session& session) {
-    const OIIO::ImageSpec usual(1920, 1080, 4, OIIO::TypeFloat);
+    const OIIO::ImageSpec usual(1920, 1080, 4, OIIO::TypeHalf);
     if (session.compat || session.first_header) {
         return session.first_header.value_or(usual);
     }
@@ -36,18 +37,22 @@ OIIO::ImageSpec missing_header(const Session& session) {
 // What --missingfile puts in the place of a file that is not there.
 ImagePtr substitute(Session& session, const std::string& filename) {
     OIIO::ImageSpec spec = missing_header(session);
+    const DataFormat format{spec.format, {}, 0};
     spec.set_format(OIIO::TypeFloat);
     spec.extra_attribs.clear();
     OIIO::ImageBuf pixels(spec);
     const std::vector<float> black(size_t(spec.nchannels), 0.0f), white(black.size(), 1.0f);
     session.missing_file == "black" ? OIIO::ImageBufAlgo::zero(pixels)
                                     : OIIO::ImageBufAlgo::checker(pixels, 64, 64, 1, black, white);
-    return Image::created(filename, std::move(pixels));
+    return Image::created(filename, std::move(pixels), format);
 }
 
 ImagePtr open_or_substitute(Session& session, const std::string& filename) {
-    if ((session.missing_file != "black" && session.missing_file != "checker") ||
-        OIIO::Filesystem::exists(filename)) {
+    const bool exists = OIIO::Filesystem::exists(filename);
+    if (session.compat && !exists && !session.input.config.extra_attribs.empty()) {
+        throw CommandError("Could not open file \"" + filename + "\"");
+    }
+    if (exists || (session.missing_file != "black" && session.missing_file != "checker")) {
         return Image::open(filename, session.input);
     }
     const std::string missing = "File does not exist: \"" + filename + "\"";
@@ -298,39 +303,59 @@ void run_output(Session& session, const Call& call) {
     }
 }
 
-// -otex and its like: every modifier but these is an option of OpenImageIO's make_texture.
-void run_texture(Session& session, const Call& call) {
-    using OIIO::ImageBufAlgo::MakeTextureMode;
-    const Image& image = *call.images[0];
-    const std::string label = call.row().label();
+// What make_texture is to do: its options have the names of the modifiers, but for these.
+OIIO::ImageSpec texture_config(const Session& session, const Call& call) {
+    static const std::map<std::string, std::string> others = {
+        {"filter", "filtername"}, {"prman", "prman_options"}, {"oiio", "oiio_options"}};
     OIIO::ImageSpec config;
     for (const Modifier& modifier : call.row().modifiers) {
-        if (auto value = call.text(modifier.key)) {
-            auto number = parse_integer(*value);
-            number ? config.attribute("maketx:" + modifier.key, *number)
-                   : config.attribute("maketx:" + modifier.key, *value);
+        auto value = call.text(modifier.key);
+        auto other = others.find(modifier.key);
+        const std::string name = "maketx:" + (other == others.end() ? modifier.key : other->second);
+        if (modifier.hint == "0|1") {
+            config.attribute(name, int(call.flag(modifier.key, false)));
+        } else if (modifier.hint == "X" && (value || modifier.key != "fovcot")) {
+            config.attribute(modifier.key == "fovcot" ? modifier.key : name,
+                             float(call.number(modifier.key, any_number_at_all).value_or(0)));
+        } else if (modifier.hint != "X" && value) {
+            config.attribute(name, *value);
         }
     }
-    if (session.output.type) {
-        config.set_format(session.output.type->type);
+    const std::string wrap = call.text("wrap").value_or("black");
+    config.attribute("wrapmodes",
+                     call.text("swrap").value_or(wrap) + "," + call.text("twrap").value_or(wrap));
+    config.attribute("maketx:bumpformat", call.text("bumpformat").value_or("auto"));
+    config.attribute("maketx:compute_average", 1);
+    config.attribute("maketx:colorconfig", session.color_config);
+    const OutputSettings& output = session.output;
+    config.set_format(output.type ? output.type->type
+                                  : format_of(session, call.images[0]->part()).type);
+    config.tile_width = output.tile_width > 0 ? output.tile_width : 64;
+    config.tile_height = output.tile_width > 0 ? output.tile_height : 64;
+    config.tile_depth = 1;
+    if (!output.compression.empty()) {
+        config.attribute("compression", output.compression);
     }
-    if (!session.output.compression.empty()) {
-        config.attribute("compression", session.output.compression);
-    }
-    config.tile_width = session.output.tile_width;
-    config.tile_height = session.output.tile_height;
-    if (session.output.history) {
+    if (output.history) {
+        config.attribute("Software", "tonetool : " + session.command_line);
         config.attribute("maketx:full_command_line", session.command_line);
     }
-    MakeTextureMode mode = label == "oenv"    ? OIIO::ImageBufAlgo::MakeTxEnvLatl
-                           : label == "obump" ? OIIO::ImageBufAlgo::MakeTxBumpWithSlopes
-                                              : OIIO::ImageBufAlgo::MakeTxTexture;
+    return config;
+}
+
+// -otex and its like.
+void run_texture(Session& session, const Call& call) {
+    namespace IBA = OIIO::ImageBufAlgo;
+    const std::string label = call.row().label();
+    const auto mode = label == "oenv"    ? IBA::MakeTxEnvLatl
+                      : label == "obump" ? IBA::MakeTxBumpWithSlopes
+                                         : IBA::MakeTxTexture;
     std::ostringstream told;
-    if (!OIIO::ImageBufAlgo::make_texture(mode, image.part().pixels(), call.argument(0), config,
-                                          &told)) {
-        throw CommandError(std::string(OIIO::Strutil::strip(told.str())) + OIIO::geterror());
+    const OIIO::ImageBuf& pixels = call.images[0]->part().pixels();
+    if (!IBA::make_texture(mode, pixels, call.argument(0), texture_config(session, call), &told)) {
+        throw CommandError("Could not make texture: " + OIIO::geterror(), call.text());
     }
-    session.produced = true;
+    session.wrote = call.images[0]->written = true;
     session.push(call.images[0]);
 }
 
@@ -456,6 +481,7 @@ std::vector<Command> io_commands() {
         "wrap=MODE: black, clamp, periodic, mirror\nswrap=MODE: in x\ntwrap=MODE: in y\n"
         "resize=0|1: to a power of 2\nnomipmap=0|1: the top level only\n"
         "updatemode=0|1: only if the texture would change\n"
+        "constant_color_detect=0|1: one tile where all pixels are the same\n"
         "monochrome_detect=0|1: one channel where all are the same\n"
         "opaque_detect=0|1: without an alpha that is 1 everywhere\n"
         "unpremult=0|1: divide by alpha for the colour conversion\n"

@@ -262,8 +262,13 @@ ImagePtr Evaluator::indexed_image() {
 std::string Evaluator::attribute_name() {
     OIIO::string_view name;
     if (Strutil::parse_char(m_rest, '[')) {
-        std::string key = Strutil::strip(Strutil::parse_until(m_rest, "]"));
-        (void)Strutil::parse_char(m_rest, ']');
+        const bool quoted = !m_rest.empty() && (m_rest.front() == '\'' || m_rest.front() == '"');
+        std::string key = m_session.compat && !quoted
+                              ? Strutil::parse_identifier(m_rest)
+                              : Strutil::strip(Strutil::parse_until(m_rest, "]"));
+        if (!Strutil::parse_char(m_rest, ']')) {
+            fail("expected `]`");
+        }
         return Strutil::strip(key, "'\"");
     }
     if (!Strutil::parse_char(m_rest, '.')) {

@@ -60,7 +60,7 @@ enum class Scope { Largest, Levels };
 struct OpRow {
     const char* usage; ///< "resize GEOM"
     int images;
-    const char* help;
+    std::string help;
     Kernel kernel;
     std::string modifiers = {};   ///< lines of "key=hint: help"
     Scope scope = Scope::Largest; ///< Levels: with -a MIP levels stay

@@ -145,13 +145,15 @@ void note_history(OIIO::ImageSpec& spec, const Session& session) {
 }
 
 void set_layout(OIIO::ImageSpec& spec, const OutputSettings& settings,
-                const OIIO::ImageOutput& writer) {
+                const OIIO::ImageOutput& writer, bool compat) {
     if (settings.scanline || !format_supports(writer, "tiles")) {
         spec.tile_width = spec.tile_height = spec.tile_depth = 0;
     } else if (settings.tile_width > 0) {
         spec.tile_width = settings.tile_width;
         spec.tile_height = settings.tile_height;
         spec.tile_depth = 1;
+    } else if (compat) {
+        spec.tile_width = spec.tile_height = spec.tile_depth = 0;
     }
     if (!settings.planarconfig.empty() && settings.planarconfig != "default") {
         spec.attribute("planarconfig", settings.planarconfig);
@@ -175,7 +177,7 @@ OIIO::ImageSpec output_spec(const Outgoing& image, const Session& session,
         int seed = int(OIIO::Strutil::strhash(filename));
         spec.attribute("oiio:dither", seed != 0 ? seed : 1);
     }
-    set_layout(spec, settings, writer);
+    set_layout(spec, settings, writer, session.compat);
     spec.erase_attribute("oiio:BitsPerSample");
     if (image.format.bits > 0) {
         spec.attribute("oiio:BitsPerSample", image.format.bits);
@@ -208,6 +210,17 @@ size_t parts_to_write(Session& session, const std::string& where, const Image& i
 }
 
 } // namespace
+
+DataFormat format_of(const Session& session, const Part& part) {
+    if (part.format()) {
+        return *part.format();
+    }
+    const std::string name = part.header().get_string_attribute("oiio:subimagename");
+    auto known = session.type_of_subimage.find(name);
+    return !name.empty() && known != session.type_of_subimage.end()
+               ? DataFormat{known->second, {}, 0}
+               : session.read_format.value_or(DataFormat{part.header().format, {}, 0});
+}
 
 const Strings& data_type_names() {
     static const Strings names = [] {
@@ -257,10 +270,7 @@ void write_output(Session& session, const std::string& where, const Image& image
         for (int level = 0; level < (mipmap ? part.mip_levels() : 1); ++level) {
             Outgoing& next = outgoing.emplace_back();
             next.pixels = &part.pixels(level);
-            next.format =
-                part.format()
-                    ? *part.format()
-                    : session.read_format.value_or(DataFormat{part.header().format, {}, 0});
+            next.format = format_of(session, part);
             if (settings.autocrop) {
                 fit_windows(next, *writer);
             }
@@ -278,7 +288,11 @@ void write_output(Session& session, const std::string& where, const Image& image
     session.keep_pixels_of(filename);
     std::string why;
     if (!write_images(ready, filename, why)) {
-        throw CommandError(why);
+        const std::string folder = OIIO::Filesystem::parent_path(filename);
+        const bool lost = !folder.empty() && !OIIO::Filesystem::is_directory(folder);
+        throw CommandError(session.compat && lost
+                               ? "Could not open \"" + filename + "\" (No such file or directory)"
+                               : why);
     }
     if (settings.adjust_time) {
         std::tm taken{};

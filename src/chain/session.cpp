@@ -53,10 +53,16 @@ void Session::note_format(Image& image) {
     image.noted = true;
     DataFormat widest = read_format.value_or(DataFormat{of_first.type, {}, of_first.bits});
     for (const PartPtr& part : image.parts()) {
-        widest.type =
-            OIIO::TypeDesc(OIIO::TypeDesc::basetype_merge(widest.type, part->format()->type));
+        const OIIO::TypeDesc type = part->format()->type;
+        widest.type = OIIO::TypeDesc(OIIO::TypeDesc::basetype_merge(widest.type, type));
+        type_of_subimage.emplace(part->header().get_string_attribute("oiio:subimagename"), type);
     }
     read_format = widest;
+    const OIIO::ImageSpec& spec = image.part().header();
+    if (compat && output.tile_width == 0 && !output.scanline) { // oiiotool goes on in its tiles
+        output.tile_width = spec.tile_width;
+        output.tile_height = spec.tile_height;
+    }
 }
 
 void Session::keep_pixels_of(const std::string& filename) {

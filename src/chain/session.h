@@ -101,9 +101,10 @@ struct Session {
     ReadOptions input;
     std::string missing_file = "error"; ///< or what stands in for it: "black", "checker"
     bool autocc = false, autocc_unpremult = false, autoorient = false;
-    bool metamerge = false;                      ///< results have the metadata of all inputs
-    std::optional<DataFormat> read_format;       ///< the widest of those read: of what is computed
-    std::optional<OIIO::ImageSpec> first_header; ///< of the image read first
+    bool metamerge = false;                ///< results have the metadata of all inputs
+    std::optional<DataFormat> read_format; ///< the widest of those read: of what is computed
+    std::map<std::string, OIIO::TypeDesc> type_of_subimage; ///< by its name: as it was read
+    std::optional<OIIO::ImageSpec> first_header;            ///< of the image read first
     std::time_t newest_input = 0;
     OutputSettings output;
 
