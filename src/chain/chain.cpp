@@ -12,14 +12,26 @@
 #include "chain/frames.h"
 #include "chain/help.h"
 #include "chain/runner.h"
+#include "chain/token.h"
 
 namespace tonetool::chain {
 
 namespace {
 
 std::string full_command_line(const Strings& words, bool compat) {
+    static const Strings attributes = {"attrib", "sattrib"};
+    const auto is_in = [](const Strings& names, const std::string& name) {
+        return std::find(names.begin(), names.end(), name) != names.end();
+    };
+    const bool sans = is_in(words, "--sansattrib") || is_in(words, "-sansattrib");
     std::string line = "tonetool";
-    for (const std::string& word : words) {
+    for (size_t i = 0; i < words.size(); ++i) {
+        const std::string& word = words[i];
+        const std::string name = parse_token(word, true).name;
+        if (sans && (name == "sansattrib" || is_in(attributes, name))) {
+            i += name == "sansattrib" ? 0 : 2;
+            continue;
+        }
         bool quoted = word.find_first_of(" \t\n") != std::string::npos;
         line += " " + (!compat ? shell_quoted(word) : (quoted ? '"' + word + '"' : word));
     }
@@ -53,17 +65,18 @@ public:
     }
 
 private:
-    int run_one(const FrameRun& run, std::ostream& out, std::ostream& err) const {
+    int run_one(const FrameRun& run, std::ostream& out, std::ostream& err) {
         Session session(out, err, full_command_line(run.words, m_plan.compat));
         session.compat = m_plan.compat;
         session.frame = run.frame;
         session.plan = &m_plan;
         session.parallel = m_plan.parallel;
         Runner(session, run.words).run_all();
+        m_aborted = m_aborted || session.aborted;
         return session.exit_status();
     }
 
-    bool ends() const { return m_status == 1 && !m_plan.skip_bad; }
+    bool ends() const { return m_aborted && !m_plan.skip_bad; }
 
     void finished(size_t index, int status) {
         m_status = worse(m_status, status);
@@ -78,6 +91,7 @@ private:
     std::ostream& m_err;
     Progress m_progress;
     int m_status = 0;
+    std::atomic<bool> m_aborted{false};
     std::mutex m_mutex;
     size_t m_next = 0, m_printed = 0;
     struct Texts {

@@ -75,6 +75,9 @@ int channel_index(const OIIO::ImageSpec& spec, const std::string& name) {
 OIIO::ImageBuf select_channels(const OIIO::ImageBuf& pixels, const std::string& list,
                                Session* session) {
     const OIIO::ImageSpec& spec = pixels.spec();
+    if (list.empty()) {
+        throw CommandError("0-channel images not supported");
+    }
     Selection selection;
     for (const std::string& part : split(list, ',')) {
         const std::string word = OIIO::Strutil::strip(part);

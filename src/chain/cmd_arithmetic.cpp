@@ -124,6 +124,8 @@ bool add_noise(Op& op, bool to_blank) {
         float first_value, second_value;
     } kinds[] = {{"gaussian", "mean", "stddev", middle, 0.1F},
                  {"uniform", "min", "max", middle, to_blank ? 1 : 0.1F},
+                 {"white", "min", "max", middle, to_blank ? 1 : 0.1F},
+                 {"blue", "min", "max", middle, to_blank ? 1 : 0.1F},
                  {"salt", "value", "portion", 0, to_blank ? 0.1F : 0.01F}};
     const std::string type = op.text("type", "gaussian");
     OIIO::ROI roi = op.dst.roi();
@@ -136,11 +138,11 @@ bool add_noise(Op& op, bool to_blank) {
         }
     }
     throw CommandError("Unknown noise type \"" + type + "\"" +
-                       (op.session.compat ? "" : " (valid: gaussian, uniform, salt)"));
+                       (op.session.compat ? "" : " (valid: gaussian, uniform, white, blue, salt)"));
 }
 
 std::string noise_modifiers() {
-    return "type=gaussian|uniform|salt: kind (gaussian)\n"
+    return "type=gaussian|uniform|white|blue|salt: kind (gaussian)\n"
            "mean=X: of gaussian noise (0)\n"
            "stddev=X: of gaussian noise (0.1)\n"
            "min=X: of uniform noise (0)\n"

@@ -21,7 +21,7 @@ OIIO::ImageBuf blank(Session& session, const Call& call, size_t first) {
         if (!session.compat) {
             throw CommandError(why + " (valid: 1 to 1024)");
         }
-        session.warning(call.row().label(), why);
+        session.warning(call.text(), why);
         channels = 3;
     }
     OIIO::ImageSpec spec(window.width(), window.height(), channels,
@@ -69,7 +69,7 @@ bool fill(Op& op, const OIIO::ROI& window) {
             throw CommandError(why + " (valid: color=, or top= and bottom=, or topleft=, "
                                      "topright=, bottomleft= and bottomright=)");
         }
-        op.session.warning(op.call.row().label(), why + ": filling with white.");
+        op.session.warning(op.call.text(), why + ": filling with white.");
     }
     return IBA::fill(op.dst, op.values("color", 1), window);
 }
@@ -97,7 +97,7 @@ bool draw_pattern(Op& op, const std::string& pattern) {
     if (!op.session.compat) {
         check_choice("pattern", pattern, names);
     } else if (pattern != "black") {
-        op.session.warning(op.call.row().label(), "Unknown pattern \"" + pattern + "\"");
+        op.session.warning(op.call.text(), "Unknown pattern \"" + pattern + "\"");
     }
     return true;
 }

@@ -150,7 +150,7 @@ bool rotate(Op& op) {
 bool warp(Op& op) {
     const Floats m = op.list("MATRIX", op.call.argument(0));
     if (m.size() != 9) {
-        throw CommandError("expected 9 comma-separated floats to form a 3x3 matrix");
+        throw CommandError("expected 9 comma-separated floats to form a 3x3 matrix", "", true);
     }
     const float matrix[3][3] = {{m[0], m[1], m[2]}, {m[3], m[4], m[5]}, {m[6], m[7], m[8]}};
     return filtered(op, [&](const OIIO::ImageBuf& from) {
@@ -165,7 +165,8 @@ bool cshift(Op& op) {
     bool found = std::sscanf(text.c_str(), "%d%d%n", &x, &y, &end) == 2;
     if (!found || (!op.session.compat && size_t(end) < text.size())) {
         throw CommandError("Invalid shift offset '" + text + "'" +
-                           (op.session.compat ? "" : " (valid: +X+Y)"));
+                               (op.session.compat ? "" : " (valid: +X+Y)"),
+                           "", true);
     }
     return IBA::circular_shift(op.dst, op.a(), x, y);
 }

@@ -63,7 +63,7 @@ bool matrix(Op& op) {
         m = {m[0], m[1], m[2], 0, m[3], m[4], m[5], 0, m[6], m[7], m[8], 0, 0, 0, 0, 1};
     }
     if (m.size() != 16) {
-        throw CommandError("expected 9 or 16 comma-separated floats to form a matrix");
+        throw CommandError("expected 9 or 16 comma-separated floats to form a matrix", "", true);
     }
     float values[4][4];
     for (size_t i = 0; i < 16; ++i) {

@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <ctime>
 #include <deque>
-#include <regex>
 
 #include "chain/channels.h"
 #include "chain/error.h"
@@ -29,10 +28,11 @@ struct TypeRow {
 const TypeRow type_rows[] = {
     {"uint8", OIIO::TypeDesc::UINT8, 0},    {"sint8", OIIO::TypeDesc::INT8, 0},
     {"uint10", OIIO::TypeDesc::UINT16, 10}, {"uint12", OIIO::TypeDesc::UINT16, 12},
-    {"uint16", OIIO::TypeDesc::UINT16, 0},  {"sint16", OIIO::TypeDesc::INT16, 0},
-    {"uint32", OIIO::TypeDesc::UINT32, 0},  {"sint32", OIIO::TypeDesc::INT32, 0},
-    {"half", OIIO::TypeDesc::HALF, 0},      {"float", OIIO::TypeDesc::FLOAT, 0},
-    {"double", OIIO::TypeDesc::DOUBLE, 0},
+    {"int8", OIIO::TypeDesc::INT8, 0},      {"int16", OIIO::TypeDesc::INT16, 0},
+    {"int32", OIIO::TypeDesc::INT32, 0},    {"uint16", OIIO::TypeDesc::UINT16, 0},
+    {"sint16", OIIO::TypeDesc::INT16, 0},   {"uint32", OIIO::TypeDesc::UINT32, 0},
+    {"sint32", OIIO::TypeDesc::INT32, 0},   {"half", OIIO::TypeDesc::HALF, 0},
+    {"float", OIIO::TypeDesc::FLOAT, 0},    {"double", OIIO::TypeDesc::DOUBLE, 0},
 };
 
 // One subimage on its way to the file: pixels (owned here where they had to change), data types.
@@ -134,18 +134,8 @@ void choose_format(Outgoing& image, const OutputSettings& asked, OutputSettings&
     }
 }
 
-// The command line, without the values that only a file's owner is to see.
-std::string noted_command_line(const Session& session) {
-    if (session.output.arguments_in_history) {
-        return session.command_line;
-    }
-    const std::regex attributes("-?-s?attrib(:\\S*)? (\"[^\"]*\"|'[^']*'|\\S+) "
-                                "(\"[^\"]*\"|'[^']*'|\\S+) ?");
-    return std::regex_replace(session.command_line, attributes, "");
-}
-
 void note_history(OIIO::ImageSpec& spec, const Session& session) {
-    const std::string line = noted_command_line(session);
+    const std::string& line = session.command_line;
     spec.attribute("Software", "tonetool " TONETOOL_VERSION " : " + line);
     std::string history = spec.get_string_attribute("Exif:ImageHistory");
     if (!history.empty() && history.back() != '\n') {
@@ -155,13 +145,15 @@ void note_history(OIIO::ImageSpec& spec, const Session& session) {
 }
 
 void set_layout(OIIO::ImageSpec& spec, const OutputSettings& settings,
-                const OIIO::ImageOutput& writer) {
+                const OIIO::ImageOutput& writer, bool compat) {
     if (settings.scanline || !format_supports(writer, "tiles")) {
         spec.tile_width = spec.tile_height = spec.tile_depth = 0;
     } else if (settings.tile_width > 0) {
         spec.tile_width = settings.tile_width;
         spec.tile_height = settings.tile_height;
         spec.tile_depth = 1;
+    } else if (compat) {
+        spec.tile_width = spec.tile_height = spec.tile_depth = 0;
     }
     if (!settings.planarconfig.empty() && settings.planarconfig != "default") {
         spec.attribute("planarconfig", settings.planarconfig);
@@ -185,15 +177,13 @@ OIIO::ImageSpec output_spec(const Outgoing& image, const Session& session,
         int seed = int(OIIO::Strutil::strhash(filename));
         spec.attribute("oiio:dither", seed != 0 ? seed : 1);
     }
-    set_layout(spec, settings, writer);
+    set_layout(spec, settings, writer, session.compat);
     spec.erase_attribute("oiio:BitsPerSample");
     if (image.format.bits > 0) {
         spec.attribute("oiio:BitsPerSample", image.format.bits);
     }
-    if (!spec.deep) {
-        spec.set_format(image.format.type);
-        spec.channelformats = image.format.of_channel;
-    }
+    spec.set_format(image.format.type);
+    spec.channelformats = image.format.of_channel;
     return spec;
 }
 
@@ -221,6 +211,17 @@ size_t parts_to_write(Session& session, const std::string& where, const Image& i
 
 } // namespace
 
+DataFormat format_of(const Session& session, const Part& part) {
+    if (part.format()) {
+        return *part.format();
+    }
+    const std::string name = part.header().get_string_attribute("oiio:subimagename");
+    auto known = session.type_of_subimage.find(name);
+    return !name.empty() && known != session.type_of_subimage.end()
+               ? DataFormat{known->second, {}, 0}
+               : session.read_format.value_or(DataFormat{part.header().format, {}, 0});
+}
+
 const Strings& data_type_names() {
     static const Strings names = [] {
         Strings all;
@@ -232,14 +233,14 @@ const Strings& data_type_names() {
     return names;
 }
 
-NamedType parse_data_type(const std::string& what, const std::string& name) {
+NamedType parse_data_type(const Session& session, const std::string& name) {
     for (const TypeRow& row : type_rows) {
-        if (name == row.name) {
+        if (name == row.name && (!session.compat || name.front() != 's')) {
             return {row.type, row.bits};
         }
     }
-    throw CommandError("Unknown " + what + " \"" + name +
-                       "\" (valid: " + join(data_type_names(), ", ") + ")");
+    const std::string valid = " (valid: " + join(data_type_names(), ", ") + ")";
+    throw CommandError("Unknown data format \"" + name + "\"" + (session.compat ? "" : valid));
 }
 
 void check_compression(const std::string& compression) {
@@ -269,10 +270,7 @@ void write_output(Session& session, const std::string& where, const Image& image
         for (int level = 0; level < (mipmap ? part.mip_levels() : 1); ++level) {
             Outgoing& next = outgoing.emplace_back();
             next.pixels = &part.pixels(level);
-            next.format =
-                part.format()
-                    ? *part.format()
-                    : session.read_format.value_or(DataFormat{part.header().format, {}, 0});
+            next.format = format_of(session, part);
             if (settings.autocrop) {
                 fit_windows(next, *writer);
             }
@@ -290,7 +288,11 @@ void write_output(Session& session, const std::string& where, const Image& image
     session.keep_pixels_of(filename);
     std::string why;
     if (!write_images(ready, filename, why)) {
-        throw CommandError(why);
+        const std::string folder = OIIO::Filesystem::parent_path(filename);
+        const bool lost = !folder.empty() && !OIIO::Filesystem::is_directory(folder);
+        throw CommandError(session.compat && lost
+                               ? "Could not open \"" + filename + "\" (No such file or directory)"
+                               : why);
     }
     if (settings.adjust_time) {
         std::tm taken{};
@@ -300,7 +302,7 @@ void write_output(Session& session, const std::string& where, const Image& image
             OIIO::Filesystem::last_write_time(filename, std::mktime(&taken));
         }
     }
-    session.produced = true;
+    session.wrote = true;
 }
 
 } // namespace tonetool::chain

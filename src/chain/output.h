@@ -11,10 +11,13 @@ namespace tonetool::chain {
 /// Names of the data types of -d.
 const Strings& data_type_names();
 /// The type of that name; a CommandError that lists the valid ones otherwise.
-NamedType parse_data_type(const std::string& what, const std::string& name);
+NamedType parse_data_type(const Session& session, const std::string& name);
 
 /// Check a compression, "name" or "name:quality"; a CommandError if it cannot be one.
 void check_compression(const std::string& compression);
+
+/// The data types of a part in a file, if nothing else is asked for.
+DataFormat format_of(const Session& session, const Part& part);
 
 /// Write an image with these settings; a CommandError if that fails, and then the file that was
 /// there is untouched. `where` is the command that warnings name.

@@ -63,6 +63,8 @@ struct Command : Shape {
     int (*pushes_of)(const Call&) = nullptr;
     /// --if and the like: seen also where commands are skipped.
     bool control = false;
+    bool operation = false; ///< one of oiiotool's on pixels: see Call::operation
+    bool own = false;       ///< not one of oiiotool's: strict with --compat, too
 
     /// As messages call it: "hdrflip", "-o".
     std::string label() const;
@@ -77,6 +79,9 @@ const std::vector<Command>& all_commands();
 
 /// The row of that name, or nullptr.
 const Command* find_command(const std::string& name);
+
+/// "--x" for a name like that one, or "".
+std::string nearest_command(const std::string& name);
 
 /// "did you mean --x, --y?" or "see --help".
 std::string suggest_command(const std::string& name);

@@ -40,7 +40,6 @@ private:
     const Strings& m_words;
     std::string m_where; ///< the command that an error belongs to
     std::deque<Call> m_postponed;
-    bool m_failed = false;
     OIIO::Timer m_time;
 };
 
