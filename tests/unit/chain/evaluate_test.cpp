@@ -109,7 +109,7 @@ TEST(Evaluate, ErrorsThresholdsAndWarningsAreTold) {
     done = evaluate({"white.exr", "black.exr", "--hdrflip:fail=0.01"}, {}, in_testimages);
     EXPECT_EQ(done.status, 3);
     EXPECT_EQ(done.error, "a threshold was exceeded");
-    EXPECT_THAT(done.out, HasSubstr("FAILURE"));
+    EXPECT_THAT(done.out, HasSubstr("FAIL mean"));
     done = evaluate({"plain.exr", "plain.exr", "--pop", "--dup", "--pop"}, {}, in_testimages);
     EXPECT_EQ(done.status, 0);
     EXPECT_THAT(evaluate({"truncated.exr"}, {}, in_testimages).error, HasSubstr("truncated.exr"));
