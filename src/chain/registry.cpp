@@ -9,8 +9,13 @@ namespace tonetool::chain {
 
 namespace {
 
+std::vector<Command>& added_commands() {
+    static std::vector<Command> rows;
+    return rows;
+}
+
 std::vector<Command> collect() {
-    std::vector<Command> all;
+    std::vector<Command> all = std::move(added_commands());
     for (auto family :
          {general_commands, control_commands, io_commands, inspect_commands, compare_commands,
           diff_commands, color_commands, tone_commands, cgtmo_commands, light_commands,
@@ -68,6 +73,10 @@ Command setting(Group group, Strings names, Strings args, std::string help, Run 
                 std::vector<Modifier> modifiers) {
     Shape shape{std::move(names), std::move(args), 0, 0, group};
     return {std::move(shape), std::move(modifiers), std::move(help), std::move(run)};
+}
+
+void add_commands(std::vector<Command> rows) {
+    std::move(rows.begin(), rows.end(), std::back_inserter(added_commands()));
 }
 
 const std::vector<Command>& all_commands() {

@@ -89,6 +89,9 @@ Command of_process(Command row);
 Command setting(Group group, Strings names, Strings args, std::string help, Run run,
                 std::vector<Modifier> modifiers = {});
 
+/// Rows of the rooms above, to be told before the first use of any other function here.
+void add_commands(std::vector<Command> rows);
+
 /// All rows.
 const std::vector<Command>& all_commands();
 
