@@ -111,12 +111,11 @@ void fit_channels(Session& session, const std::string& where, Outgoing& image,
     image.format.of_channel.clear();
 }
 
-void choose_format(Outgoing& image, const OutputSettings& asked, OutputSettings& memory) {
-    DataFormat& format = image.format;
+void choose_format(DataFormat& format, const OIIO::ImageSpec& spec, const OutputSettings& asked,
+                   OutputSettings& memory) {
     if (asked.type) {
         format = {asked.type->type, {}, asked.type->bits};
     }
-    const OIIO::ImageSpec& spec = image.pixels->spec();
     for (const auto& [name, type] : asked.type_of_channel) {
         for (size_t c = 0; c < spec.channelnames.size(); ++c) {
             if (spec.channelnames[c] == name) {
@@ -258,6 +257,15 @@ void check_compression(const std::string& compression) {
     }
 }
 
+OIIO::TypeDesc output_type(Session& session, const Part& part) {
+    DataFormat format = format_of(session, part);
+    choose_format(format, part.header(), session.output, session.output);
+    for (const OIIO::TypeDesc& type : format.of_channel) {
+        format.type = OIIO::TypeDesc(OIIO::TypeDesc::basetype_merge(format.type, type));
+    }
+    return format.type;
+}
+
 void write_output(Session& session, const std::string& where, const Image& image,
                   const std::string& filename, const OutputSettings& settings) {
     auto writer = find_writer(filename, settings.format_name);
@@ -275,7 +283,7 @@ void write_output(Session& session, const std::string& where, const Image& image
                 fit_windows(next, *writer);
             }
             fit_channels(session, where, next, *writer);
-            choose_format(next, settings, session.output);
+            choose_format(next.format, next.pixels->spec(), settings, session.output);
             ready.push_back({next.pixels, output_spec(next, session, settings, filename, *writer),
                              level > 0, settings.format_name});
             warn_of_encoding(session, where, ready.back().spec, *writer);

@@ -18,6 +18,8 @@ void check_compression(const std::string& compression);
 
 /// The data types of a part in a file, if nothing else is asked for.
 DataFormat format_of(const Session& session, const Part& part);
+/// The data type that a subimage would be written with, where the file format has it.
+OIIO::TypeDesc output_type(Session& session, const Part& part);
 
 /// Write an image with these settings; a CommandError if that fails, and then the file that was
 /// there is untouched. `where` is the command that warnings name.

@@ -10,8 +10,13 @@ namespace tonetool::chain {
 
 namespace {
 
+std::vector<Command>& added_commands() {
+    static std::vector<Command> rows;
+    return rows;
+}
+
 std::vector<Command> collect() {
-    std::vector<Command> all;
+    std::vector<Command> all = std::move(added_commands());
     const std::set<std::vector<Command> (*)()> own = {
         compare_commands, color_commands, tone_commands, cgtmo_commands, light_commands};
     for (auto family :
@@ -53,6 +58,20 @@ std::string group_title(Group group) {
     return titles[static_cast<int>(group)];
 }
 
+bool names_file(const std::string& hint) {
+    const std::string last = split(hint, '|').back();
+    return last == "FILE" || last == "FILENAME";
+}
+
+bool Command::writes() const {
+    return group == Group::Write && std::any_of(args.begin(), args.end(), names_file);
+}
+
+Command of_process(Command row) {
+    row.of_process = true;
+    return row;
+}
+
 std::string Command::label() const {
     return names.front().size() == 1 ? "-" + names.front() : names.front();
 }
@@ -61,6 +80,10 @@ Command setting(Group group, Strings names, Strings args, std::string help, Run 
                 std::vector<Modifier> modifiers) {
     Shape shape{std::move(names), std::move(args), 0, 0, group};
     return {std::move(shape), std::move(modifiers), std::move(help), std::move(run)};
+}
+
+void add_commands(std::vector<Command> rows) {
+    std::move(rows.begin(), rows.end(), std::back_inserter(added_commands()));
 }
 
 const std::vector<Command>& all_commands() {

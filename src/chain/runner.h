@@ -19,6 +19,8 @@ public:
     void run_all();
 
 private:
+    void check_policy(const Call& call) const;
+    void count_word();
     void guarded(void (Runner::*step)());
     void run_word();
     void run_file(const std::string& word);
@@ -40,6 +42,7 @@ private:
     const Strings& m_words;
     std::string m_where; ///< the command that an error belongs to
     std::deque<Call> m_postponed;
+    size_t m_count = 0; ///< of words that were run
     OIIO::Timer m_time;
 };
 

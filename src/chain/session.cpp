@@ -1,5 +1,7 @@
 #include "chain/session.h"
 
+#include <algorithm>
+#include <filesystem>
 #include <ostream>
 
 namespace tonetool::chain {
@@ -23,6 +25,9 @@ std::string of_frame(const Session& session) {
 void Session::error(const std::string& where, const std::string& what, bool ends) {
     ++errors;
     aborted |= ends;
+    if (first_error.empty()) {
+        first_error = (where.empty() ? "" : where + " : ") + what;
+    }
     out.flush();
     err << (what.empty() ? "tonetool ERROR: " + where + " (unknown error)"
                          : prefix("ERROR", where, compat) + what + of_frame(*this))
@@ -31,6 +36,7 @@ void Session::error(const std::string& where, const std::string& what, bool ends
 
 void Session::warning(const std::string& where, const std::string& what) {
     ++warnings;
+    warning_texts.push_back((where.empty() ? "" : where + " : ") + what);
     out.flush();
     err << prefix("WARNING", where, compat) << what << of_frame(*this) << std::endl;
 }
@@ -63,6 +69,18 @@ void Session::note_format(Image& image) {
         output.tile_width = spec.tile_width;
         output.tile_height = spec.tile_height;
     }
+}
+
+std::string Session::file(const std::string& name) {
+    // "ocio://..." names no file.
+    const bool as_it_is = name.empty() || name.find("://") != std::string::npos;
+    std::string path = as_it_is || policy.directory.empty()
+                           ? name
+                           : (std::filesystem::path(policy.directory) / name).string();
+    if (std::find(files.begin(), files.end(), path) == files.end()) {
+        files.push_back(path);
+    }
+    return path;
 }
 
 void Session::keep_pixels_of(const std::string& filename) {
