@@ -18,7 +18,8 @@ QcCount count_of(const metrics::Hits& hits) {
     QcCount count;
     count.pixels = hits.pixels;
     for (const metrics::Hit& hit : hits.first)
-        count.first.push_back({int(hit.x), int(hit.y), hit.value, 0});
+        count.first.push_back(
+            {int(hit.x), int(hit.y), std::isfinite(hit.value) ? hit.value : 0, 0});
     return count;
 }
 

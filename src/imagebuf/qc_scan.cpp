@@ -65,27 +65,40 @@ QcScan::Place QcScan::place_of(int channel) const {
     return place;
 }
 
+// Beside R, G, B other channels of plain names are layers of their own: "Z" is no colour.
 void QcScan::list_layers() {
     for (const AovLayer& from : aov_layers(m_spec)) {
-        Layer layer;
-        layer.name = from.plain && from.has_rgb() ? "" : from.name;
-        layer.kind = layer_kind(from, m_choice.layer, m_groups);
-        layer.part = place_of(from.first).part;
+        Layer layer{from.plain && from.has_rgb() ? "" : from.name,
+                    layer_kind(from, m_choice.layer, m_groups),
+                    place_of(from.first).part,
+                    {},
+                    {},
+                    {}};
         for (int channel : from.channels) {
-            const Place place = place_of(channel);
-            if ((channel == from.alpha && from.count > 1) || place.part != layer.part)
-                continue;
-            layer.channels.push_back(place.channel);
             const auto* color = std::find(from.rgb, from.rgb + 3, channel);
-            layer.weights.push_back(!from.has_rgb()        ? 1.0
-                                    : color < from.rgb + 3 ? m_weights[color - from.rgb]
-                                                           : 0.0);
+            const bool is_alpha = channel == from.alpha && from.count > 1;
+            if (is_alpha || (from.has_rgb() && color == from.rgb + 3))
+                continue;
+            layer.channels.push_back(place_of(channel).channel);
+            layer.weights.push_back(from.has_rgb() ? m_weights[color - from.rgb] : 1.0);
         }
-        if (!from.has_rgb())
-            for (double& weight : layer.weights)
-                weight /= double(layer.weights.size());
+        for (double& weight : layer.weights)
+            weight /= from.has_rgb() ? 1.0 : double(layer.weights.size());
         m_layers.push_back(std::move(layer));
+        for (int channel : from.channels)
+            if (from.has_rgb() && channel != from.alpha &&
+                std::find(from.rgb, from.rgb + 3, channel) == from.rgb + 3)
+                m_layers.push_back(
+                    lone_layer(m_spec.channelnames[size_t(channel)], place_of(channel)));
     }
+}
+
+QcScan::Layer QcScan::lone_layer(const std::string& channel, const Place& place) {
+    OIIO::ImageSpec one(1, 1, 1, OIIO::TypeFloat);
+    one.channelnames = {channel};
+    return {channel,    layer_kind(aov_layers(one).front(), "", {}),
+            place.part, {place.channel},
+            {1.0},      {}};
 }
 
 bool QcScan::run(std::string& error) {

@@ -61,6 +61,7 @@ private:
 
     bool open_parts(const std::vector<const OIIO::ImageBuf*>& parts, std::string& error);
     void list_layers();
+    static Layer lone_layer(const std::string& channel, const Place& place);
     void place_cells();
     Place place_of(int channel) const;
     const OIIO::ROI& picture_window() const { return m_parts[place_of(m_choice.r).part].window; }

@@ -102,7 +102,7 @@ RangeScan scan_range(const ChannelRow& row, int channel, double low, double high
     RangeScan out;
     for (int64_t x = 0; x < row.width; ++x) {
         const double v = row.pixels[x * row.stride + channel];
-        if (v < low)
+        if (!(v >= low))
             out.below.add({row.x + x, row.y, v});
         if (v > high)
             out.above.add({row.x + x, row.y, v});

@@ -50,7 +50,7 @@ struct RangeScan {
     Hits below, above;
     void add(const RangeScan& later);
 };
-/// Values of one channel beyond [low, high].
+/// Values of one channel beyond [low, high]; NaN is below.
 RangeScan scan_range(const ChannelRow& row, int channel, double low, double high);
 
 /// A pixel that is much larger than all that are kReach away, and the largest on the way.

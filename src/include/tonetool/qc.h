@@ -63,7 +63,7 @@ struct QcPicture {
     std::vector<int> thumbnail;
     static constexpr int kWide = 32, kHigh = 18, kDark = -30000;
     std::string hash;                           ///< of the values of its pixels
-    QcCount alpha_low;                          ///< below 0 by more than kAlphaSlack
+    QcCount alpha_low;                          ///< below 0 by more than kAlphaSlack, or NaN
     QcCount alpha_high;                         ///< above 1 by as much
     static constexpr double kAlphaSlack = 1e-3; ///< of sums of filter weights in half
     int64_t spike_count = 0;    ///< pixels 8 times as large as all that are 3 pixels away
