@@ -51,6 +51,8 @@ void fill_picture(const QcScan& scan, QcPicture& picture) {
     picture.hash = scan.hash();
     for (double mean : scan.cell_means())
         picture.thumbnail.push_back(thousandths_of_stops(mean));
+    for (double peak : scan.cell_peaks())
+        picture.peaks.push_back(thousandths_of_stops(peak));
     picture.alpha_low = count_of(scan.alpha().below);
     picture.alpha_high = count_of(scan.alpha().above);
     picture.spike_count = scan.spike_count();

@@ -258,6 +258,7 @@ void QcScan::place_cells() {
         m_cell_of.push_back(inside ? int(at * QcPicture::kWide / m_spec.full_width) : -1);
     }
     m_cells.assign(size_t(QcPicture::kWide) * QcPicture::kHigh, 0);
+    m_peaks.assign(m_cells.size(), 0);
     m_missing.assign(m_cells.size(), 0);
 }
 
@@ -268,6 +269,7 @@ void QcScan::add_cells(int y, const metrics::CellRow& cells) {
     const auto first = size_t(at * QcPicture::kHigh / m_spec.full_height) * QcPicture::kWide;
     for (size_t x = 0; x < size_t(QcPicture::kWide); ++x) {
         m_cells[first + x] += cells.sum[x];
+        m_peaks[first + x] = std::max(m_peaks[first + x], double(cells.largest[x]));
         m_missing[first + x] += cells.missing[x];
     }
 }

@@ -38,6 +38,7 @@ public:
     int64_t spike_count() const { return m_spike_count; }
     std::string hash() const;
     std::vector<double> cell_means() const;
+    const std::vector<double>& cell_peaks() const { return m_peaks; }
 
 private:
     struct Part {
@@ -89,7 +90,7 @@ private:
     metrics::RangeScan m_alpha;
     metrics::GroupScan m_group_scan;
     std::string m_hashes;
-    std::vector<double> m_cells;
+    std::vector<double> m_cells, m_peaks;
     std::vector<int64_t> m_missing;
     std::deque<std::vector<float>> m_largest; ///< rows of the picture that spikes may still need
     int m_largest_begin = 0;                  ///< the first of them

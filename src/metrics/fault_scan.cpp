@@ -170,6 +170,7 @@ PictureRow scan_picture(const float* rgb, int64_t width, const double (&weights)
     PictureRow out;
     out.largest.resize(size_t(width));
     out.cells.sum.resize(cells);
+    out.cells.largest.resize(cells);
     out.cells.missing.resize(cells);
     for (int64_t x = 0; x < width; ++x) {
         const float* v = rgb + 3 * x;
@@ -179,8 +180,10 @@ PictureRow scan_picture(const float* rgb, int64_t width, const double (&weights)
         out.largest[size_t(x)] = finite ? std::max(largest, 0.0f) : 0.0f;
         if (cell_of[x] < 0)
             continue;
-        out.cells.sum[size_t(cell_of[x])] += finite ? std::max(light, 0.0) : 0;
-        out.cells.missing[size_t(cell_of[x])] += !finite;
+        const auto cell = size_t(cell_of[x]);
+        out.cells.sum[cell] += finite ? std::max(light, 0.0) : 0;
+        out.cells.largest[cell] = std::max(out.cells.largest[cell], out.largest[size_t(x)]);
+        out.cells.missing[cell] += !finite;
     }
     return out;
 }

@@ -93,6 +93,7 @@ private:
 /// Sums over the cells of a grid in one row.
 struct CellRow {
     std::vector<double> sum;
+    std::vector<float> largest;
     std::vector<int64_t> missing; ///< pixels that are not finite
 };
 

@@ -138,6 +138,13 @@ std::vector<QcFrame*> QcShot::measured() {
     return chosen;
 }
 
+void mark_change(const std::vector<QcFrame*>& frames, size_t first, size_t last) {
+    frames[first]->changed = true;
+    if (last + 1 < frames.size()) {
+        frames[last + 1]->changed = true;
+    }
+}
+
 const QcLayer* find_layer(const QcFacts& facts, const std::string& name) {
     const auto found = std::find_if(facts.layers.begin(), facts.layers.end(),
                                     [&](const QcLayer& layer) { return layer.name == name; });

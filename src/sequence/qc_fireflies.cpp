@@ -2,7 +2,6 @@
 #include <OpenImageIO/strutil.h>
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 
 #include "sequence/qc_shot.h"
 
@@ -16,93 +15,108 @@ constexpr double kFloor = 0.05;
 constexpr size_t kFew = 9;
 // How far noise alone may go beyond that level, or beyond the usual largest spike of a shot.
 constexpr double kNoise = 4;
-// What moves between frames: a share of the width, and how its light may change.
-constexpr double kMoves = 0.03, kSameLight = 8;
-constexpr int kMovesAtLeast = 8;
+// How the light of a small lamp may change as it moves over the pixels.
+constexpr double kSameLight = 4;
+
+// A spike that no neighbouring frame has.
+struct Lone {
+    const QcSpot* spot;
+    double ratio; ///< to its surroundings
+};
 
 struct Spikes {
     QcFrame* frame;
-    std::vector<double> ratios; ///< as the spikes are listed
-    double level = 0;           ///< of the frame's own noise
-    double largest = 0;
+    std::vector<Lone> lone; ///< the largest ratio first
+    double largest() const { return lone.empty() ? 0 : lone.front().ratio; }
+    double noise() const { return lone.size() > kFew ? lone[kFew].ratio : 0; }
 };
+
+double luminance_of(int cell) {
+    return cell > QcPicture::kDark ? std::exp2(cell / 1000.0) : 0;
+}
 
 double mean_luminance(const QcFacts& facts) {
     double sum = 0;
     for (int cell : facts.picture.thumbnail) {
-        sum += cell > QcPicture::kDark ? std::exp2(cell / 1000.0) : 0;
+        sum += luminance_of(cell);
     }
     return sum / double(facts.picture.thumbnail.size());
 }
 
-Spikes spikes_of(QcFrame& frame, double usual_mean) {
-    Spikes spikes{&frame, {}, 0, 0};
-    for (const QcSpot& spike : frame.facts.picture.spikes) {
-        const double around = std::max(spike.around, kFloor * usual_mean);
-        spikes.ratios.push_back(around > 0 ? spike.value / around : 0);
+// A lamp or a glint is there in the next frame, too, not far away: in the same cell of the
+// thumbnail or one beside it.
+bool is_seen_in(const QcFacts& other, const QcSpot& spike) {
+    const std::array<int, 4>& window = other.parts.front().display;
+    const int cell_x = int(int64_t(spike.x - window[0]) * QcPicture::kWide / window[2]);
+    const int cell_y = int(int64_t(spike.y - window[1]) * QcPicture::kHigh / window[3]);
+    double most = 0;
+    for (int y = std::max(cell_y - 1, 0); y <= std::min(cell_y + 1, QcPicture::kHigh - 1); ++y) {
+        for (int x = std::max(cell_x - 1, 0); x <= std::min(cell_x + 1, QcPicture::kWide - 1);
+             ++x) {
+            most =
+                std::max(most, luminance_of(other.picture.peaks[size_t(y * QcPicture::kWide + x)]));
+        }
     }
-    std::vector<double> sorted = spikes.ratios;
-    std::sort(sorted.rbegin(), sorted.rend());
-    spikes.largest = sorted.empty() ? 0 : sorted.front();
-    spikes.level = sorted.size() > kFew ? sorted[kFew] : 0;
-    return spikes;
+    return most * kSameLight >= spike.value;
 }
 
-// A lamp or a glint is there in the next frame, too, not far away.
-bool is_seen_in(const QcFrame& other, const QcSpot& spike) {
-    const double reach =
-        std::max(kMoves * other.facts.parts.front().display[2], double(kMovesAtLeast));
-    const auto& spots = other.facts.picture.spikes;
-    return std::any_of(spots.begin(), spots.end(), [&](const QcSpot& spot) {
-        return std::abs(spot.x - spike.x) <= reach && std::abs(spot.y - spike.y) <= reach &&
-               spot.value * kSameLight >= spike.value;
-    });
+Spikes spikes_of(const std::vector<QcFrame*>& frames, size_t i, double usual_mean) {
+    Spikes spikes{frames[i], {}};
+    for (const QcSpot& spot : frames[i]->facts.picture.spikes) {
+        const double around = std::max(spot.around, kFloor * usual_mean);
+        const bool known = (i > 0 && is_seen_in(frames[i - 1]->facts, spot)) ||
+                           (i + 1 < frames.size() && is_seen_in(frames[i + 1]->facts, spot));
+        if (!known && around > 0) {
+            spikes.lone.push_back({&spot, spot.value / around});
+        }
+    }
+    std::stable_sort(spikes.lone.begin(), spikes.lone.end(),
+                     [](const Lone& a, const Lone& b) { return a.ratio > b.ratio; });
+    return spikes;
 }
 
 void judge_frame(QcShot& shot, const std::vector<Spikes>& all, size_t i) {
     std::vector<double> largest;
     for (size_t k = 0; k < all.size(); ++k) {
         if (k != i) {
-            largest.push_back(all[k].largest);
+            largest.push_back(all[k].largest());
         }
     }
-    const double noise = kNoise * std::max(all[i].level, median(largest));
-    const double limit = std::max(shot.threshold("firefly"), noise);
-    const QcPicture& picture = all[i].frame->facts.picture;
-    size_t count = 0, worst = 0;
-    for (size_t k = 0; k < picture.spikes.size(); ++k) {
-        const bool known = (i > 0 && is_seen_in(*all[i - 1].frame, picture.spikes[k])) ||
-                           (i + 1 < all.size() && is_seen_in(*all[i + 1].frame, picture.spikes[k]));
-        if (all[i].ratios[k] <= limit || known) {
-            continue;
-        }
-        if (count++ == 0 || all[i].ratios[k] > all[i].ratios[worst]) {
-            worst = k;
-        }
-    }
+    const std::vector<Lone>& lone = all[i].lone;
+    const double limit = std::max(shot.threshold("firefly"),
+                                  kNoise * std::max(all[i].noise(), median(std::move(largest))));
+    const auto end =
+        std::find_if(lone.begin(), lone.end(), [&](const Lone& at) { return at.ratio <= limit; });
+    const auto count = end - lone.begin();
     if (count > 0) {
-        const QcSpot& spike = picture.spikes[worst];
-        shot.add(*all[i].frame, "firefly",
-                 OIIO::Strutil::fmt::format(
-                     "{} {}, the worst at ({}, {}): {:.3g} where pixels around it are at most "
-                     "{:.3g}, and no neighbouring frame has it",
-                     count, count == 1 ? "firefly" : "fireflies", spike.x, spike.y, spike.value,
-                     spike.around),
-                 {picture.layer, Position{spike.x, spike.y}, all[i].ratios[worst]});
+        const QcSpot& worst = *lone.front().spot;
+        shot.add(
+            *all[i].frame, "firefly",
+            OIIO::Strutil::fmt::format(
+                "{} {}, the worst at ({}, {}): {:.3g} where pixels around it are at most "
+                "{:.3g}, and no neighbouring frame has it",
+                count, count == 1 ? "firefly" : "fireflies", worst.x, worst.y, worst.value,
+                worst.around),
+            {all[i].frame->facts.picture.layer, Position{worst.x, worst.y}, lone.front().ratio});
     }
 }
 
 } // namespace
 
+// A picture alone cannot tell: a lamp is a lone bright pixel, too.
 void find_fireflies(QcShot& shot) {
+    const std::vector<QcFrame*> frames = shot.pictures();
+    if (frames.size() < 2) {
+        return;
+    }
     std::vector<double> means;
-    for (const QcFrame* frame : shot.pictures()) {
+    for (const QcFrame* frame : frames) {
         means.push_back(mean_luminance(frame->facts));
     }
-    const double usual_mean = median(means);
+    const double usual_mean = median(std::move(means));
     std::vector<Spikes> all;
-    for (QcFrame* frame : shot.pictures()) {
-        all.push_back(spikes_of(*frame, usual_mean));
+    for (size_t i = 0; i < frames.size(); ++i) {
+        all.push_back(spikes_of(frames, i, usual_mean));
     }
     for (size_t i = 0; i < all.size(); ++i) {
         judge_frame(shot, all, i);

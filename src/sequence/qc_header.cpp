@@ -75,23 +75,37 @@ std::vector<OddRun> odd_runs(const std::vector<QcFrame*>& frames, const ValueOf&
     return runs;
 }
 
-// "frames 3 to 5: compression is zip, and none in 17 other frames".
+// "frames 3 to 5: " where it is more than one.
+std::string run_text(const std::vector<QcFrame*>& frames, const OddRun& run) {
+    return run.first == run.last
+               ? ""
+               : frames_text(frames[run.first]->number, frames[run.last]->number) + ": ";
+}
+
+std::string others_text(const OddRun& run) {
+    return format("{} other {}", run.usual_frames, run.usual_frames == 1 ? "frame" : "frames");
+}
+
+// "the compression is zip, but none in 17 other frames".
 std::string sentence(const std::vector<QcFrame*>& frames, const OddRun& run,
                      const std::string& what) {
     const auto shown = [](const std::string& value) {
         return value.empty() ? std::string("not there") : value;
     };
-    return format("{}: {} is {}, but {} in {} other {}",
-                  frames_text(frames[run.first]->number, frames[run.last]->number), what,
-                  shown(run.value), shown(run.usual), run.usual_frames,
-                  run.usual_frames == 1 ? "frame" : "frames");
+    return format("{}{} is {}, but {} in {}", run_text(frames, run), what, shown(run.value),
+                  shown(run.usual), others_text(run));
 }
 
+enum class Change { None, Picture };
+
 void find_odd(QcShot& shot, const std::string& code, const std::string& what,
-              const ValueOf& value_of, bool may_vary = false) {
+              const ValueOf& value_of, bool may_vary, Change change) {
     const std::vector<QcFrame*> frames = shot.measured();
     for (const OddRun& run : odd_runs(frames, value_of, may_vary)) {
         shot.add(*frames[run.first], code, sentence(frames, run, what));
+        if (change == Change::Picture) {
+            mark_change(frames, run.first, run.last);
+        }
     }
 }
 
@@ -116,18 +130,21 @@ Types types_of(const QcFacts& facts) {
     return {facts.channels.begin(), facts.channels.end()};
 }
 
-// Names that `usual` has and `facts` has not, and the other way round. Those of layers that are
-// missing altogether are told of as such.
-std::string channel_difference(const QcFacts& facts, const QcFacts& usual) {
+// Names that `usual` has and `facts` has not with a minus, and the other way round with a plus.
+std::vector<std::string> channel_difference(const QcFacts& facts, const QcFacts& usual) {
     const Types here = types_of(facts), there = types_of(usual);
-    std::string text;
-    for (const auto& [name, type] : there) {
-        text += here.count(name) > 0 ? "" : " -" + name;
+    std::vector<std::string> names;
+    for (const auto& channel : there) {
+        if (here.count(channel.first) == 0) {
+            names.push_back("-" + channel.first);
+        }
     }
-    for (const auto& [name, type] : here) {
-        text += there.count(name) > 0 ? "" : " +" + name;
+    for (const auto& channel : here) {
+        if (there.count(channel.first) == 0) {
+            names.push_back("+" + channel.first);
+        }
     }
-    return text;
+    return names;
 }
 
 std::string channel_names(const QcFacts& facts) {
@@ -159,49 +176,72 @@ bool lacks_only_layers(const QcFacts& facts, const QcFacts& usual) {
            });
 }
 
+// "A, B, C and 7 more".
+std::string shortened(const std::vector<std::string>& names) {
+    constexpr size_t most = 4;
+    const size_t shown = names.size() > most + 1 ? most : names.size();
+    std::string text;
+    for (size_t i = 0; i < shown; ++i) {
+        text += (i > 0 ? ", " : "") + names[i];
+    }
+    return shown < names.size() ? format("{} and {} more", text, names.size() - shown) : text;
+}
+
+// The facts of the first frame that has the usual value of a run.
+const QcFacts& usual_facts(const std::vector<QcFrame*>& frames, const OddRun& run,
+                           const ValueOf& value_of) {
+    const auto usual = std::find_if(frames.begin(), frames.end(), [&](const QcFrame* frame) {
+        return value_of(frame->facts) == run.usual;
+    });
+    return (*usual)->facts;
+}
+
 void find_odd_channels(QcShot& shot) {
     const std::vector<QcFrame*> frames = shot.measured();
     for (const OddRun& run : odd_runs(frames, channel_names, false)) {
-        const auto usual = std::find_if(frames.begin(), frames.end(), [&](const QcFrame* frame) {
-            return channel_names(frame->facts) == run.usual;
-        });
         QcFrame& frame = *frames[run.first];
-        const std::string difference = channel_difference(frame.facts, (*usual)->facts);
-        if (!lacks_only_layers(frame.facts, (*usual)->facts)) {
-            shot.add(frame, "channels",
-                     format("{}: {} of {} other frames",
-                            frames_text(frame.number, frames[run.last]->number),
-                            difference.empty()
-                                ? "the channels are not in the order"
-                                : "channels differ (" + difference.substr(1) + ") from those",
-                            run.usual_frames));
+        const QcFacts& usual = usual_facts(frames, run, channel_names);
+        if (lacks_only_layers(frame.facts, usual)) {
+            continue;
         }
+        const std::vector<std::string> names = channel_difference(frame.facts, usual);
+        shot.add(frame, "channels",
+                 format("{}the channels are not those of {}: {}", run_text(frames, run),
+                        others_text(run),
+                        names.empty() ? "their order is another" : shortened(names)));
     }
 }
 
 // Only of channels that all frames have.
 void find_odd_types(QcShot& shot) {
+    const std::vector<QcFrame*> frames = shot.measured();
     std::map<std::string, size_t> count;
-    for (const QcFrame* frame : shot.measured()) {
+    for (const QcFrame* frame : frames) {
         for (const auto& channel : frame->facts.channels) {
             ++count[channel.first];
         }
     }
-    const size_t frames = shot.measured().size();
-    find_odd(shot, "type", "the data type of channels", [&](const QcFacts& facts) {
-        std::map<std::string, std::string> channels_of;
-        for (const auto& [name, type] : facts.channels) {
-            if (count[name] == frames) {
-                channels_of[type] += (channels_of[type].empty() ? "" : ",") + name;
-            }
-        }
+    const ValueOf value_of = [&](const QcFacts& facts) {
         std::string text;
-        for (const auto& [type, names] : channels_of) {
-            text += (text.empty() ? "" : "; ") + type +
-                    (channels_of.size() > 1 ? " (" + names + ")" : "");
+        for (const auto& [name, type] : types_of(facts)) {
+            text += count[name] == frames.size() ? name + " " + type + "\n" : "";
         }
         return text;
-    });
+    };
+    for (const OddRun& run : odd_runs(frames, value_of, false)) {
+        QcFrame& frame = *frames[run.first];
+        const Types usual = types_of(usual_facts(frames, run, value_of));
+        std::vector<std::string> names;
+        for (const auto& [name, type] : types_of(frame.facts)) {
+            const auto other = usual.find(name);
+            if (other != usual.end() && other->second != type) {
+                names.push_back(format("{} is {}, not {}", name, type, other->second));
+            }
+        }
+        shot.add(frame, "type",
+                 format("{}data types are not those of {}: {}", run_text(frames, run),
+                        others_text(run), shortened(names)));
+    }
 }
 
 // What is different in every frame of a shot by its meaning, in lower case without punctuation.
@@ -243,25 +283,24 @@ void find_odd_metadata(QcShot& shot) {
                     return value == part.metadata.end() ? std::string() : value->second;
                 });
             },
-            true);
+            true, Change::None);
     }
 }
 
 } // namespace
 
 void find_odd_headers(QcShot& shot) {
-    find_odd(shot, "display-window", "the display window", [](const QcFacts& facts) {
-        return of_parts(facts, [](const QcPart& part) { return window_text(part.display); });
-    });
-    find_odd(
-        shot, "data-window", "the data window",
-        [](const QcFacts& facts) {
-            return of_parts(facts, [](const QcPart& part) { return window_text(part.data); });
-        },
-        true);
-    find_odd(shot, "compression", "the compression", [](const QcFacts& facts) {
-        return of_parts(facts, [](const QcPart& part) { return part.compression; });
-    });
+    const auto of_part = [](const auto& text_of) {
+        return [text_of](const QcFacts& facts) { return of_parts(facts, text_of); };
+    };
+    find_odd(shot, "display-window", "the display window",
+             of_part([](const QcPart& part) { return window_text(part.display); }), false,
+             Change::Picture);
+    find_odd(shot, "data-window", "the data window",
+             of_part([](const QcPart& part) { return window_text(part.data); }), true,
+             Change::Picture);
+    find_odd(shot, "compression", "the compression",
+             of_part([](const QcPart& part) { return part.compression; }), false, Change::None);
     find_odd_channels(shot);
     find_odd_types(shot);
     find_odd_metadata(shot);

@@ -94,6 +94,7 @@ ordered_json json_of(const QcPicture& picture) {
                        {"space", picture.space},
                        {"hash", picture.hash},
                        {"thumbnail", picture.thumbnail},
+                       {"peaks", picture.peaks},
                        {"spike_count", picture.spike_count},
                        {"spikes", json_of(picture.spikes)}};
     put(to, "alpha_low", picture.alpha_low);
@@ -107,17 +108,23 @@ ordered_json json_of(const QcPicture& picture) {
     return to;
 }
 
+std::vector<int> cells_of(const ordered_json& from, const char* key) {
+    auto cells = from.at(key).get<std::vector<int>>();
+    if (cells.size() != size_t(QcPicture::kWide) * QcPicture::kHigh) {
+        throw std::runtime_error(std::string(key) + " has " + std::to_string(cells.size()) +
+                                 " values, not " + std::to_string(QcPicture::kWide) + " x " +
+                                 std::to_string(QcPicture::kHigh));
+    }
+    return cells;
+}
+
 QcPicture picture_of(const ordered_json& from) {
     QcPicture picture;
     from.at("layer").get_to(picture.layer);
     from.at("space").get_to(picture.space);
     from.at("hash").get_to(picture.hash);
-    from.at("thumbnail").get_to(picture.thumbnail);
-    if (picture.thumbnail.size() != size_t(QcPicture::kWide) * QcPicture::kHigh) {
-        throw std::runtime_error("a thumbnail of " + std::to_string(picture.thumbnail.size()) +
-                                 " values, not " + std::to_string(QcPicture::kWide) + " x " +
-                                 std::to_string(QcPicture::kHigh));
-    }
+    picture.thumbnail = cells_of(from, "thumbnail");
+    picture.peaks = cells_of(from, "peaks");
     from.at("spike_count").get_to(picture.spike_count);
     picture.spikes = spots_of(from.at("spikes"));
     picture.alpha_low = count_of(from, "alpha_low");

@@ -43,6 +43,10 @@ void add_black_run(QcShot& shot, const std::vector<LayerFrame>& frames, size_t f
         return;
     }
     const LayerFrame& at = frames[first];
+    at.frame->changed = true;
+    if (last + 1 < frames.size()) {
+        frames[last + 1].frame->changed = true;
+    }
     const int neighbour = before ? frames[first - 1].frame->number : frames[last + 1].frame->number;
     shot.add(*at.frame, "black-layer",
              format("{} is black in {}, but not in frame {}", layer_text(*at.layer),
@@ -95,6 +99,7 @@ void find_missing(QcShot& shot, const std::string& name, const QcLayer& like) {
                  format("{} is not there in {}, but in {} other frames", layer_text(like),
                         frames_text(frames[first]->number, frames[last]->number), there),
                  {name, {}, {}});
+        mark_change(frames, first, last);
         first = last;
     }
 }
@@ -137,13 +142,17 @@ void find_lost_layers(QcShot& shot) {
 }
 
 // Above the threshold, or ten times as far off as the other frames are, which have rounding alone.
-// Groups that never add up are told of once.
+// Groups that never add up are told of once; frames that lack one, as such.
 void find_group_faults(QcShot& shot) {
     constexpr double times = 10, rounding = 0.002;
+    int groups = 1;
+    for (const QcFrame* frame : shot.pictures()) {
+        groups = std::max(groups, frame->facts.picture.groups);
+    }
     std::vector<QcFrame*> frames;
     std::vector<double> differences;
     for (QcFrame* frame : shot.pictures()) {
-        if (frame->facts.picture.groups > 0) {
+        if (frame->facts.picture.groups == groups) {
             frames.push_back(frame);
             differences.push_back(difference_of(*frame));
         }

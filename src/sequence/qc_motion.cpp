@@ -13,6 +13,9 @@ namespace {
 
 using OIIO::Strutil::fmt::format;
 
+// How many times the usual makes an unusual change.
+constexpr double kUnusual = 5;
+
 // The step most numbers are apart, the smallest of the most frequent; 0 without a rule.
 int usual_step(const std::vector<QcFrame>& frames) {
     std::map<int, size_t> count;
@@ -82,58 +85,94 @@ public:
         : m_shot(shot),
           m_frames(std::move(frames)),
           m_thumbnails(thumbnails_of(m_frames)),
-          m_explained(m_frames.size(), false) {}
+          m_gains{0} {
+        for (size_t i = 1; i < m_frames.size(); ++i) {
+            m_gains.push_back(gain(m_thumbnails[i - 1], m_thumbnails[i]));
+        }
+        for (const QcFrame* frame : m_frames) {
+            m_explained.push_back(frame->changed);
+        }
+    }
 
     void find() {
+        find_alternation();
         for (size_t length = 1; length <= 3; ++length) {
             find_runs(length);
         }
-        find_alternation();
         find_jumps();
     }
 
 private:
     double apart(size_t a, size_t b) const { return distance(m_thumbnails[a], m_thumbnails[b]); }
-    // How far, in stops, frames [first, last] are off the way from the frame before to that after.
-    double detour(size_t first, size_t last) const {
-        return (apart(first - 1, first) + apart(last, last + 1) - apart(first - 1, last + 1)) / 2;
-    }
+    double usual_gain(size_t but) const;
+    double detour(size_t first, size_t last) const;
+    double there_and_back(size_t first, size_t last) const;
     void find_runs(size_t length);
     void find_alternation();
+    bool is_jump(size_t i) const;
     void find_jumps();
-    bool is_jump(size_t i, const std::vector<double>& gains) const;
 
     QcShot& m_shot;
     std::vector<QcFrame*> m_frames;
     std::vector<Thumbnail> m_thumbnails;
-    std::vector<bool> m_explained; ///< the step to this frame from the one before
+    std::vector<double> m_gains;   ///< of each frame over the one before
+    std::vector<bool> m_explained; ///< that step
+    double m_unusual = 0;          ///< detours up to this are usual
 };
 
-// Five times what is usual in the shot: noise and fire flicker by nature.
+// Of all steps but one.
+double Flicker::usual_gain(size_t but) const {
+    std::vector<double> others;
+    for (size_t i = 1; i < m_gains.size(); ++i) {
+        if (i != but) {
+            others.push_back(std::abs(m_gains[i]));
+        }
+    }
+    return median(std::move(others));
+}
+
+// How far, in stops, frames [first, last] are off the way from the frame before to that after;
+// 0 if only one of the steps is large, as at a cut.
+double Flicker::detour(size_t first, size_t last) const {
+    const double there = apart(first - 1, first), back = apart(last, last + 1);
+    const double off = (there + back - apart(first - 1, last + 1)) / 2;
+    return std::min(there, back) > off / 2 ? off : 0;
+}
+
+// The smaller of the steps of brightness to these frames and from them, if these cancel out.
+double Flicker::there_and_back(size_t first, size_t last) const {
+    const double there = m_gains[first], back = m_gains[last + 1];
+    const double step = std::min(std::abs(there), std::abs(back));
+    const bool cancel = std::abs(gain(m_thumbnails[first - 1], m_thumbnails[last + 1])) < step / 2;
+    return there * back < 0 && cancel && step > kUnusual * usual_gain(first) ? step : 0;
+}
+
+// Several times what is usual in the shot: noise and fire flicker by nature.
 void Flicker::find_runs(size_t length) {
-    constexpr double unusual = 5;
     std::vector<double> detours;
     for (size_t i = 1; i + length < m_frames.size(); ++i) {
         detours.push_back(detour(i, i + length - 1));
     }
-    const double limit =
-        std::max(m_shot.threshold("flicker"), unusual * std::max(median(detours), 0.0));
+    m_unusual = std::max(m_unusual, kUnusual * median(detours));
     for (size_t i = 1; i + length < m_frames.size(); ++i) {
         const size_t last = i + length - 1;
-        const double off = detours[i - 1];
-        const bool there_and_back =
-            std::min(apart(i - 1, i), apart(last, last + 1)) > off / 2 && off > limit;
-        if (!there_and_back || m_explained[i] || m_explained[last + 1]) {
+        if (m_explained[i] || m_explained[last + 1]) {
+            continue;
+        }
+        const double off = detours[i - 1] > m_unusual ? detours[i - 1] : 0;
+        const double stops = std::max(off, there_and_back(i, last));
+        if (stops <= m_shot.threshold("flicker")) {
             continue;
         }
         m_explained[i] = m_explained[last + 1] = true;
         m_shot.add(*m_frames[i], "flicker",
-                   format("{} {} unlike frames {} and {} by {:.2f} stops more than these differ "
-                          "from each other",
-                          frames_text(m_frames[i]->number, m_frames[last]->number),
-                          length == 1 ? "is" : "are", m_frames[i - 1]->number,
-                          m_frames[last + 1]->number, off),
-                   {"", {}, off});
+                   format("{} unlike frames {} and {} by {:.2f} stops more than these differ from "
+                          "each other",
+                          length == 1
+                              ? "it is"
+                              : frames_text(m_frames[i]->number, m_frames[last]->number) + " are",
+                          m_frames[i - 1]->number, m_frames[last + 1]->number, stops),
+                   {"", {}, stops});
     }
 }
 
@@ -141,14 +180,10 @@ void Flicker::find_runs(size_t length) {
 void Flicker::find_alternation() {
     constexpr size_t enough = 6;
     const double limit = m_shot.threshold("flicker");
-    std::vector<double> gains{0};
-    for (size_t i = 1; i < m_frames.size(); ++i) {
-        gains.push_back(gain(m_thumbnails[i - 1], m_thumbnails[i]));
-    }
     for (size_t first = 1; first < m_frames.size(); ++first) {
         size_t last = first;
-        while (last + 1 < m_frames.size() && std::abs(gains[last]) > limit &&
-               std::abs(gains[last + 1]) > limit && gains[last] * gains[last + 1] < 0) {
+        while (last + 1 < m_frames.size() && std::abs(m_gains[last]) > limit &&
+               std::abs(m_gains[last + 1]) > limit && m_gains[last] * m_gains[last + 1] < 0) {
             ++last;
         }
         if (last - first + 1 >= enough) {
@@ -157,43 +192,33 @@ void Flicker::find_alternation() {
             m_shot.add(*m_frames[first], "flicker",
                        format("{} are brighter and darker by turns, by {:.2f} stops at first",
                               frames_text(m_frames[first - 1]->number, m_frames[last]->number),
-                              std::abs(gains[first])),
-                       {"", {}, std::abs(gains[first])});
+                              std::abs(m_gains[first])),
+                       {"", {}, std::abs(m_gains[first])});
         }
         first = last;
     }
 }
 
-// Much more than usual, and than the steps beside it, which a fade has alike.
-bool Flicker::is_jump(size_t i, const std::vector<double>& gains) const {
-    constexpr double unusual = 6, alone = 3, alike = 0.9;
-    const double step = std::abs(gains[i]);
-    std::vector<double> others;
-    for (size_t k = 1; k < gains.size(); ++k) {
-        if (k != i) {
-            others.push_back(std::abs(gains[k]));
-        }
-    }
-    const bool first = i == 1, last = i + 1 == gains.size();
-    return step > m_shot.threshold("jump") && step > unusual * median(others) &&
-           (first || m_explained[i - 1] || step > alone * std::abs(gains[i - 1])) &&
-           (last || m_explained[i + 1] || step > alone * std::abs(gains[i + 1])) &&
+// Much more than usual, and than the steps beside it, which a fade has alike. A cut changes more
+// than the brightness.
+bool Flicker::is_jump(size_t i) const {
+    constexpr double alone = 3, alike = 0.9;
+    const double step = std::abs(m_gains[i]);
+    const bool first = i == 1, last = i + 1 == m_gains.size();
+    return step > m_shot.threshold("jump") && step > kUnusual * usual_gain(i) &&
+           (first || m_explained[i - 1] || step > alone * std::abs(m_gains[i - 1])) &&
+           (last || m_explained[i + 1] || step > alone * std::abs(m_gains[i + 1])) &&
            correlation(m_thumbnails[i - 1], m_thumbnails[i]) > alike;
 }
 
-// A cut changes the picture, too.
 void Flicker::find_jumps() {
-    std::vector<double> gains{0};
     for (size_t i = 1; i < m_frames.size(); ++i) {
-        gains.push_back(gain(m_thumbnails[i - 1], m_thumbnails[i]));
-    }
-    for (size_t i = 1; i < m_frames.size(); ++i) {
-        if (!m_explained[i] && is_jump(i, gains)) {
+        if (!m_explained[i] && is_jump(i)) {
             m_shot.add(*m_frames[i], "jump",
                        format("{:.2f} stops {} than frame {}, of the same picture",
-                              std::abs(gains[i]), gains[i] > 0 ? "brighter" : "darker",
+                              std::abs(m_gains[i]), m_gains[i] > 0 ? "brighter" : "darker",
                               m_frames[i - 1]->number),
-                       {"", {}, std::abs(gains[i])});
+                       {"", {}, std::abs(m_gains[i])});
         }
     }
 }

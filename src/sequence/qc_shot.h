@@ -16,6 +16,7 @@ struct QcFrame {
     QcFacts facts;
     bool measured = false; ///< there are facts
     bool blank = false;    ///< black or of one colour: compared with no other frame
+    bool changed = false;  ///< a fault of windows or layers begins here, or has ended
 };
 
 /// What a fault is about, where there is more than its code and sentence.
@@ -50,6 +51,9 @@ const QcLayer* find_layer(const QcFacts& facts, const std::string& name);
 /// The layer that is the picture.
 const QcLayer& picture_layer(const QcFacts& facts);
 bool is_blank(const QcFacts& facts, const QcLimits& limits);
+/// Frames in a row that have the fault: a step of the light to the first of them, or from the last,
+/// needs no other explanation.
+void mark_change(const std::vector<QcFrame*>& frames, size_t first, size_t last);
 /// "frame 7", "frames 7 to 9".
 std::string frames_text(int first, int last);
 /// "the picture", "layer X".

@@ -62,9 +62,10 @@ struct QcPicture {
     /// least kDark: thumbnails are compared, and must be the same when read back.
     std::vector<int> thumbnail;
     static constexpr int kWide = 32, kHigh = 18, kDark = -30000;
-    std::string hash;                           ///< of the values of its pixels
-    QcCount alpha_low;                          ///< below 0 by more than kAlphaSlack, or NaN
-    QcCount alpha_high;                         ///< above 1 by as much
+    std::vector<int> peaks; ///< the largest components in the same cells, in the same units
+    std::string hash;       ///< of the values of its pixels
+    QcCount alpha_low;      ///< below 0 by more than kAlphaSlack, or NaN
+    QcCount alpha_high;     ///< above 1 by as much
     static constexpr double kAlphaSlack = 1e-3; ///< of sums of filter weights in half
     int64_t spike_count = 0;    ///< pixels 8 times as large as all that are 3 pixels away
     std::vector<QcSpot> spikes; ///< the largest of them, by value; at most kSpikes
