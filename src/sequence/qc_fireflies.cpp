@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sequence/qc_shot.h"
+#include "sequence/qc_thumbnails.h"
 
 namespace tonetool::sequence {
 
@@ -17,6 +17,8 @@ constexpr size_t kFew = 9;
 constexpr double kNoise = 4;
 // How the light of a small lamp may change as it moves over the pixels.
 constexpr double kSameLight = 4;
+// How far, in cells of the thumbnail, it may move in a frame: 6 % of the width.
+constexpr int kMoves = 2;
 
 // A spike that no neighbouring frame has.
 struct Lone {
@@ -43,30 +45,56 @@ double mean_luminance(const QcFacts& facts) {
     return sum / double(facts.picture.thumbnail.size());
 }
 
-// A lamp or a glint is there in the next frame, too, not far away: in the same cell of the
-// thumbnail or one beside it.
+struct Cell {
+    int x, y;
+};
+
+Cell cell_of(const QcFacts& facts, const QcSpot& spike) {
+    const std::array<int, 4>& window = facts.parts.front().display;
+    const double x = double(spike.x - window[0]) / window[2] * QcPicture::kWide;
+    const double y = double(spike.y - window[1]) / window[3] * QcPicture::kHigh;
+    return {int(std::floor(x)), int(std::floor(y))};
+}
+
+// Nobody sees what is outside of the display window.
+bool is_inside(const Cell& cell) {
+    return cell.x >= 0 && cell.y >= 0 && cell.x < QcPicture::kWide && cell.y < QcPicture::kHigh;
+}
+
+bool is_at_border(const Cell& cell) {
+    return cell.x < kMoves || cell.y < kMoves || cell.x >= QcPicture::kWide - kMoves ||
+           cell.y >= QcPicture::kHigh - kMoves;
+}
+
+// A lamp or a glint is there in the next frame, too, not far away.
 bool is_seen_in(const QcFacts& other, const QcSpot& spike) {
-    const std::array<int, 4>& window = other.parts.front().display;
-    const int cell_x = int(int64_t(spike.x - window[0]) * QcPicture::kWide / window[2]);
-    const int cell_y = int(int64_t(spike.y - window[1]) * QcPicture::kHigh / window[3]);
+    const Cell cell = cell_of(other, spike);
+    const int right = std::min(cell.x + kMoves, QcPicture::kWide - 1);
+    const int bottom = std::min(cell.y + kMoves, QcPicture::kHigh - 1);
     double most = 0;
-    for (int y = std::max(cell_y - 1, 0); y <= std::min(cell_y + 1, QcPicture::kHigh - 1); ++y) {
-        for (int x = std::max(cell_x - 1, 0); x <= std::min(cell_x + 1, QcPicture::kWide - 1);
-             ++x) {
-            most =
-                std::max(most, luminance_of(other.picture.peaks[size_t(y * QcPicture::kWide + x)]));
+    for (int y = std::max(cell.y - kMoves, 0); y <= bottom; ++y) {
+        for (int x = std::max(cell.x - kMoves, 0); x <= right; ++x) {
+            const size_t at = size_t(y) * QcPicture::kWide + size_t(x);
+            most = std::max(most, luminance_of(other.picture.peaks[at]));
         }
     }
     return most * kSameLight >= spike.value;
 }
 
-Spikes spikes_of(const std::vector<QcFrame*>& frames, size_t i, double usual_mean) {
-    Spikes spikes{frames[i], {}};
-    for (const QcSpot& spot : frames[i]->facts.picture.spikes) {
+// Before and after, where that is the same picture.
+using Neighbours = std::vector<const QcFrame*>;
+
+// Where a frame is missing on one side, a lamp at the border may just have come or be about to go.
+Spikes spikes_of(QcFrame& frame, const Neighbours& neighbours, double usual_mean) {
+    Spikes spikes{&frame, {}};
+    for (const QcSpot& spot : frame.facts.picture.spikes) {
+        const Cell cell = cell_of(frame.facts, spot);
         const double around = std::max(spot.around, kFloor * usual_mean);
-        const bool known = (i > 0 && is_seen_in(frames[i - 1]->facts, spot)) ||
-                           (i + 1 < frames.size() && is_seen_in(frames[i + 1]->facts, spot));
-        if (!known && around > 0) {
+        const bool known =
+            std::any_of(neighbours.begin(), neighbours.end(),
+                        [&](const QcFrame* other) { return is_seen_in(other->facts, spot); });
+        const bool unsure = neighbours.empty() || (neighbours.size() < 2 && is_at_border(cell));
+        if (is_inside(cell) && !known && !unsure && around > 0) {
             spikes.lone.push_back({&spot, spot.value / around});
         }
     }
@@ -106,9 +134,8 @@ void judge_frame(QcShot& shot, const std::vector<Spikes>& all, size_t i) {
 // A picture alone cannot tell: a lamp is a lone bright pixel, too.
 void find_fireflies(QcShot& shot) {
     const std::vector<QcFrame*> frames = shot.pictures();
-    if (frames.size() < 2) {
-        return;
-    }
+    const std::vector<Thumbnail> thumbnails = thumbnails_of(frames);
+    const double step = usual_step_of(thumbnails);
     std::vector<double> means;
     for (const QcFrame* frame : frames) {
         means.push_back(mean_luminance(frame->facts));
@@ -116,7 +143,14 @@ void find_fireflies(QcShot& shot) {
     const double usual_mean = median(std::move(means));
     std::vector<Spikes> all;
     for (size_t i = 0; i < frames.size(); ++i) {
-        all.push_back(spikes_of(frames, i, usual_mean));
+        Neighbours neighbours;
+        if (i > 0 && !is_cut(thumbnails[i - 1], thumbnails[i], step)) {
+            neighbours.push_back(frames[i - 1]);
+        }
+        if (i + 1 < frames.size() && !is_cut(thumbnails[i], thumbnails[i + 1], step)) {
+            neighbours.push_back(frames[i + 1]);
+        }
+        all.push_back(spikes_of(*frames[i], neighbours, usual_mean));
     }
     for (size_t i = 0; i < all.size(); ++i) {
         judge_frame(shot, all, i);

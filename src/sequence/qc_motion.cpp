@@ -92,6 +92,7 @@ public:
         for (const QcFrame* frame : m_frames) {
             m_explained.push_back(frame->changed);
         }
+        m_usual_step = usual_step_of(m_thumbnails);
     }
 
     void find() {
@@ -117,6 +118,7 @@ private:
     std::vector<Thumbnail> m_thumbnails;
     std::vector<double> m_gains;   ///< of each frame over the one before
     std::vector<bool> m_explained; ///< that step
+    double m_usual_step = 0;       ///< stops from a thumbnail to the next
     double m_unusual = 0;          ///< detours up to this are usual
 };
 
@@ -132,11 +134,11 @@ double Flicker::usual_gain(size_t but) const {
 }
 
 // How far, in stops, frames [first, last] are off the way from the frame before to that after;
-// 0 if only one of the steps is large, as at a cut.
+// 0 unless both steps are large: at a cut one is.
 double Flicker::detour(size_t first, size_t last) const {
     const double there = apart(first - 1, first), back = apart(last, last + 1);
     const double off = (there + back - apart(first - 1, last + 1)) / 2;
-    return std::min(there, back) > off / 2 ? off : 0;
+    return std::min(there, back) > std::max(off / 2, 2 * m_usual_step) ? off : 0;
 }
 
 // The smaller of the steps of brightness to these frames and from them, if these cancel out.

@@ -72,4 +72,17 @@ double correlation(const Thumbnail& a, const Thumbnail& b) {
     return aa < flat || bb < flat ? 0 : ab / std::sqrt(aa * bb);
 }
 
+double usual_step_of(const std::vector<Thumbnail>& thumbnails) {
+    std::vector<double> steps;
+    for (size_t i = 1; i < thumbnails.size(); ++i) {
+        steps.push_back(distance(thumbnails[i - 1], thumbnails[i]));
+    }
+    return median(std::move(steps));
+}
+
+bool is_cut(const Thumbnail& a, const Thumbnail& b, double usual_step) {
+    constexpr double unlike = 0.8, times = 3;
+    return correlation(a, b) < unlike && distance(a, b) > times * usual_step;
+}
+
 } // namespace tonetool::sequence
