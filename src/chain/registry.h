@@ -32,6 +32,7 @@ enum class Group {
     Metadata,
     Compare,
     Measure,
+    Check,
     Create,
     Arithmetic,
     Geometry,
@@ -41,7 +42,7 @@ enum class Group {
     Channels,
     Stack
 };
-inline constexpr int group_count = 16;
+inline constexpr int group_count = 17;
 std::string group_title(Group group);
 
 /// What a command takes and leaves, and where help lists it.
@@ -113,6 +114,7 @@ std::vector<Command> io_commands();
 std::vector<Command> inspect_commands();
 std::vector<Command> compare_commands();
 std::vector<Command> diff_commands();
+std::vector<Command> check_commands();
 std::vector<Command> color_commands();
 std::vector<Command> channel_commands();
 std::vector<Command> stack_commands();

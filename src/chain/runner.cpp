@@ -74,12 +74,12 @@ void run_command(Session& session, const std::string& word, Strings arguments) {
 void Runner::run_all() {
     Flow& flow = m_session.flow;
     const bool stops = m_session.compat || m_session.error_exit;
-    while (flow.next < m_words.size() && !(m_session.aborted && stops)) {
+    while (flow.next < m_words.size() && !m_ended && !(m_session.aborted && stops)) {
         m_where.clear();
         guarded(&Runner::run_word);
     }
     m_where.clear();
-    if (!m_session.aborted) {
+    if (!m_session.aborted && !m_ended) {
         guarded(&Runner::finish);
     }
     if (m_session.runstats) {
@@ -95,6 +95,8 @@ void Runner::guarded(void (Runner::*step)()) {
     } catch (const ReadError& problem) {
         m_session.error(m_session.compat ? "read" : m_where,
                         m_session.compat ? problem.why : problem.what());
+    } catch (const EndOfRun&) {
+        m_ended = true;
     } catch (const UsageError& problem) {
         ++m_session.errors;
         m_session.aborted = true;

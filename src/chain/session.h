@@ -15,6 +15,12 @@
 #include "chain/policy.h"
 #include "chain/text.h"
 
+namespace tonetool::sequence {
+struct FrameResult;
+struct ShotExposures;
+struct ExposureSample;
+} // namespace tonetool::sequence
+
 namespace tonetool::chain {
 
 /// A data type as -d and datatype= name it.
@@ -132,6 +138,10 @@ struct Session {
     int errors = 0, warnings = 0, failures = 0;
     std::string first_error;
     Strings warning_texts;
+    sequence::FrameResult* result = nullptr; ///< of a check: gathers what commands measure
+    /// The range of exposures=shot or of a file; while that is still measured, where to.
+    const sequence::ShotExposures* shot = nullptr;
+    sequence::ExposureSample* sample = nullptr;
 
     /// The name of an operator that waits for images; empty if none does.
     std::string waiting;

@@ -1,0 +1,171 @@
+#include "sequence/results.h"
+
+#include <cmath>
+#include <gmock/gmock.h>
+#include <stdexcept>
+
+#include "sequence/results_json.h"
+
+namespace tonetool::sequence {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+Measurement measured(double value, std::optional<double> fail) {
+    Measurement one;
+    one.command = "hdrflip";
+    one.reference = "ref.exr";
+    one.test = "test.exr";
+    one.threshold = Threshold{"p99", value, false, fail, {}};
+    one.quantities = {{"mean", value / 3}, {"p99", value}};
+    one.histogram = {1, 2, 3};
+    one.worst = Position{4, -5};
+    one.pixels = 6;
+    one.exposures = {-1.25, 1.0 / 3};
+    one.parameters = {{"ppd", 67.0206}};
+    one.settings = {{"tonemapper", "aces"}};
+    one.warnings = {"2 pixels are not finite"};
+    return one;
+}
+
+FrameResult frame(int number, double value, std::optional<double> fail = 0.5) {
+    FrameResult result;
+    result.frame = number;
+    result.status = Status::Passed;
+    result.measurements = {measured(value, fail)};
+    judge(result);
+    return result;
+}
+
+FrameResult missing(int number) {
+    FrameResult result;
+    result.frame = number;
+    result.status = Status::Missing;
+    result.message = "no file \"a\"";
+    judge(result);
+    return result;
+}
+
+ShotResult shot(std::vector<FrameResult> frames) {
+    ShotResult result;
+    result.check = {"a.#.exr", "--hdrflip"};
+    result.frames = std::move(frames);
+    conclude(result);
+    return result;
+}
+
+TEST(Judge, A_value_at_its_threshold_passes_and_above_fails) {
+    EXPECT_EQ(frame(1, 0.5).status, Status::Passed);
+    EXPECT_EQ(frame(1, 0.50001).status, Status::Failed);
+    EXPECT_THAT(frame(1, 0.75).message, HasSubstr("hdrflip: p99 0.75 > 0.5"));
+}
+
+TEST(Judge, A_value_that_is_no_number_fails) {
+    EXPECT_EQ(frame(1, std::nan("")).status, Status::Failed);
+}
+
+TEST(Judge, Without_a_threshold_nothing_is_passed) {
+    EXPECT_EQ(frame(1, 0.1, std::nullopt).status, Status::Measured);
+}
+
+TEST(Judge, A_threshold_that_holds_passes_beside_a_measurement_without_one) {
+    FrameResult result = frame(1, 0.1);
+    result.measurements.push_back(measured(0.9, std::nullopt));
+    judge(result);
+    EXPECT_EQ(result.status, Status::Passed);
+}
+
+TEST(Judge, Without_a_measurement_it_is_an_error) {
+    FrameResult empty;
+    empty.status = Status::Passed;
+    judge(empty);
+    EXPECT_EQ(empty.status, Status::Error);
+}
+
+TEST(Judge, What_is_worse_than_a_failure_stays) {
+    EXPECT_EQ(missing(3).status, Status::Missing);
+    EXPECT_EQ(missing(3).message, "no file \"a\"");
+}
+
+TEST(Judge, A_fault_counts_by_its_severity) {
+    FrameResult result = frame(1, 0.1);
+    result.faults = {{"dark", Severity::Info, "A bit dark.", "", {}, {}, {}}};
+    judge(result);
+    EXPECT_EQ(result.status, Status::Passed);
+    result.faults.push_back({"nan", Severity::Error, "NaN.", "", {}, {}, {}});
+    judge(result);
+    EXPECT_EQ(result.status, Status::Failed);
+    EXPECT_EQ(result.message, "NaN.");
+}
+
+TEST(Conclude, The_worst_come_first) {
+    const ShotResult result = shot({frame(9, 0.9), frame(1, 0.1), missing(4), frame(2, 0.95)});
+    EXPECT_EQ(result.verdict, Status::Missing);
+    EXPECT_THAT(result.worst, ElementsAre(2, 1, 3)); // of 1, 2, 4, 9
+    EXPECT_THAT(result.sentence, HasSubstr("4 frames: 1 missing, 2 failed, 1 passed"));
+    EXPECT_EQ(exit_status(result.verdict, false), 1);
+}
+
+TEST(Conclude, Where_all_passed_the_largest_error_is_named) {
+    const ShotResult result = shot({frame(1, 0.1), frame(2, 0.3), frame(3, 0.2)});
+    EXPECT_EQ(result.verdict, Status::Passed);
+    EXPECT_THAT(result.worst, ElementsAre(1));
+    EXPECT_EQ(exit_status(result.verdict, true), 0);
+}
+
+TEST(Conclude, No_frame_is_an_error_and_one_twice_is_refused) {
+    EXPECT_EQ(exit_status(shot({}).verdict, false), 1);
+    EXPECT_THROW(shot({frame(1, 0.1), frame(1, 0.2)}), std::runtime_error);
+}
+
+TEST(Json, Comes_back_to_the_byte) {
+    FrameResult second = frame(2, std::nextafter(0.1, 1.0));
+    second.view = "left";
+    second.faults = {{"nan", Severity::Warning, "NaN.", "R", Position{1, 2}, -HUGE_VAL, 1e-310}};
+    second.qc = R"({"mean":0.1})";
+    ShotResult result = shot({frame(1, std::nan("")), second, missing(7)});
+    result.exposures = ShotExposures{1.0 / 3, 0.1, 8};
+    const std::string text = to_json(result);
+    EXPECT_EQ(to_json(shot_from_json(text)), text);
+    EXPECT_EQ(shot_from_json(text).frames[1].measurements[0].threshold->value,
+              std::nextafter(0.1, 1.0));
+    EXPECT_EQ(to_json(frame_from_json(to_json(second))), to_json(second));
+}
+
+TEST(Json, Every_name_of_a_status_comes_back) {
+    for (int i = 0; i <= int(Status::Error); ++i) {
+        EXPECT_EQ(status_of_name(status_name(Status(i))), Status(i));
+    }
+    EXPECT_FALSE(status_of_name("fine"));
+}
+
+TEST(Json, Names_that_are_no_text_do_not_break_it) {
+    FrameResult odd = missing(1);
+    odd.test = "a\xff\"\n.exr";
+    EXPECT_EQ(frame_from_json(to_json(odd)).test, "a\xEF\xBF\xBD\"\n.exr");
+}
+
+std::string refusal(const std::string& text) {
+    try {
+        shot_from_json(text);
+    } catch (const std::runtime_error& problem) {
+        return problem.what();
+    }
+    return "accepted";
+}
+
+TEST(Json, Refuses_what_is_no_result_and_says_why) {
+    EXPECT_THAT(refusal("[]"), HasSubstr("tonetool-check"));
+    EXPECT_THAT(refusal("{"), HasSubstr("parse error"));
+    EXPECT_THAT(refusal(R"({"format":"tonetool-check","version":9})"), HasSubstr("version 9"));
+    EXPECT_THAT(refusal(R"({"format":"tonetool-check","version":1,"check":[],
+        "frames":[{"frame":1,"status":"fine"}]})"),
+                HasSubstr("\"fine\""));
+    EXPECT_THAT(refusal(R"({"format":"tonetool-check","version":1,"check":[],
+        "frames":[{"status":"passed"}]})"),
+                HasSubstr("'frame'"));
+}
+
+} // namespace
+} // namespace tonetool::sequence
