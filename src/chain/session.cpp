@@ -1,5 +1,7 @@
 #include "chain/session.h"
 
+#include <algorithm>
+#include <filesystem>
 #include <ostream>
 
 #include "chain/registry.h"
@@ -24,6 +26,9 @@ std::string of_frame(const Session& session) {
 
 void Session::error(const std::string& where, const std::string& what) {
     ++errors;
+    if (first_error.empty()) {
+        first_error = (where.empty() ? "" : where + " : ") + what;
+    }
     out.flush();
     err << prefix("ERROR", where, compat) << what << of_frame(*this)
         << "\nFull command line was:\n> " << command_line << std::endl;
@@ -31,6 +36,7 @@ void Session::error(const std::string& where, const std::string& what) {
 
 void Session::warning(const std::string& where, const std::string& what) {
     ++warnings;
+    warning_texts.push_back((where.empty() ? "" : where + " : ") + what);
     out.flush();
     const bool command = compat && find_command(where) != nullptr;
     err << prefix("WARNING", command ? "--" + where : where, compat) << what << of_frame(*this)
@@ -45,6 +51,18 @@ void Session::report(const std::string& line) {
 
 void Session::print(const std::string& line) {
     out << line << '\n';
+}
+
+std::string Session::file(const std::string& name) {
+    // "ocio://..." names no file.
+    const bool as_it_is = name.empty() || name.find("://") != std::string::npos;
+    std::string path = as_it_is || policy.directory.empty()
+                           ? name
+                           : (std::filesystem::path(policy.directory) / name).string();
+    if (std::find(files.begin(), files.end(), path) == files.end()) {
+        files.push_back(path);
+    }
+    return path;
 }
 
 void Session::keep_pixels_of(const std::string& filename) {
