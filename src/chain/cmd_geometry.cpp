@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "chain/ops.h"
+#include "imagebuf/oiio_compat.h"
 
 namespace tonetool::chain {
 
@@ -82,7 +83,7 @@ bool scale_to(Op& op, const OIIO::ROI& display, bool resample) {
     const OIIO::ROI roi = op.dst.roi();
     return resample ? IBA::resample(op.dst, op.a(), op.flag("interp", true), roi)
                     : filtered(op, [&](const OIIO::ImageBuf& from) {
-                          return IBA::resize(op.dst, from, op.text("filter"), 0, roi);
+                          return oiio::resize(op.dst, from, op.text("filter"), roi);
                       });
 }
 
@@ -98,8 +99,8 @@ bool fit(Op& op) {
     const OIIO::ROI display = asked_window(op, op.a().roi_full(), Geometry::Window);
     const OIIO::ROI size(0, display.width(), 0, display.height(), 0, 1, 0, op.a().nchannels());
     bool done = filtered(op, [&](const OIIO::ImageBuf& from) {
-        return IBA::fit(op.dst, from, op.text("filter"), 0, op.text("fillmode", "letterbox"),
-                        op.flag("exact"), size);
+        return oiio::fit(op.dst, from, op.text("filter"), op.text("fillmode", "letterbox"),
+                         op.flag("exact"), size);
     });
     op.dst.set_roi_full(display);
     OIIO::ImageBuf padded;

@@ -4,6 +4,7 @@
 #include <OpenImageIO/strutil.h>
 
 #include "chain/ops.h"
+#include "imagebuf/oiio_compat.h"
 #include "include/tonetool/write.h"
 
 namespace tonetool::chain {
@@ -48,7 +49,7 @@ bool display(Op& op) {
     if (!op.session.compat) {
         check_view(op.session, name, view);
     }
-    if (op.call.has("looks") && !op.session.compat && OIIO_VERSION < 20500) {
+    if (op.call.has("looks") && !op.session.compat && !oiio::display_takes_looks) {
         throw CommandError("looks= has no effect with OpenImageIO " OIIO_VERSION_STRING
                            " (valid: --ociolook before --ociodisplay)");
     }

@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "chain/error.h"
-#include "chain/oiio_compat.h"
+#include "imagebuf/oiio_compat.h"
 
 namespace tonetool::chain {
 
@@ -104,7 +104,7 @@ void Part::share(int level) {
         return;
     }
     spec.set_format(pixels.spec().format);
-    m_pixels[size_t(level)] = view_with_spec(pixels, spec);
+    m_pixels[size_t(level)] = oiio::view_with_spec(pixels, spec);
 }
 
 const OIIO::ImageBuf& Part::pixels(int level) {
@@ -146,8 +146,9 @@ void Part::read(int level) {
     if (!spec.deep && !buffer.localpixels()) {
         throw CommandError("not enough memory for \"" + m_file + "\"");
     }
-    bool done = spec.deep ? read_deep_pixels(*input, m_subimage, level, *buffer.deepdata())
-                          : read_flat_pixels(*input, m_subimage, level, spec, buffer.localpixels());
+    bool done = spec.deep
+                    ? oiio::read_deep_pixels(*input, m_subimage, level, *buffer.deepdata())
+                    : oiio::read_flat_pixels(*input, m_subimage, level, spec, buffer.localpixels());
     if (!done || input->has_error()) {
         throw ReadError(m_file, input->geterror());
     }
@@ -164,7 +165,7 @@ OIIO::ImageBuf Part::color_view() {
     if (m_integer_encoded && !told) {
         spec.attribute("oiio:ColorSpace", "sRGB");
     }
-    return view_with_spec(buffer, spec);
+    return oiio::view_with_spec(buffer, spec);
 }
 
 OIIO::ImageBuf Part::color_source() {
@@ -172,8 +173,8 @@ OIIO::ImageBuf Part::color_source() {
         return color_view();
     }
     check_unchanged();
-    m_cache = make_header_cache();
-    OIIO::ImageBuf buffer = unread_file(m_file, m_subimage, m_cache);
+    m_cache = oiio::make_header_cache();
+    OIIO::ImageBuf buffer = oiio::unread_file(m_file, m_subimage, m_cache);
     return buffer.has_error() || buffer.spec().roi() != header().roi() ? color_view()
                                                                        : std::move(buffer);
 }

@@ -10,7 +10,7 @@
 
 #include "chain/channels.h"
 #include "chain/error.h"
-#include "chain/oiio_compat.h"
+#include "imagebuf/oiio_compat.h"
 #include "include/tonetool/tonetool.h"
 
 namespace tonetool::chain {
@@ -56,8 +56,8 @@ std::unique_ptr<OIIO::ImageOutput> find_writer(const std::string& filename,
 // part of it that they can hold.
 void fit_windows(Outgoing& image, const OIIO::ImageOutput& writer) {
     OIIO::ROI wanted = image.pixels->roi_full();
-    bool windows = format_supports(writer, "displaywindow");
-    bool negative = format_supports(writer, "negativeorigin");
+    bool windows = oiio::format_supports(writer, "displaywindow");
+    bool negative = oiio::format_supports(writer, "negativeorigin");
     const OIIO::ImageSpec& spec = image.pixels->spec();
     bool below_zero = std::min({spec.x, spec.y, spec.full_x, spec.full_y}) < 0;
     if (wanted == image.pixels->roi() || spec.deep || (windows && (negative || !below_zero))) {
@@ -81,9 +81,9 @@ void fit_windows(Outgoing& image, const OIIO::ImageOutput& writer) {
 void fit_channels(Session& session, const std::string& where, Outgoing& image,
                   const OIIO::ImageOutput& writer) {
     const OIIO::ImageSpec& spec = image.pixels->spec();
-    bool alpha = format_supports(writer, "alpha");
+    bool alpha = oiio::format_supports(writer, "alpha");
     bool fits = spec.nchannels <= 3 || (spec.nchannels == 4 && alpha) ||
-                (spec.nchannels > 4 && format_supports(writer, "nchannels"));
+                (spec.nchannels > 4 && oiio::format_supports(writer, "nchannels"));
     if (fits) {
         return;
     }
@@ -145,7 +145,7 @@ void note_history(OIIO::ImageSpec& spec, const Session& session) {
 
 void set_layout(OIIO::ImageSpec& spec, const OutputSettings& settings,
                 const OIIO::ImageOutput& writer, bool compat) {
-    if (settings.scanline || !format_supports(writer, "tiles")) {
+    if (settings.scanline || !oiio::format_supports(writer, "tiles")) {
         spec.tile_width = spec.tile_height = spec.tile_depth = 0;
     } else if (settings.tile_width > 0) {
         spec.tile_width = settings.tile_width;
@@ -198,7 +198,7 @@ void warn_of_encoding(Session& session, const std::string& where, const OIIO::Im
 
 size_t parts_to_write(Session& session, const std::string& where, const Image& image,
                       const OIIO::ImageOutput& writer) {
-    if (image.part_count() > 1 && !format_supports(writer, "multiimage")) {
+    if (image.part_count() > 1 && !oiio::format_supports(writer, "multiimage")) {
         session.warning(where, std::string(writer.format_name()) +
                                    " holds one image: only the "
                                    "first of " +
@@ -270,7 +270,7 @@ void write_output(Session& session, const std::string& where, const Image& image
                   const std::string& filename, const OutputSettings& settings) {
     auto writer = find_writer(filename, settings.format_name);
     const size_t count = parts_to_write(session, where, image, *writer);
-    const bool mipmap = format_supports(*writer, "mipmap");
+    const bool mipmap = oiio::format_supports(*writer, "mipmap");
     std::deque<Outgoing> outgoing; // addresses stay
     std::vector<OutputImage> ready;
     for (size_t i = 0; i < count; ++i) {
