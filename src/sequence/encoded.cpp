@@ -13,12 +13,13 @@ using Bytes = std::vector<unsigned char>;
 
 // A header of its own: what the picture's file says of itself is not for the page.
 OIIO::ImageSpec spec_of(const OIIO::ImageBuf& picture, Encoding encoding, int quality) {
+    const bool full_color = encoding == Encoding::JpegMap;
     const OIIO::ROI roi = picture.roi();
     OIIO::ImageSpec spec(roi.width(), roi.height(), 3, OIIO::TypeDesc::UINT8);
     spec.attribute("oiio:ColorSpace", "sRGB");
-    if (encoding == Encoding::Jpeg) {
+    if (encoding != Encoding::Png) {
         spec.attribute("Compression", OIIO::Strutil::sprintf("jpeg:%d", quality));
-        spec.attribute("jpeg:subsampling", "4:4:4");
+        spec.attribute("jpeg:subsampling", full_color ? "4:4:4" : "4:2:0");
     } else {
         spec.attribute("png:compressionLevel", 6);
     }
@@ -26,21 +27,21 @@ OIIO::ImageSpec spec_of(const OIIO::ImageBuf& picture, Encoding encoding, int qu
 }
 
 Bytes encoded(const OIIO::ImageBuf& picture, Encoding encoding, int quality) {
-    const char* name = encoding == Encoding::Jpeg ? "picture.jpg" : "picture.png";
+    const char* name = encoding != Encoding::Png ? "picture.jpg" : "picture.png";
     const OIIO::ImageSpec spec = spec_of(picture, encoding, quality);
     OIIO::ROI roi = picture.roi();
     roi.chbegin = 0;
     roi.chend = 3;
-    std::vector<float> pixels(size_t(roi.npixels()) * 3);
+    Bytes pixels(size_t(roi.npixels()) * 3);
     Bytes bytes;
     OIIO::Filesystem::IOVecOutput memory(bytes);
     const auto output = OIIO::ImageOutput::create(name);
     if (!output) {
         throw std::runtime_error(OIIO::geterror());
     }
-    const bool done = picture.get_pixels(roi, OIIO::TypeFloat, pixels.data()) &&
+    const bool done = picture.get_pixels(roi, OIIO::TypeDesc::UINT8, pixels.data()) &&
                       output->set_ioproxy(&memory) && output->open(name, spec) &&
-                      output->write_image(OIIO::TypeFloat, pixels.data()) && output->close();
+                      output->write_image(OIIO::TypeDesc::UINT8, pixels.data()) && output->close();
     if (!done || bytes.empty()) {
         throw std::runtime_error("could not encode a picture: " + output->geterror() +
                                  picture.geterror());
@@ -75,7 +76,7 @@ Bytes decoded(const std::string& text, size_t begin) {
 
 std::string data_uri(const OIIO::ImageBuf& picture, Encoding encoding, int quality) {
     const Bytes bytes = encoded(picture, encoding, quality);
-    const char* type = encoding == Encoding::Jpeg ? "jpeg" : "png";
+    const char* type = encoding != Encoding::Png ? "jpeg" : "png";
     return std::string("data:image/") + type + ";base64," +
            OIIO::Strutil::base64_encode(
                {reinterpret_cast<const char*>(bytes.data()), bytes.size()});

@@ -7,7 +7,8 @@
 
 namespace tonetool::sequence {
 
-enum class Encoding { Jpeg, Png };
+/// JpegMap keeps the colours of neighbours apart, for false colours.
+enum class Encoding { Jpeg, JpegMap, Png };
 
 /// "data:image/jpeg;base64,...": the first three channels, display-encoded, 0 to 1. `quality` is
 /// JPEG's, 1 to 100. A runtime_error if it cannot be encoded.

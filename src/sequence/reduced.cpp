@@ -2,8 +2,10 @@
 
 #include <OpenImageIO/imagebufalgo.h>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <stdexcept>
+#include <vector>
 
 namespace tonetool::sequence {
 
@@ -22,37 +24,77 @@ ColorChoice color_of(const ImageBuf& image, const PixelOptions& options) {
     return choice;
 }
 
-void check(const ImageBuf& image, bool done) {
-    if (!done || image.has_error()) {
-        throw std::runtime_error(image.geterror());
+// A header that says the space as find_color() reads it of floats: Rec.709 by saying nothing.
+OIIO::ImageSpec tagged(const OIIO::ImageSpec& from, const std::string& space) {
+    OIIO::ImageSpec spec(1, 1, 3, OIIO::TypeFloat);
+    if (space == "chromaticities") {
+        float values[8] = {};
+        from.getattribute("chromaticities", OIIO::TypeDesc("float[8]"), values);
+        spec.attribute("chromaticities", OIIO::TypeDesc("float[8]"), values);
+    } else if (space != "rec709") {
+        spec.attribute("oiio:ColorSpace", space);
     }
+    return spec;
 }
 
-// Says the space as find_color() reads it of floats: Rec.709 by saying nothing.
-void tag(OIIO::ImageSpec& spec, const std::string& space) {
-    spec.erase_attribute("oiio:ColorSpace");
-    if (space != "chromaticities") {
-        spec.erase_attribute("chromaticities");
-        if (space != "rec709") {
-            spec.attribute("oiio:ColorSpace", space);
+// Rows of a region of an image, one at a time: of `count` channels from `channel`.
+class Rows {
+public:
+    Rows(const ImageBuf& image, ROI region, int channel, int count)
+        : m_image(image),
+          m_region(region),
+          m_values(size_t(region.width()) * size_t(count)) {
+        m_region.chbegin = channel;
+        m_region.chend = channel + count;
+    }
+
+    const std::vector<float>& read(int y) {
+        ROI row = m_region;
+        row.ybegin = y;
+        row.yend = y + 1;
+        if (!m_image.get_pixels(row, OIIO::TypeFloat, m_values.data())) {
+            throw std::runtime_error(m_image.geterror());
+        }
+        return m_values;
+    }
+
+private:
+    const ImageBuf& m_image;
+    ROI m_region;
+    std::vector<float> m_values;
+};
+
+// Which pixel of a reduced side one of a region's falls on.
+int target(int at, int from, int to) {
+    return int(int64_t(at) * to / from);
+}
+
+// Sums of the finite pixels that fall on each pixel of a reduced row.
+struct RowSums {
+    std::vector<double> color;
+    std::vector<int> count;
+
+    explicit RowSums(int width) : color(size_t(width) * 3), count(size_t(width)) {}
+
+    void add(size_t at, const float* pixel, const std::array<int, 3>& order) {
+        const auto value = [&](size_t c) { return double(pixel[order[c]]); };
+        if (std::isfinite(value(0)) && std::isfinite(value(1)) && std::isfinite(value(2))) {
+            ++count[at];
+            for (size_t c = 0; c < 3; ++c) {
+                color[3 * at + c] += value(c);
+            }
         }
     }
-}
 
-// The colour of a region, at the origin and as floats, with its own colour space in the header.
-ImageBuf color_cut(const ImageBuf& image, const PixelOptions& options, ROI region) {
-    const ColorChoice choice = color_of(image, options);
-    const int order[3] = {choice.r, choice.g, choice.b};
-    const std::string names[3] = {"R", "G", "B"};
-    region.chbegin = 0;
-    region.chend = image.nchannels();
-    ImageBuf part, result;
-    check(part, IBA::cut(part, image, region));
-    check(result, IBA::channels(result, part, 3, order, {}, names));
-    ImageBuf floats = result.copy(OIIO::TypeFloat);
-    tag(floats.specmod(), choice.space);
-    return floats;
-}
+    void write(ImageBuf& image, int y) const {
+        for (size_t x = 0; x < count.size(); ++x) {
+            const double scale = count[x] > 0 ? 1.0 / count[x] : 0;
+            const float mean[3] = {float(color[3 * x] * scale), float(color[3 * x + 1] * scale),
+                                   float(color[3 * x + 2] * scale)};
+            image.setpixel(int(x), y, mean);
+        }
+    }
+};
 
 } // namespace
 
@@ -76,42 +118,68 @@ ROI scaled(const ROI& part, const ROI& from, const ROI& to) {
     return result;
 }
 
-ImageBuf resized(const ImageBuf& image, const Side& side, int nthreads) {
+ImageBuf resized(const ImageBuf& image, const Side& side) {
     if (image.spec().width == side.width && image.spec().height == side.height) {
         return image;
     }
     ImageBuf result;
-    const ROI target(0, side.width, 0, side.height, 0, 1, 0, image.nchannels());
-    check(result, IBA::resize(result, image, "box", 0.0f, target, nthreads));
+    const ROI to(0, side.width, 0, side.height, 0, 1, 0, image.nchannels());
+    if (!IBA::resize(result, image, "box", 0.0f, to)) {
+        throw std::runtime_error(result.geterror());
+    }
     return result;
 }
 
 ImageBuf reduced_color(const ImageBuf& image, const PixelOptions& options, const ROI& region,
-                       const Side& side, int nthreads) {
-    ImageBuf color = color_cut(image, options, region);
-    check(color, IBA::fixNonFinite(color, color, IBA::NONFINITE_BLACK, nullptr, {}, nthreads));
-    return resized(color, side, nthreads);
+                       const Side& wanted) {
+    // A smaller image, compared resized, is enlarged as its last step.
+    const Side side{std::min(wanted.width, region.width()),
+                    std::min(wanted.height, region.height())};
+    const ColorChoice choice = color_of(image, options);
+    const int first = std::min({choice.r, choice.g, choice.b});
+    const int count = std::max({choice.r, choice.g, choice.b}) + 1 - first;
+    const std::array<int, 3> order{choice.r - first, choice.g - first, choice.b - first};
+    OIIO::ImageSpec spec = tagged(image.spec(), choice.space);
+    spec.width = spec.full_width = side.width;
+    spec.height = spec.full_height = side.height;
+    ImageBuf result(spec);
+    Rows rows(image, region, first, count);
+    int y = 0;
+    for (int to = 0; to < side.height; ++to) {
+        RowSums sums(side.width);
+        for (; y < region.height() && target(y, region.height(), side.height) == to; ++y) {
+            const std::vector<float>& row = rows.read(region.ybegin + y);
+            for (int x = 0; x < region.width(); ++x) {
+                sums.add(size_t(target(x, region.width(), side.width)),
+                         row.data() + size_t(x) * size_t(count), order);
+            }
+        }
+        sums.write(result, to);
+    }
+    return resized(result, wanted);
 }
 
 ReducedMaps reduced_maps(const ImageBuf& error, const ImageBuf* stops, const Side& side) {
     const ROI all = error.roi();
-    const OIIO::ImageSpec spec(side.width, side.height, 1, OIIO::TypeFloat);
-    ReducedMaps maps{ImageBuf(spec), ImageBuf(spec)};
-    check(maps.error, IBA::fill(maps.error, -1.0f));
-    ImageBuf::Iterator<float> most(maps.error);
-    ImageBuf::Iterator<float> at(maps.stops);
-    for (ImageBuf::ConstIterator<float> pixel(error); !pixel.done(); ++pixel) {
-        const int x = int(int64_t(pixel.x() - all.xbegin) * side.width / all.width());
-        const int y = int(int64_t(pixel.y() - all.ybegin) * side.height / all.height());
-        most.pos(x, y);
-        if (pixel[0] > most[0]) {
-            most[0] = pixel[0];
-            if (stops) {
-                at.pos(x, y);
-                at[0] = stops->getchannel(pixel.x(), pixel.y(), 0, 0);
+    const size_t width = size_t(side.width);
+    std::vector<float> most(width * size_t(side.height), -1.0f), at(most.size());
+    Rows errors(error, all, 0, 1), exposures(stops ? *stops : error, all, 0, 1);
+    for (int y = 0; y < all.height(); ++y) {
+        const std::vector<float>& row = errors.read(all.ybegin + y);
+        const std::vector<float>& of = exposures.read(all.ybegin + y);
+        const size_t line = size_t(target(y, all.height(), side.height)) * width;
+        for (int x = 0; x < all.width(); ++x) {
+            const size_t i = line + size_t(target(x, all.width(), side.width));
+            if (row[size_t(x)] > most[i]) {
+                most[i] = row[size_t(x)];
+                at[i] = of[size_t(x)];
             }
         }
     }
+    const OIIO::ImageSpec spec(side.width, side.height, 1, OIIO::TypeFloat);
+    ReducedMaps maps{ImageBuf(spec), ImageBuf(spec)};
+    maps.error.set_pixels(maps.error.roi(), OIIO::TypeFloat, most.data());
+    maps.stops.set_pixels(maps.stops.roi(), OIIO::TypeFloat, at.data());
     return maps;
 }
 

@@ -17,13 +17,13 @@ Side fitted(const OIIO::ROI& region, int longest);
 /// The part of `to` that lies in it as `part` lies in `from`.
 OIIO::ROI scaled(const OIIO::ROI& part, const OIIO::ROI& from, const OIIO::ROI& to);
 
-/// R, G, B of a region at the origin, reduced by the mean of what is beneath each pixel, in the
-/// colour space they are stored in, which the result names. What the image does not cover and
-/// what is not finite is black. A runtime_error without colour.
+/// R, G, B of a region at the origin, reduced by the mean of the finite pixels beneath each, in
+/// the colour space they are stored in, which the result names. What the image does not cover is
+/// black. A runtime_error without colour.
 OIIO::ImageBuf reduced_color(const OIIO::ImageBuf& image, const PixelOptions& options,
-                             const OIIO::ROI& region, const Side& side, int nthreads);
+                             const OIIO::ROI& region, const Side& side);
 
-OIIO::ImageBuf resized(const OIIO::ImageBuf& image, const Side& side, int nthreads);
+OIIO::ImageBuf resized(const OIIO::ImageBuf& image, const Side& side);
 
 /// An error map of which each pixel is the largest error beneath it, and the exposure of that.
 struct ReducedMaps {

@@ -112,10 +112,10 @@ Rows about(const ShotResult& shot, const Kept& kept, const PageLimits& limits) {
 }
 
 ordered_json captions() {
-    return {{"shown", format("As they were compared at this exposure, reduced to {} pixels at most "
-                             "in the light of the image. The picture takes a drag, the slider the "
-                             "arrow keys.",
-                             picture_side)},
+    return {{"shown",
+             format("As compared at this exposure; large images are reduced to {} pixels. Drag "
+                    "in the picture, or use the slider.",
+                    picture_side)},
             {"error", "0 is no visible difference, 1 the largest. Each pixel shows the largest "
                       "error beneath it, so that a single pixel is not lost."},
             {"stops", "The exposure at which the error is largest."},

@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
-#include "include/tonetool/display.h"
+#include "sequence/bytes.h"
 #include "sequence/encoded.h"
 #include "sequence/reduced.h"
 
@@ -18,28 +18,10 @@ using nlohmann::ordered_json;
 using OIIO::ImageBuf;
 using OIIO::ROI;
 
-constexpr int large_quality = 85, map_quality = 90, small_quality = 75;
-
-ImageBuf encoded_srgb(const ImageBuf& linear, int nthreads) {
-    ImageBuf result;
-    if (!ToneAlgo::encode_srgb(result, linear, {}, nthreads)) {
-        throw std::runtime_error(result.geterror());
-    }
-    return result;
-}
-
-ImageBuf colored(const ImageBuf& map, const char* colors, double low = 0, double high = 1) {
-    namespace IBA = OIIO::ImageBufAlgo;
-    const auto scale = float(1 / std::max(high - low, 1e-6));
-    ImageBuf result;
-    if (!ToneAlgo::color_map(result, IBA::mul(IBA::sub(map, float(low)), scale), colors)) {
-        throw std::runtime_error(result.geterror());
-    }
-    return result;
-}
+constexpr int large_quality = 82, map_quality = 85, small_quality = 72;
 
 struct Shown {
-    ImageBuf reference, test; ///< display-encoded
+    ImageBuf reference, test; ///< 8 bits, sRGB-encoded
 };
 
 // Both ends and what lies evenly between them.
@@ -92,8 +74,7 @@ private:
     Linear read(const ROI& region, const Side& side) const {
         Linear linear;
         const auto part = [&](const ImageBuf& image) {
-            return reduced_color(image, m_request.look.pixels, region_of(image, region), side,
-                                 m_nthreads);
+            return reduced_color(image, m_request.look.pixels, region_of(image, region), side);
         };
         linear.test = part(*m_request.test);
         if (m_request.reference) {
@@ -139,28 +120,29 @@ private:
         if (!ToneAlgo::hdr_flip(map, reference, linear.test, look, &result, {}, m_nthreads)) {
             throw std::runtime_error(map.geterror());
         }
-        return {encoded_srgb(result.exposures.at(0).reference, m_nthreads),
-                encoded_srgb(result.exposures.at(0).test, m_nthreads)};
+        return {srgb_bytes(result.exposures.at(0).reference),
+                srgb_bytes(result.exposures.at(0).test)};
     }
 
     ImageBuf displayed(const ImageBuf& linear) const {
         TonemapOptions options;
         options.curve.name = "linear";
+        options.encode = "none";
         ImageBuf result;
         if (!ToneAlgo::tonemap(result, linear, options, nullptr, {}, m_nthreads)) {
             throw std::runtime_error(result.geterror());
         }
-        return result;
+        return srgb_bytes(result);
     }
 
     void draw_small(FramePictures& pictures, const Linear& linear, double stops,
                     const Side& side) const {
         const Shown shown = show(linear, stops);
-        pictures.small_test =
-            data_uri(resized(shown.test, side, m_nthreads), Encoding::Jpeg, small_quality);
+        pictures.small_test = data_uri(resized(shown.test, side), Encoding::Jpeg, small_quality);
         if (m_request.error) {
             const ImageBuf error = reduced_maps(*m_request.error, nullptr, side).error;
-            pictures.small_error = data_uri(colored(error, "magma"), Encoding::Jpeg, small_quality);
+            pictures.small_error =
+                data_uri(colored_bytes(error, "magma"), Encoding::JpegMap, small_quality);
         }
     }
 
@@ -184,13 +166,14 @@ private:
 
     void draw_maps(FramePictures& pictures, const Side& side) const {
         const ReducedMaps maps = reduced_maps(*m_request.error, m_request.stops, side);
-        pictures.error = data_uri(colored(maps.error, "magma"), Encoding::Jpeg, map_quality);
+        pictures.error =
+            data_uri(colored_bytes(maps.error, "magma"), Encoding::JpegMap, map_quality);
         if (m_request.stops && !m_request.exposures.empty()) {
             pictures.first_stop = m_request.exposures.front();
             pictures.last_stop = m_request.exposures.back();
-            pictures.stops =
-                data_uri(colored(maps.stops, "viridis", pictures.first_stop, pictures.last_stop),
-                         Encoding::Jpeg, map_quality);
+            pictures.stops = data_uri(
+                colored_bytes(maps.stops, "viridis", pictures.first_stop, pictures.last_stop),
+                Encoding::Jpeg, map_quality);
         }
     }
 
@@ -226,7 +209,7 @@ private:
         }
         if (m_request.error) {
             const ImageBuf error = OIIO::ImageBufAlgo::cut(*m_request.error, near);
-            result.error = data_uri(colored(error, "magma"), Encoding::Png);
+            result.error = data_uri(colored_bytes(error, "magma"), Encoding::Png);
         }
         return result;
     }
@@ -280,7 +263,7 @@ std::string legend_uri(const std::string& map) {
     ImageBuf ramp(OIIO::ImageSpec(256, 1, 1, OIIO::TypeFloat));
     const float from[1] = {0.0f}, to[1] = {1.0f};
     OIIO::ImageBufAlgo::fill(ramp, from, to, from, to);
-    return data_uri(colored(ramp, map.c_str()), Encoding::Png);
+    return data_uri(colored_bytes(ramp, map), Encoding::Png);
 }
 
 } // namespace tonetool::sequence

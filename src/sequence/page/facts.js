@@ -1,6 +1,6 @@
 // The numbers of the frame that is shown.
 
-const facts = { histogram: null };
+const facts = { histograms: [] };
 
 function table(caption, rows) {
   return make("div", {}, make("h3", {}, caption), make("table", {}, make("tbody", {},
@@ -34,14 +34,25 @@ function histogramBox(measurement) {
 function cropsOf(list) {
   const figures = [];
   for (const crop of list) {
-    for (const [key, text] of [["reference", "reference"], ["test", "test"], ["error", "error"]]) {
+    for (const key of ["reference", "test", "error"]) {
       if (!crop[key]) continue;
-      const words = crop.reference || key !== "test" ? `${text} ` : "";
-      figures.push(make("figure", {}, picture(crop[key], `${text} around ${crop.x},${crop.y}`),
-        make("figcaption", {}, `${words}at ${crop.x},${crop.y}`)));
+      const words = crop.reference ? key : `${crop.x},${crop.y}`;
+      figures.push(make("figure", {}, picture(crop[key], `${key} around ${crop.x},${crop.y}`),
+        make("figcaption", {}, words)));
     }
   }
   return make("div", { className: "crops" }, ...figures);
+}
+
+/** The pixel of the largest error and its neighbours, for each measurement. */
+function nearBoxes(frame, full) {
+  const boxes = [];
+  for (const { worst } of frame.measurements) {
+    const found = full && worst ? full.spots.filter((spot) => spot.x === worst.x && spot.y === worst.y) : [];
+    if (found.length)
+      boxes.push(make("h3", {}, `The largest error, pixel by pixel, at ${worst.x},${worst.y}`), cropsOf(found));
+  }
+  return boxes;
 }
 
 function settingsOf(measurement) {
@@ -53,7 +64,7 @@ function settingsOf(measurement) {
   return rows.concat(entries(measurement.parameters));
 }
 
-function measurementBoxes(measurement, full) {
+function measurementBoxes(measurement) {
   const limit = measurement.threshold;
   const rows = entries(measurement.quantities);
   if (limit && typeof limit.fail === "number") rows.push([`fail (${limit.quantity})`, limit.fail]);
@@ -64,20 +75,14 @@ function measurementBoxes(measurement, full) {
   if (settings.length) boxes.push(table("Parameters", settings));
   measurement.warnings.forEach((text) => boxes.push(make("p", { className: "wide" }, badge("warning"),
     ` ${text}`)));
-  const worst = measurement.worst;
-  const near = full && worst && full.spots.filter((spot) => spot.x === worst.x && spot.y === worst.y);
-  if (near && near.length)
-    boxes.unshift(make("div", { className: "wide" }, make("h3", {}, "The largest error, pixel by pixel"),
-      cropsOf(near)));
   return boxes;
 }
 
 function drawFacts(frame) {
-  const full = picturesOf(viewer.index, "full");
   const boxes = [];
   const later = [];
   for (const measurement of frame.measurements) {
-    const parts = measurementBoxes(measurement, full);
+    const parts = measurementBoxes(measurement);
     if (measurement.histogram && measurement.histogram.length) {
       const [box, draw] = histogramBox(measurement);
       parts.push(box);
@@ -87,7 +92,7 @@ function drawFacts(frame) {
   }
   const files = [["reference", frame.reference], ["test", frame.test]].filter(([, file]) => file);
   boxes.push(...files.length ? [table("Files", files.map(([key, file]) => [key, name(file)]))] : []);
-  (facts.histograms || []).forEach((chart) => chart.destroy());
+  facts.histograms.forEach((chart) => chart.destroy());
   byId("facts").replaceChildren(...boxes);
   facts.histograms = later.map((draw) => draw());
 }

@@ -59,6 +59,12 @@ function mainValue(frame) {
   return value === null ? "" : number(value);
 }
 
+/** What is not said by the value and its threshold. */
+function otherMessage(frame) {
+  const measured = measurementOf(frame, mainPlace);
+  return measured && frame.message.startsWith(`${measured.command}: ${mainQuantity} `) ? "" : frame.message;
+}
+
 function frameRow(frame, index) {
   const cells = [make("td", { className: "picture" }),
     make("td", {}, make("button", { type: "button", className: "pick", onclick: () => {
@@ -66,7 +72,7 @@ function frameRow(frame, index) {
       byId("viewer").focus();
     } }, frameName(frame))),
     make("td", {}, badge(frame.status)), make("td", { className: "value" }, mainValue(frame)),
-    make("td", {}, frame.message), make("td", {}, frame.test ? name(short(frame.test)) : "")];
+    make("td", {}, otherMessage(frame)), make("td", {}, frame.test ? name(short(frame.test)) : "")];
   return make("tr", { "data-index": index }, ...cells);
 }
 

@@ -64,8 +64,6 @@ function start() {
   drawAll();
   viewer.index = data.shot.worst.length ? data.shot.worst[0] : 0;
   startCurve();
-  const full = picturesOf(viewer.index, "full");
-  viewer.exposure = full ? Math.floor(full.exposures.length / 2) : 0;
   select(viewer.index);
   document.addEventListener("keydown", onKey);
 }

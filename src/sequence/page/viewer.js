@@ -1,6 +1,7 @@
 // One frame: its pictures, its numbers.
 
-const viewer = { index: 0, exposure: 0, show: "compare", split: 50 };
+// `stops` is the exposure that was asked for; `exposure` the place of the nearest that there is.
+const viewer = { index: 0, exposure: 0, stops: null, show: "compare", split: 50 };
 const SHOWS = [["compare", "Comparison"], ["error", "Error map"], ["stops", "Exposure map"]];
 
 const picture = (source, words) => make("img", { src: source, alt: words });
@@ -75,9 +76,9 @@ function stageOf(frame, full, small) {
 }
 
 function mapFigure(source, title, legend, show) {
-  return make("figure", {}, make("h3", {}, title), make("div", { className: "frame" },
-    picture(source, title)), legend, make("button", { type: "button", onclick: () => chooseShow(show) },
-    "Show large"));
+  return make("figure", {}, make("h3", {}, title, make("button", { type: "button", className: "plain",
+    onclick: () => chooseShow(show), "aria-label": `${title}: show large` }, "show large")),
+  make("div", { className: "frame" }, picture(source, title)), legend);
 }
 
 function drawPictures() {
@@ -97,13 +98,20 @@ function drawPictures() {
     maps.push(mapFigure(full.stops, "Exposure of the largest error", stopsLegend(full), "stops"));
   byId("maps").replaceChildren(...maps);
   byId("maps").hidden = maps.length === 0;
+  byId("near").replaceChildren(...nearBoxes(frame, full));
   setSplit(viewer.split);
+}
+
+function nearest(list) {
+  if (viewer.stops === null) return Math.floor(list.length / 2);
+  const away = list.map((each) => Math.abs(each.stops - viewer.stops));
+  return Math.max(0, away.indexOf(Math.min(...away)));
 }
 
 function drawChoices() {
   const full = picturesOf(viewer.index, "full");
   const list = full ? full.exposures : [];
-  viewer.exposure = Math.min(viewer.exposure, Math.max(0, list.length - 1));
+  viewer.exposure = nearest(list);
   radios(byId("exposures"), "exposure", list.map((each, i) => [i, stops(each.stops), true, `Key ${i + 1}`]),
     viewer.exposure, chooseExposure);
   const there = { compare: true, error: full && full.error, stops: full && full.stops };
@@ -113,7 +121,7 @@ function drawChoices() {
 }
 
 function chooseExposure(exposure) {
-  viewer.exposure = exposure;
+  viewer.stops = picturesOf(viewer.index, "full").exposures[exposure].stops;
   viewer.show = "compare";
   refresh();
 }
