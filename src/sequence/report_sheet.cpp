@@ -71,7 +71,7 @@ std::optional<ImageBuf> thumbnail(const FrameResult& frame, const PictureStore& 
 class Sheet {
 public:
     Sheet(size_t count, int height) : m_cell_height(height + label + 2 * edge + margin) {
-        m_columns = std::max(1, int(std::ceil(std::sqrt(double(count) * 1.1))));
+        m_columns = std::max(1, int(std::ceil(std::sqrt(double(count)))));
         const int rows = (int(count) + m_columns - 1) / m_columns;
         OIIO::ImageSpec spec(m_columns * cell_width + margin, rows * m_cell_height + margin, 3,
                              OIIO::TypeDesc::UINT8);
