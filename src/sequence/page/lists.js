@@ -77,23 +77,32 @@ function frameRow(frame, index) {
 }
 
 /** Thumbnails of a thousand frames are decoded when they come into view. */
-function watchThumbnails() {
-  const watcher = new IntersectionObserver((seen) => seen.filter((one) => one.isIntersecting).forEach((one) => {
-    const cell = one.target;
-    watcher.unobserve(cell);
-    cell.replaceChildren(thumbnail(Number(cell.parentNode.dataset.index), "small"));
-  }), { rootMargin: "200px" });
-  document.querySelectorAll("#all td.picture").forEach((cell) => watcher.observe(cell));
+const thumbnailWatcher = new IntersectionObserver((seen) => {
+  for (const { isIntersecting, target } of seen) {
+    if (!isIntersecting) continue;
+    thumbnailWatcher.unobserve(target);
+    target.replaceChildren(thumbnail(Number(target.parentNode.dataset.index), "small"));
+  }
+}, { rootMargin: "200px" });
+
+/** The next rows; what is left is for when the browser has nothing else to do. */
+function addRows(most) {
+  const body = document.querySelector("#all tbody");
+  const begin = body.children.length;
+  const rows = frames.slice(begin, begin + most).map((frame, i) => frameRow(frame, begin + i));
+  body.append(...rows);
+  rows.forEach((row) => thumbnailWatcher.observe(row.querySelector(".picture")));
+  markLists();
+  if (begin + rows.length < frames.length && most !== Infinity) requestIdleCallback(() => addRows(most));
 }
 
 function drawAll() {
-  const body = make("tbody");
   const heads = ["", "Frame", "Status", mainQuantity, "What", "File"];
   byId("all").replaceChildren(make("table", {}, make("thead", {}, make("tr", {},
     ...heads.map((text, i) => make("th", { scope: "col", className: i === 3 ? "value" : "" }, text)))),
-  body));
-  body.append(...frames.map(frameRow));
-  watchThumbnails();
+  make("tbody")));
+  addRows(50);
+  addEventListener("beforeprint", () => addRows(Infinity));
 }
 
 function markLists() {
