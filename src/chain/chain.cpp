@@ -1,126 +1,12 @@
 #include "chain/chain.h"
 
-#include <algorithm>
-#include <atomic>
-#include <condition_variable>
-#include <map>
-#include <memory>
-#include <mutex>
-#include <sstream>
-#include <thread>
-
+#include "chain/check_run.h"
 #include "chain/frames.h"
 #include "chain/help.h"
+#include "chain/loop.h"
 #include "chain/runner.h"
 
 namespace tonetool::chain {
-
-namespace {
-
-std::string full_command_line(const Strings& words, bool compat) {
-    std::string line = "tonetool";
-    for (const std::string& word : words) {
-        bool quoted = word.find_first_of(" \t\n") != std::string::npos;
-        line += " " + (!compat ? shell_quoted(word) : (quoted ? '"' + word + '"' : word));
-    }
-    return line;
-}
-
-// Statuses by rank: an error dominates a failed threshold, and that a warning.
-int worse(int a, int b) {
-    const auto rank = [](int status) { return status == 1 ? 4 : status; };
-    return rank(a) > rank(b) ? a : b;
-}
-
-class Loop {
-public:
-    Loop(const FramePlan& plan, std::ostream& out, std::ostream& err)
-        : m_plan(plan),
-          m_out(out),
-          m_err(err),
-          m_progress(err, plan) {}
-
-    int run() {
-        int jobs = std::min(m_plan.parallel, int(m_plan.runs.size()));
-        if (jobs > 1) {
-            run_parallel(jobs);
-        } else {
-            for (size_t i = 0; i < m_plan.runs.size() && !ends(); ++i) {
-                finished(i, run_one(m_plan.runs[i], m_out, m_err));
-            }
-        }
-        return m_status;
-    }
-
-private:
-    int run_one(const FrameRun& run, std::ostream& out, std::ostream& err) const {
-        Session session(out, err, full_command_line(run.words, m_plan.compat));
-        session.compat = m_plan.compat;
-        session.frame = run.frame;
-        session.plan = &m_plan;
-        session.parallel = m_plan.parallel;
-        Runner(session, run.words).run_all();
-        return session.exit_status();
-    }
-
-    bool ends() const { return m_status == 1 && !m_plan.skip_bad; }
-
-    void finished(size_t index, int status) {
-        m_status = worse(m_status, status);
-        m_progress.done(m_plan.runs[index], status);
-    }
-
-    void run_parallel(int jobs);
-    void work();
-
-    const FramePlan& m_plan;
-    std::ostream& m_out;
-    std::ostream& m_err;
-    Progress m_progress;
-    int m_status = 0;
-    std::mutex m_mutex;
-    size_t m_next = 0, m_printed = 0;
-    struct Texts {
-        std::string out, err;
-    };
-    std::map<size_t, Texts> m_texts; ///< of frames that wait for earlier ones to be printed
-};
-
-// What frames print comes in their order.
-void Loop::work() {
-    for (;;) {
-        size_t index = 0;
-        {
-            std::lock_guard<std::mutex> lock(m_mutex);
-            if (m_next == m_plan.runs.size() || ends()) {
-                return;
-            }
-            index = m_next++;
-        }
-        std::ostringstream out, err;
-        int status = run_one(m_plan.runs[index], out, err);
-        std::lock_guard<std::mutex> lock(m_mutex);
-        m_texts[index] = {out.str(), err.str()};
-        for (auto text = m_texts.find(m_printed); text != m_texts.end();
-             text = m_texts.find(++m_printed)) {
-            m_out << text->second.out << std::flush;
-            m_err << text->second.err << std::flush;
-        }
-        finished(index, status);
-    }
-}
-
-void Loop::run_parallel(int jobs) {
-    std::vector<std::thread> threads;
-    for (int i = 0; i < jobs; ++i) {
-        threads.emplace_back([this] { work(); });
-    }
-    for (std::thread& thread : threads) {
-        thread.join();
-    }
-}
-
-} // namespace
 
 int run(const Strings& words, std::ostream& out, std::ostream& err) {
     if (words.empty()) {
@@ -132,9 +18,9 @@ int run(const Strings& words, std::ostream& out, std::ostream& err) {
     Session whole(out, err, compat ? "" : full_command_line(words, false));
     whole.compat = compat;
     try {
-        FramePlan plan = plan_frames(words);
-        status = Loop(plan, out, err).run();
-        if (plan.runs.empty()) {
+        const FramePlan plan = plan_frames(words);
+        status = run_plan(words, plan, out, err);
+        if (plan.runs.empty() && !plan.check.has("merge")) {
             whole.warning("", no_output);
         }
     } catch (const std::exception& problem) {

@@ -6,6 +6,8 @@
 #include "chain/first_part.h"
 #include "chain/flip_args.h"
 #include "chain/flip_report.h"
+#include "chain/shot_args.h"
+#include "sequence/measurement.h"
 
 namespace tonetool::chain {
 
@@ -51,6 +53,7 @@ void report(Session& session, const Call& call, const Summary& summary, size_t t
     for (const std::string& warning : summary.warnings) {
         session.warning(label, warning);
     }
+    record(session, call, sequence::measurement(summary), test);
     if (call.flag("print", true)) {
         session.report(summary_text(label, summary, call.images.front()->name(),
                                     call.images.at(test + 1)->name()));
@@ -105,6 +108,7 @@ void run_hdrflip(Session& session, const Call& call) {
     read_flip_options(session, call, true, options);
     read_hdr_options(session, call, options);
     Thresholds thresholds = thresholds_of(call);
+    read_shot_exposures(session, call, options);
     auto exposure_map = call.choice("exposuremap", {"stops", "index"});
     options.want_exposure_map = exposure_map.has_value();
     options.want_exposures = call.has("saveexposures");
@@ -226,7 +230,10 @@ std::vector<Modifier> hdrflip_modifiers() {
         {hdr_modifiers(),
          viewing_modifiers(),
          pair_modifiers(),
-         {{"exposuremap", "stops|index", "push the exposure of the largest error below the map"},
+         {{"exposures", "frame|shot|FILE",
+           "range of the exposures: each frame's own (frame), one of the whole shot, or what "
+           "--statistics or --json wrote into FILE"},
+          {"exposuremap", "stops|index", "push the exposure of the largest error below the map"},
           {"saveexposures", "PREFIX", "write PREFIX.NN.reference.exr, .test.exr and .flip.exr"},
           {"tests", "K", "compare K tests with the one reference below them"}},
          threshold_modifiers()});

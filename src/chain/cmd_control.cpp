@@ -115,6 +115,10 @@ std::vector<Command> control_commands() {
     Command set =
         row("set", {"NAME", "VALUE"}, "Set a variable, the {NAME} of expressions", run_set, false);
     set.modifiers = {{"type", "TYPE", "its data type: int, float, string, ... (as it looks)"}};
+    Command parallel =
+        row("parallel-frames", {"N"}, "Work on N frames at a time; --memory is for all of them",
+            nothing, false);
+    parallel.names.push_back("jobs");
     return {
         set,
         row("if", {"VALUE"}, "Run what follows, to --else or --endif, if VALUE is not 0 or empty",
@@ -145,8 +149,7 @@ std::vector<Command> control_commands() {
         row("wildcardon", {}, "What follows has wildcards for frames and views again", nothing,
             false),
         row("skip-bad-frames", {}, "After an error go on with the next frame", nothing, false),
-        row("parallel-frames", {"N"}, "Work on N frames at a time; --memory is for all of them",
-            nothing, false),
+        parallel,
         row("progress", {"=FORMAT"},
             "Report frames done, rate and time left to the standard error (--progress=json: as "
             "JSON)",

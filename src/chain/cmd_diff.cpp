@@ -6,6 +6,7 @@
 #include "chain/call.h"
 #include "chain/error.h"
 #include "chain/first_part.h"
+#include "sequence/results.h"
 
 namespace tonetool::chain {
 
@@ -58,6 +59,49 @@ Verdict judge(const Results& found, const DiffLimits& limits, double pixels) {
                                                                       : Verdict::Pass;
 }
 
+// The verdict as a threshold: of the pixels that fail or warn, or of the largest error.
+sequence::Threshold threshold_of(const Results& found, const DiffLimits& limits, double pixels,
+                                 Verdict verdict) {
+    const bool warns = verdict == Verdict::Warning;
+    const double count = double(warns ? found.nwarn : found.nfail);
+    const double allowed = double(warns ? limits.warn_percent : limits.fail_percent) / 100 * pixels;
+    const double hard = double(warns ? limits.hard_warn : limits.hard_fail);
+    const bool by_count = verdict == Verdict::Pass || count > allowed;
+    const std::optional<double> limit = by_count ? allowed : hard, none;
+    return {by_count ? "differing-pixels" : "max", by_count ? count : found.maxerror, false,
+            warns ? none : limit, warns ? limit : none};
+}
+
+void record(Session& session, const Results& found, double pixels, Verdict verdict) {
+    if (session.result) {
+        sequence::Measurement measured;
+        measured.threshold = threshold_of(found, session.diff, pixels, verdict);
+        measured.quantities = {
+            {"mean", found.meanerror}, {"rms", found.rms_error}, {"max", found.maxerror}};
+        measured.worst = sequence::Position{found.maxx, found.maxy};
+        measured.pixels = static_cast<long long>(pixels);
+        session.result->measurements.push_back(std::move(measured));
+    }
+}
+
+// Images that differ in more than their pixels have no measurement of their own.
+void complete_record(Session& session, const Call& call, size_t before, Verdict verdict) {
+    if (!session.result) {
+        return;
+    }
+    auto& all = session.result->measurements;
+    if (all.size() == before || (verdict == Verdict::Failure && session.all_subimages)) {
+        all.emplace_back();
+        all.back().threshold = sequence::Threshold{
+            "differing-images", verdict == Verdict::Failure ? 1.0 : 0.0, false, 0.0, {}};
+    }
+    for (size_t i = before; i < all.size(); ++i) {
+        all[i].command = call.row().label();
+        all[i].reference = call.images[0]->name();
+        all[i].test = call.images[1]->name();
+    }
+}
+
 Verdict compare_pixels(Session& session, const OIIO::ImageBuf& a, const OIIO::ImageBuf& b,
                        bool perceptual) {
     const double pixels = double(std::max(a.spec().image_pixels(), b.spec().image_pixels()));
@@ -69,13 +113,16 @@ Verdict compare_pixels(Session& session, const OIIO::ImageBuf& a, const OIIO::Im
             session.out << format("  {} pixels ({:.3g}%) failed the perceptual test\n", found.nfail,
                                   100.0 * double(found.nfail) / pixels);
         }
-        return judge(found, session.diff, pixels);
+        const Verdict verdict = judge(found, session.diff, pixels);
+        record(session, found, pixels, verdict);
+        return verdict;
     }
     found = OIIO::ImageBufAlgo::compare(a, b, session.diff.fail, session.diff.warn);
     if (a.has_error() || b.has_error()) {
         throw CommandError(a.has_error() ? a.geterror() : b.geterror());
     }
     Verdict verdict = judge(found, session.diff, pixels);
+    record(session, found, pixels, verdict);
     if (verdict != Verdict::Pass || (session.verbose && found.maxerror > 0)) {
         print_report(session, a, b, found);
     }
@@ -114,7 +161,9 @@ void run_diff(Session& session, const Call& call) {
     const Image &a = *call.images[0], &b = *call.images[1];
     session.print(format("Computing {}diff of \"{}\" vs \"{}\"", perceptual ? "perceptual " : "",
                          a.name(), b.name()));
+    const size_t before = session.result ? session.result->measurements.size() : 0;
     Verdict verdict = compare_images(session, a, b, perceptual);
+    complete_record(session, call, before, verdict);
     session.print(verdict == Verdict::Pass      ? "PASS"
                   : verdict == Verdict::Warning ? "WARNING"
                                                 : "FAILURE");

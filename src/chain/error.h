@@ -22,6 +22,9 @@ struct ReadError : CommandError {
     std::string why;
 };
 
+/// Ends a run whose purpose is fulfilled.
+struct EndOfRun {};
+
 /// With --compat: a command line that cannot be taken apart, which is answered with the help.
 struct UsageError : CommandError {
     using CommandError::CommandError;

@@ -122,11 +122,24 @@ std::string summary_text(const std::string& label, const TmqiSummary& summary,
     return lines.text;
 }
 
+void record(Session& session, const Call& call, sequence::Measurement measurement, size_t test) {
+    if (session.result) {
+        measurement.command = call.row().label();
+        measurement.reference = call.images.front()->name();
+        measurement.test = call.images.at(test + 1)->name();
+        session.result->measurements.push_back(std::move(measurement));
+    }
+}
+
 bool judge(Session& session, const Call& call, const Thresholds& thresholds,
            const Measured& measured, size_t test) {
     const std::string label = call.row().label();
     const double value = measured.value;
     const bool up = measured.higher_is_better;
+    if (session.result && (thresholds.fail || thresholds.warn)) {
+        session.result->measurements.back().threshold =
+            sequence::Threshold{thresholds.quantity, value, up, thresholds.fail, thresholds.warn};
+    }
     auto passes = [&](double limit) { return up ? value >= limit : value <= limit; };
     auto compared = [&](double limit) {
         const char* sign = passes(limit) ? (up ? " >= " : " <= ") : (up ? " < " : " > ");

@@ -6,6 +6,7 @@
 #include "chain/call.h"
 #include "chain/flip_args.h"
 #include "chain/session.h"
+#include "sequence/results.h"
 
 namespace tonetool::chain {
 
@@ -17,6 +18,9 @@ std::string summary_text(const std::string& label, const ErrorSummary& summary,
                          const std::string& first, const std::string& second);
 std::string summary_text(const std::string& label, const TmqiSummary& summary,
                          const std::string& first, const std::string& second);
+
+/// Part of the frame's result, where there is a check. judge() adds the threshold to it.
+void record(Session& session, const Call& call, sequence::Measurement measurement, size_t test = 0);
 
 /// A measured quantity, and whether a threshold is what it must reach or what it may be at most.
 struct Measured {

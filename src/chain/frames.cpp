@@ -8,6 +8,7 @@
 #include "chain/call.h"
 #include "chain/error.h"
 #include "sequence/file_sequence.h"
+#include "sequence/pairing.h"
 
 namespace tonetool::chain {
 
@@ -40,7 +41,7 @@ bool take_setting(Scan& scan, const std::string& name, const std::string& argume
         scan.options.padding = checked_integer("DIGITS", argument, {1, 9});
     } else if (name == "views") {
         scan.options.views = split(argument, ',');
-    } else if (name == "parallel-frames") {
+    } else if (name == "parallel-frames" || name == "jobs") {
         scan.plan.parallel = checked_integer("N", argument, {1, 1024});
     } else {
         return false;
@@ -58,6 +59,8 @@ Scan scan_words(const Strings& words) {
             word.size() > 1 && word[0] == '-' ? word.substr(word[1] == '-' ? 2 : 1) : std::string();
         wildcards = name == "wildcardon" || (wildcards && name != "wildcardoff");
         scan.plan.skip_bad |= name == "skip-bad-frames";
+        scan.plan.warnings_exit |= name == "warnings-exit";
+        scan.plan.verbose = (name == "v" || scan.plan.verbose) && name != "q";
         scan.plan.progress = name == "progress=json" ? "json" : scan.plan.progress;
         if (i + 1 < words.size() && take_setting(scan, name, words[i + 1])) {
             ++i;
@@ -98,22 +101,34 @@ void check_length(const Strings& words, const Scan& scan, const Pattern& pattern
     }
 }
 
-} // namespace
-
-bool is_compat(const Strings& words) {
-    return std::find(words.begin(), words.end(), "--compat") != words.end();
+// What the frames of a check are: paired by number, whatever is on the disk.
+void pair_frames(const Strings& words, Scan& scan, const Files& numbered,
+                 std::vector<Files>& listings) {
+    FramePlan& plan = scan.plan;
+    std::vector<sequence::Side> sides;
+    for (const Pattern& pattern : scan.patterns) {
+        if (plan.check.is_input(pattern.at)) {
+            sides.push_back(
+                {words[pattern.at], sequence::list_files(words[pattern.at], scan.options)});
+            plan.sequences.push_back(pattern.at);
+        }
+    }
+    const std::vector<sequence::Item> items =
+        sides.empty() ? numbered.items : sequence::paired(sides);
+    if (items.empty() && !scan.patterns.empty()) {
+        throw CommandError("no file matches \"" + words[scan.patterns.front().at] + "\"");
+    }
+    auto side = sides.begin();
+    for (const Pattern& pattern : scan.patterns) {
+        const bool input = plan.check.is_input(pattern.at);
+        listings.push_back({items,
+                            input ? sequence::names_of(*side++, scan.options, items)
+                                  : sequence::file_names(words[pattern.at], scan.options, items),
+                            false});
+    }
 }
 
-FramePlan plan_frames(const Strings& words) {
-    Scan scan = scan_words(words);
-    std::vector<FrameRun>& runs = scan.plan.runs;
-    Files first;
-    for (int frame : scan.options.frames.empty() || !scan.patterns.empty()
-                         ? std::vector<int>{}
-                         : sequence::parse_frames(scan.options.frames)) {
-        first.items.push_back({frame, ""});
-    }
-    std::vector<Files> listings;
+void list_frames(const Strings& words, Scan& scan, Files& first, std::vector<Files>& listings) {
     for (const Pattern& pattern : scan.patterns) {
         listings.push_back(listing_of(scan, pattern, words[pattern.at], first));
         first = listings.front();
@@ -122,6 +137,34 @@ FramePlan plan_frames(const Strings& words) {
                                "\" (a word that is no pattern goes after --wildcardoff)");
         }
         check_length(words, scan, pattern, listings.back().names.size(), first.names.size());
+    }
+}
+
+} // namespace
+
+bool is_compat(const Strings& words) {
+    return std::find(words.begin(), words.end(), "--compat") != words.end();
+}
+
+FramePlan plan_frames(const Strings& words) {
+    Scan scan = scan_words(words);
+    scan.plan.check = plan_check(words);
+    if (scan.plan.check.has("merge")) {
+        return scan.plan;
+    }
+    std::vector<FrameRun>& runs = scan.plan.runs;
+    Files first;
+    for (int frame : scan.options.frames.empty() || !scan.patterns.empty()
+                         ? std::vector<int>{}
+                         : sequence::parse_frames(scan.options.frames)) {
+        first.items.push_back({frame, ""});
+    }
+    std::vector<Files> listings;
+    if (scan.plan.check.pairs_frames()) {
+        pair_frames(words, scan, first, listings);
+        first = listings.empty() ? first : listings.front();
+    } else {
+        list_frames(words, scan, first, listings);
     }
     scan.plan.loops = !scan.patterns.empty() || !first.items.empty();
     runs.resize(scan.plan.loops ? first.items.size() : 1);
@@ -141,9 +184,10 @@ Progress::Progress(std::ostream& stream, const FramePlan& plan)
     : m_stream(stream),
       m_json(plan.progress == "json"),
       m_terminal(!m_json && plan.loops && &stream == &std::cerr && isatty(STDERR_FILENO) == 1),
+      m_verbose(!m_json && plan.loops && plan.verbose && !plan.compat),
       m_total(plan.runs.size()) {}
 
-void Progress::done(const FrameRun& run, int status) {
+void Progress::done(const FrameRun& run, int status, const std::string& words, double seconds) {
     ++m_done;
     double elapsed = m_time();
     double rate = elapsed > 0 ? double(m_done) / elapsed : 0;
@@ -153,6 +197,11 @@ void Progress::done(const FrameRun& run, int status) {
                         "{{\"frame\": {}, \"status\": {}, \"done\": {}, \"total\": {}, "
                         "\"frames_per_second\": {:.4g}, \"seconds_left\": {:.1f}}}",
                         run.frame.number, status, m_done, m_total, rate, left)
+                 << std::endl;
+    } else if (m_verbose) {
+        m_stream << OIIO::Strutil::fmt::format("frame {}{}{}: {}, {:.2f} s, {:.0f} s left",
+                                               run.frame.number, run.frame.view.empty() ? "" : " ",
+                                               run.frame.view, words, seconds, left)
                  << std::endl;
     } else if (m_terminal) {
         m_stream << OIIO::Strutil::fmt::format("\r{} of {} frames, {:.3g} a second, {:.0f} s left ",

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "chain/check_plan.h"
 #include "chain/session.h"
 #include "chain/text.h"
 
@@ -20,9 +21,11 @@ struct FrameRun {
 struct FramePlan {
     std::vector<FrameRun> runs; ///< one, where there is nothing to loop over
     bool loops = false;
-    bool compat = false, skip_bad = false;
+    bool compat = false, skip_bad = false, verbose = false, warnings_exit = false;
     int parallel = 1;
     std::string progress; ///< "json", or "" for a terminal
+    CheckPlan check;
+    std::vector<size_t> sequences; ///< of a check: indices of the input words with wildcards
 };
 
 /// --compat holds for the whole command line.
@@ -31,15 +34,16 @@ bool is_compat(const Strings& words);
 /// A CommandError where sequences do not fit together or match no file.
 FramePlan plan_frames(const Strings& words);
 
-/// Frames done, rate and time left: a line on a terminal, or a line of JSON for each frame.
+/// Frames done, rate and time left: a line on a terminal, or a line for each frame.
 class Progress {
 public:
     Progress(std::ostream& stream, const FramePlan& plan);
-    void done(const FrameRun& run, int status);
+    /// With the status in words, for -v.
+    void done(const FrameRun& run, int status, const std::string& words, double seconds);
 
 private:
     std::ostream& m_stream;
-    bool m_json, m_terminal;
+    bool m_json, m_terminal, m_verbose;
     size_t m_total, m_done = 0;
     OIIO::Timer m_time;
 };

@@ -28,6 +28,7 @@ enum class Group {
     Metadata,
     Compare,
     Measure,
+    Check,
     Create,
     Arithmetic,
     Geometry,
@@ -37,7 +38,7 @@ enum class Group {
     Channels,
     Stack
 };
-inline constexpr int group_count = 16;
+inline constexpr int group_count = 17;
 std::string group_title(Group group);
 
 /// What a command takes and leaves, and where help lists it.
@@ -88,6 +89,7 @@ std::vector<Command> io_commands();
 std::vector<Command> inspect_commands();
 std::vector<Command> compare_commands();
 std::vector<Command> diff_commands();
+std::vector<Command> check_commands();
 std::vector<Command> color_commands();
 std::vector<Command> channel_commands();
 std::vector<Command> stack_commands();

@@ -61,13 +61,13 @@ void run_command(Session& session, const std::string& word, Strings arguments) {
 
 void Runner::run_all() {
     Flow& flow = m_session.flow;
-    while (flow.next < m_words.size() && !(m_failed && m_session.error_exit)) {
+    while (flow.next < m_words.size() && !m_ended && !(m_failed && m_session.error_exit)) {
         m_where.clear();
         guarded(&Runner::run_word);
         m_failed = m_session.errors > 0;
     }
     m_where.clear();
-    if (!m_failed) {
+    if (!m_failed && !m_ended) {
         guarded(&Runner::finish);
     }
     if (m_session.runstats) {
@@ -83,6 +83,8 @@ void Runner::guarded(void (Runner::*step)()) {
     } catch (const ReadError& problem) {
         m_session.error(m_session.compat ? "read" : m_where,
                         m_session.compat ? problem.why : problem.what());
+    } catch (const EndOfRun&) {
+        m_ended = true;
     } catch (const UsageError& problem) {
         ++m_session.errors;
         m_session.out << help_text();

@@ -40,7 +40,7 @@ private:
     const Strings& m_words;
     std::string m_where; ///< the command that an error belongs to
     std::deque<Call> m_postponed;
-    bool m_failed = false;
+    bool m_failed = false, m_ended = false;
     OIIO::Timer m_time;
 };
 

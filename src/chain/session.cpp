@@ -24,6 +24,9 @@ std::string of_frame(const Session& session) {
 
 void Session::error(const std::string& where, const std::string& what) {
     ++errors;
+    if (first_error.empty()) {
+        first_error = (where.empty() ? "" : where + " : ") + what;
+    }
     out.flush();
     err << prefix("ERROR", where, compat) << what << of_frame(*this)
         << "\nFull command line was:\n> " << command_line << std::endl;
@@ -31,6 +34,7 @@ void Session::error(const std::string& where, const std::string& what) {
 
 void Session::warning(const std::string& where, const std::string& what) {
     ++warnings;
+    warning_texts.push_back((where.empty() ? "" : where + " : ") + what);
     out.flush();
     const bool command = compat && find_command(where) != nullptr;
     err << prefix("WARNING", command ? "--" + where : where, compat) << what << of_frame(*this)

@@ -12,6 +12,13 @@
 #include <vector>
 
 #include "chain/image.h"
+#include "chain/text.h"
+
+namespace tonetool::sequence {
+struct FrameResult;
+struct ShotExposures;
+struct ExposureSample;
+} // namespace tonetool::sequence
 
 namespace tonetool::chain {
 
@@ -121,6 +128,12 @@ struct Session {
     bool produced = false;         ///< something was written, printed or measured
     bool produced_by_name = false; ///< --echo and the like: also of images that no command used
     int errors = 0, warnings = 0, failures = 0;
+    std::string first_error;
+    Strings warning_texts;
+    sequence::FrameResult* result = nullptr; ///< of a check: gathers what commands measure
+    /// The range of exposures=shot or of a file; while that is still measured, where to.
+    const sequence::ShotExposures* shot = nullptr;
+    sequence::ExposureSample* sample = nullptr;
 
     /// The name of an operator that waits for images; empty if none does.
     std::string waiting;

@@ -12,10 +12,12 @@
 #include <cstring>
 #include <fcntl.h>
 #include <memory>
+#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include "imagebuf/guard.h"
+#include "imagebuf/temporary_names.h"
 
 namespace tonetool {
 namespace {
@@ -123,19 +125,30 @@ public:
     const std::string& path() const { return is_device() ? m_final : m_temporary; }
 
 private:
-    // The temporary keeps the extension: some writers look at it.
+    // Tells remove_abandoned_outputs that somebody still writes. False where that was quicker and
+    // has removed the file; a file system without locks is none of its business.
+    bool hold() {
+        struct stat info {};
+        ::flock(m_fd, LOCK_EX | LOCK_NB);
+        if (::fstat(m_fd, &info) != 0 || info.st_nlink > 0)
+            return true;
+        ::close(m_fd);
+        return false;
+    }
+
     bool open_temporary(mode_t mode, std::string& error) {
         const auto slash = m_final.rfind('/');
         const std::string folder = slash == std::string::npos ? "" : m_final.substr(0, slash + 1);
         const std::string base = m_final.substr(slash == std::string::npos ? 0 : slash + 1);
-        const std::string extension = OIIO::Filesystem::extension(base);
         // 0666 less the umask for a new file, the old file's rights for a replaced one.
         static std::atomic<unsigned> counter{0};
         for (int attempt = 0; attempt < 100 && m_fd < 0; ++attempt) {
-            m_temporary = folder + "." + base + format(".{}-{}", ::getpid(), counter++) + extension;
+            m_temporary = folder + temporary_name(base, ::getpid(), counter++);
             m_fd = ::open(m_temporary.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
             if (m_fd < 0 && errno != EEXIST)
                 break;
+            if (m_fd >= 0 && !hold())
+                m_fd = -1;
         }
         if (m_fd < 0) {
             m_temporary.clear();

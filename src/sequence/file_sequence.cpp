@@ -77,6 +77,10 @@ bool is_pattern(const std::string& word) {
     return std::regex_search(word, wildcard);
 }
 
+std::string without_range(const std::string& word) {
+    return is_pattern(word) ? parse(word, 0).printf_style : word;
+}
+
 std::vector<int> parse_frames(const std::string& range) {
     std::vector<int> frames;
     if (!OIIO::Filesystem::enumerate_sequence(range, frames) || frames.empty()) {

@@ -20,6 +20,10 @@ struct PatternOptions {
 /// Whether the word has #, @, %d, %04d, %V or %v.
 bool is_pattern(const std::string& word);
 
+/// A pattern in printf's style without its own frame range: "a.1-20#.exr" is "a.%04d.exr". Any
+/// other word stays as it is.
+std::string without_range(const std::string& word);
+
 /// "1-10", "1,3,5-9", "1-10x2", "10-1", "1-10y3". A runtime_error for anything else.
 std::vector<int> parse_frames(const std::string& range);
 

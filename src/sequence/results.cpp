@@ -162,11 +162,14 @@ void judge(FrameResult& frame) {
     for (const Fault& fault : frame.faults) {
         found.push_back(of_fault(fault));
     }
+    for (const std::string& warning : frame.warnings) {
+        found.push_back({Status::Warning, warning});
+    }
     if (frame.status > Status::Failed) {
         return;
     }
     frame.message.clear();
-    if (found.empty() && frame.qc.empty()) {
+    if (frame.measurements.empty() && frame.faults.empty() && frame.qc.empty()) {
         frame.status = Status::Error;
         frame.message = "nothing was measured";
         return;

@@ -87,8 +87,9 @@ struct FrameResult {
     std::string reference, test; ///< files; reference is empty where there is only one sequence
     std::vector<Measurement> measurements; ///< in the order of the command line
     std::vector<Fault> faults;
-    std::string qc;     ///< what --qc measured, a JSON text; empty without it
-    double seconds = 0; ///< it took; not part of any file
+    std::vector<std::string> warnings; ///< of the run; a frame with one is not passed
+    std::string qc;                    ///< what --qc measured, a JSON text; empty without it
+    double seconds = 0;                ///< it took; not part of any file
 };
 
 /// The luminance that the exposures of a whole shot follow from.
@@ -96,6 +97,10 @@ struct ShotExposures {
     double max_luminance = 0;    ///< the maximum of the frames' maxima
     double median_luminance = 0; ///< the median of the frames' medians
     int frames = 0;              ///< that were measured
+    bool operator==(const ShotExposures& o) const {
+        return max_luminance == o.max_luminance && median_luminance == o.median_luminance &&
+               frames == o.frames;
+    }
 };
 
 struct ShotResult {

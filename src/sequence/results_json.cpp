@@ -2,16 +2,15 @@
 
 #include <OpenImageIO/strutil.h>
 #include <cmath>
-#include <nlohmann/json.hpp>
 #include <stdexcept>
+
+#include "sequence/json_text.h"
 
 namespace tonetool::sequence {
 
 namespace {
 
 using nlohmann::ordered_json;
-
-constexpr char exposures_format[] = "tonetool-exposures";
 
 // ---- values
 
@@ -230,6 +229,9 @@ ordered_json json_of(const FrameResult& frame) {
     for (const Fault& fault : frame.faults) {
         to["faults"].push_back(json_of(fault));
     }
+    if (!frame.warnings.empty()) {
+        to["warnings"] = frame.warnings;
+    }
     if (!frame.qc.empty()) {
         to["qc"] = ordered_json::parse(frame.qc);
     }
@@ -250,6 +252,7 @@ FrameResult frame_of(const ordered_json& from) {
     for (const ordered_json& fault : from.value("faults", ordered_json::array())) {
         frame.faults.push_back(fault_of(fault));
     }
+    frame.warnings = values<std::string>(from, "warnings");
     frame.qc = from.contains("qc") ? from["qc"].dump() : "";
     return frame;
 }
@@ -288,35 +291,18 @@ ordered_json counts_of(const ShotResult& shot) {
     return counts;
 }
 
-// ---- texts
+} // namespace
 
-std::string dumped(const ordered_json& value) {
-    return value.dump(1, ' ', false, ordered_json::error_handler_t::replace) + "\n";
-}
-
-void check_format(const ordered_json& from, const std::string& format) {
+void check_format(const ordered_json& from, const std::string& format, int version) {
     if (!from.is_object() || text(from, "format") != format) {
         throw std::runtime_error("has no \"format\": \"" + format + "\"");
     }
-    const int version = from.at("version").get<int>();
-    if (version != results_version) {
-        throw std::runtime_error(OIIO::Strutil::fmt::format(
-            "is of version {}, this program reads {}", version, results_version));
+    const int found = from.at("version").get<int>();
+    if (found != version) {
+        throw std::runtime_error(
+            OIIO::Strutil::fmt::format("is of version {}, this program reads {}", found, version));
     }
 }
-
-// nlohmann's texts tell where: "[json.exception.parse_error.101] parse error at line 3, ...".
-template <class Read>
-auto parsed(const std::string& from, const Read& read) {
-    try {
-        return read(ordered_json::parse(from));
-    } catch (const nlohmann::json::exception& problem) {
-        const std::string what = problem.what();
-        throw std::runtime_error(what.substr(std::min(what.size(), what.find("] ") + 2)));
-    }
-}
-
-} // namespace
 
 std::string to_json(const ShotResult& shot) {
     ordered_json to{{"format", results_format},
@@ -338,7 +324,7 @@ std::string to_json(const ShotResult& shot) {
 
 ShotResult shot_from_json(const std::string& from) {
     return parsed(from, [](const ordered_json& json) {
-        check_format(json, results_format);
+        check_format(json, results_format, results_version);
         ShotResult shot;
         shot.check = json.at("check").get<std::vector<std::string>>();
         if (json.contains("exposures")) {
@@ -360,17 +346,10 @@ FrameResult frame_from_json(const std::string& from) {
     return parsed(from, [](const ordered_json& json) { return frame_of(json); });
 }
 
-std::string to_json(const ShotExposures& exposures) {
-    ordered_json to{{"format", exposures_format}, {"version", results_version}};
-    to.update(json_of(exposures));
-    return dumped(to);
-}
-
-ShotExposures exposures_from_json(const std::string& from) {
-    return parsed(from, [](const ordered_json& json) {
-        check_format(json, exposures_format);
-        return exposures_of(json);
-    });
+std::string valid_utf8(const std::string& text) {
+    const auto quoted =
+        ordered_json(text).dump(-1, ' ', false, ordered_json::error_handler_t::replace);
+    return ordered_json::parse(quoted).get<std::string>();
 }
 
 } // namespace tonetool::sequence

@@ -37,6 +37,10 @@ TONETOOL_API bool write_image(const OIIO::ImageBuf& image, const std::string& fi
 TONETOOL_API bool write_bytes(const std::string& bytes, const std::string& filename,
                               std::string& error);
 
+/// Remove what processes that were killed while they wrote these files have left beside them; not
+/// what a process still writes.
+TONETOOL_API void remove_abandoned_outputs(const std::vector<std::string>& filenames);
+
 /// Remove the temporary files of writes now under way. Safe to call from a signal handler.
 TONETOOL_API void remove_unfinished_outputs() noexcept;
 

@@ -131,7 +131,6 @@ TEST(Json, Comes_back_to_the_byte) {
     EXPECT_EQ(shot_from_json(text).frames[1].measurements[0].threshold->value,
               std::nextafter(0.1, 1.0));
     EXPECT_EQ(to_json(frame_from_json(to_json(second))), to_json(second));
-    EXPECT_EQ(exposures_from_json(to_json(*result.exposures)).max_luminance, 1.0 / 3);
 }
 
 TEST(Json, Every_name_of_a_status_comes_back) {

@@ -1,0 +1,28 @@
+// Commands that make a check of a command line. What they ask for is read before any frame runs
+// (check_plan.h) and done after the last one (check_run.h).
+#include "chain/call.h"
+#include "chain/error.h"
+#include "chain/session.h"
+
+namespace tonetool::chain {
+
+std::vector<Command> check_commands() {
+    const auto row = [](const char* name, Strings args, const char* help) {
+        return setting(Group::Check, {name}, std::move(args), help, [](Session&, const Call&) {});
+    };
+    return {
+        row("json", {"FILE"}, "Write what was found in all frames, at the end, as JSON"),
+        row("csv", {"FILE"}, "Write a table of all frames, a line each"),
+        row("junit", {"FILE"}, "Write a test case for each frame, as CI systems read them"),
+        row("state", {"DIR"},
+            "Keep each finished frame's result in that folder: a run that was killed goes on, and "
+            "frames whose files have changed are checked anew"),
+        row("statistics", {"FILE"},
+            "Only measure the range of exposures=shot and write it, for exposures=FILE"),
+        row("merge", {},
+            "Join the results (--json) of parts of a shot; with --frames also those that are in "
+            "none; or the FILEs of --statistics"),
+    };
+}
+
+} // namespace tonetool::chain

@@ -1,0 +1,68 @@
+#include "sequence/check_files.h"
+
+#include <filesystem>
+#include <set>
+#include <stdexcept>
+#include <string>
+
+#include "include/tonetool/write.h"
+#include "sequence/results_json.h"
+#include "sequence/tables.h"
+
+namespace tonetool::sequence {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+using Text = std::string (*)(const ShotResult&);
+
+const std::map<std::string, Text>& texts() {
+    static const std::map<std::string, Text> all = {
+        {"json", [](const ShotResult& shot) { return to_json(shot); }},
+        {"csv", csv_text},
+        {"junit", junit_text}};
+    return all;
+}
+
+} // namespace
+
+void check_places(const CheckFiles& files) {
+    std::set<std::string> seen;
+    for (const auto& [command, file] : files) {
+        if (file.empty()) {
+            continue;
+        }
+        const std::string start = "--" + command + ": ";
+        const fs::path folder = fs::path(file).parent_path();
+        std::error_code none;
+        if (!folder.empty() && command != "state" && !fs::is_directory(folder, none)) {
+            throw std::runtime_error(start + "there is no folder \"" + folder.string() +
+                                     "\" to write \"" + file + "\" into");
+        }
+        if (command != "state" && fs::is_directory(file, none)) {
+            throw std::runtime_error(start + "\"" + file + "\" is a folder");
+        }
+        if (!seen.insert(fs::path(file).lexically_normal().string()).second) {
+            throw std::runtime_error(start + "\"" + file + "\" is also another's file");
+        }
+    }
+}
+
+void write_results(const ShotResult& shot, const CheckFiles& files) {
+    for (const auto& [command, file] : files) {
+        const auto text = texts().find(command);
+        if (text != texts().end()) {
+            write_text(text->second(shot), file);
+        }
+    }
+}
+
+void write_text(const std::string& text, const std::string& file) {
+    std::string why;
+    if (!write_bytes(text, file, why)) {
+        throw std::runtime_error(why);
+    }
+}
+
+} // namespace tonetool::sequence

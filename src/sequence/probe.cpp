@@ -1,0 +1,103 @@
+#include "sequence/probe.h"
+
+#include <OpenImageIO/deepdata.h>
+#include <OpenImageIO/filesystem.h>
+#include <OpenImageIO/imageio.h>
+#include <OpenImageIO/strutil.h>
+#include <algorithm>
+#include <optional>
+
+namespace tonetool::sequence {
+
+namespace {
+
+using OIIO::Strutil::fmt::format;
+
+bool read_rows(OIIO::ImageInput& in, int subimage, const OIIO::ImageSpec& spec) {
+    constexpr int rows_at_once = 64;
+    std::vector<unsigned char> pixels;
+    if (spec.depth > 1 || spec.tile_width > 0) {
+        pixels.resize(spec.image_bytes(true));
+        return in.read_image(subimage, 0, 0, spec.nchannels, OIIO::TypeUnknown, pixels.data());
+    }
+    for (int y = spec.y; y < spec.y + spec.height; y += rows_at_once) {
+        const int end = std::min(y + rows_at_once, spec.y + spec.height);
+        pixels.resize(size_t(end - y) * spec.scanline_bytes(true));
+        if (!in.read_scanlines(subimage, 0, y, end, 0, 0, spec.nchannels, OIIO::TypeUnknown,
+                               pixels.data())) {
+            return false;
+        }
+    }
+    return true;
+}
+
+struct Size {
+    int width, height;
+    bool operator!=(const Size& o) const { return width != o.width || height != o.height; }
+};
+
+// Of the first subimage; nullopt with the reason where something of the file cannot be read.
+std::optional<Size> readable(const std::string& file, std::string& why) {
+    const auto in = OIIO::ImageInput::open(file);
+    if (!in) {
+        why = OIIO::geterror();
+        return std::nullopt;
+    }
+    const Size size{in->spec().full_width, in->spec().full_height};
+    for (int subimage = 0; in->seek_subimage(subimage, 0); ++subimage) {
+        const OIIO::ImageSpec spec = in->spec(subimage, 0);
+        OIIO::DeepData deep;
+        if (!(spec.deep ? in->read_native_deep_image(subimage, 0, deep)
+                        : read_rows(*in, subimage, spec))) {
+            why = in->geterror();
+            return std::nullopt;
+        }
+    }
+    return size;
+}
+
+} // namespace
+
+Probe missing_of(const std::vector<std::string>& files) {
+    for (const std::string& file : files) {
+        if (!OIIO::Filesystem::exists(file)) {
+            return {Status::Missing, format("no file \"{}\"", file)};
+        }
+    }
+    return {};
+}
+
+Probe probed(const std::vector<std::string>& files) {
+    Probe found = missing_of(files);
+    if (found.status == Status::Missing) {
+        return found;
+    }
+    std::optional<Size> first;
+    for (const std::string& file : files) {
+        std::string why;
+        const std::optional<Size> size = readable(file, why);
+        if (!size) {
+            return {Status::Unreadable,
+                    format("cannot read \"{}\"{}{}", file, why.empty() ? "" : ": ", why)};
+        }
+        if (first && *first != *size) {
+            found = {Status::SizeMismatch,
+                     format("\"{}\" is {}x{}, \"{}\" {}x{}", files.front(), first->width,
+                            first->height, file, size->width, size->height)};
+        }
+        first = first ? first : size;
+    }
+    return found;
+}
+
+void settle(FrameResult& frame, const std::string& error, const std::vector<std::string>& files) {
+    frame.status = Status::Passed;
+    if (!error.empty()) {
+        const Probe found = probed(files);
+        frame.status = found.status;
+        frame.message = found.message.empty() ? error : found.message;
+    }
+    judge(frame);
+}
+
+} // namespace tonetool::sequence

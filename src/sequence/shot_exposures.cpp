@@ -1,0 +1,136 @@
+#include "sequence/shot_exposures.h"
+
+#include <OpenImageIO/filesystem.h>
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <iterator>
+#include <stdexcept>
+#include <tuple>
+
+#include "sequence/json_text.h"
+#include "sequence/results_json.h"
+
+namespace tonetool::sequence {
+
+namespace {
+
+using nlohmann::ordered_json;
+
+constexpr char exposures_format[] = "tonetool-exposures";
+constexpr int exposures_version = 1;
+
+bool lit(const ExposureSample& sample) {
+    return sample.max_luminance > 0 && sample.median_luminance > 0;
+}
+
+ordered_json json_of(const ShotExposures& range) {
+    return {{"max_luminance", range.max_luminance},
+            {"median_luminance", range.median_luminance},
+            {"frames", range.frames}};
+}
+
+void sort_samples(ExposureSamples& samples) {
+    const auto key = [](const ExposureSample& one) { return std::tie(one.frame, one.view); };
+    std::sort(samples.begin(), samples.end(),
+              [&](const auto& a, const auto& b) { return key(a) < key(b); });
+    const auto twice =
+        std::adjacent_find(samples.begin(), samples.end(),
+                           [&](const auto& a, const auto& b) { return key(a) == key(b); });
+    if (twice != samples.end()) {
+        throw std::runtime_error("frame " + std::to_string(twice->frame) + " is there twice");
+    }
+}
+
+} // namespace
+
+ShotExposures shot_exposures(const ExposureSamples& samples) {
+    std::vector<double> medians;
+    ShotExposures range;
+    for (const ExposureSample& sample : samples) {
+        if (lit(sample)) {
+            medians.push_back(sample.median_luminance);
+            range.max_luminance = std::max(range.max_luminance, sample.max_luminance);
+        }
+    }
+    if (medians.empty()) {
+        throw std::runtime_error("no frame has a reference that can be read and is not black: "
+                                 "there are no exposures of the shot");
+    }
+    const auto middle = medians.begin() + std::ptrdiff_t(medians.size() / 2);
+    std::nth_element(medians.begin(), middle, medians.end());
+    range.median_luminance = *middle;
+    range.frames = int(medians.size());
+    return range;
+}
+
+std::string exposures_text(const ShotExposures& range) {
+    return json_of(range).dump();
+}
+
+std::string to_json(ExposureSamples samples) {
+    sort_samples(samples);
+    ordered_json to{{"format", exposures_format}, {"version", exposures_version}};
+    if (std::any_of(samples.begin(), samples.end(), lit)) {
+        to["exposures"] = json_of(shot_exposures(samples));
+    }
+    to["samples"] = ordered_json::array();
+    for (const ExposureSample& sample : samples) {
+        ordered_json one{{"frame", sample.frame}};
+        if (!sample.view.empty()) {
+            one["view"] = sample.view;
+        }
+        one["max_luminance"] = sample.max_luminance;
+        one["median_luminance"] = sample.median_luminance;
+        to["samples"].push_back(one);
+    }
+    return dumped(to);
+}
+
+ExposureSamples samples_from_json(const std::string& text) {
+    return parsed(text, [](const ordered_json& json) {
+        check_format(json, exposures_format, exposures_version);
+        ExposureSamples samples;
+        for (const ordered_json& one : json.at("samples")) {
+            samples.push_back({one.at("frame").get<int>(), one.value("view", std::string()),
+                               one.at("max_luminance").get<double>(),
+                               one.at("median_luminance").get<double>()});
+        }
+        return samples;
+    });
+}
+
+ShotExposures read_exposures(const std::string& file) {
+    try {
+        return parsed(read_text(file), [](const ordered_json& json) {
+            const std::string format = json.is_object() ? json.value("format", "") : "";
+            if (format != results_format) {
+                check_format(json, exposures_format, exposures_version);
+            }
+            const ordered_json& from = json.at("exposures");
+            const ShotExposures range{from.at("max_luminance").get<double>(),
+                                      from.at("median_luminance").get<double>(),
+                                      from.at("frames").get<int>()};
+            if (!(range.max_luminance > 0) || !(range.median_luminance > 0)) {
+                throw std::runtime_error("has luminances that are not above 0");
+            }
+            return range;
+        });
+    } catch (const std::runtime_error& problem) {
+        throw std::runtime_error("exposures of \"" + file + "\": " + problem.what());
+    }
+}
+
+std::string read_text(const std::string& file) {
+    if (!OIIO::Filesystem::is_regular(file)) {
+        throw std::runtime_error("no file \"" + file + "\"");
+    }
+    std::ifstream stream(file, std::ios::binary);
+    if (!stream) {
+        throw std::runtime_error("cannot read \"" + file + "\": " + std::strerror(errno));
+    }
+    return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+}
+
+} // namespace tonetool::sequence

@@ -1,0 +1,447 @@
+"""Checks of sequences: every frame has a result, and the worst of them is the exit status."""
+
+import csv
+import io
+import json
+import os
+import shutil
+import signal
+import subprocess
+import time
+import xml.etree.ElementTree as ElementTree
+
+import numpy as np
+import pytest
+from conftest import TESTIMAGES
+
+ANIM = TESTIMAGES / "anim"
+FLIP = "--hdrflip:layer=ViewLayer.Combined:quantity=p99:fail=0.5:print=0"
+
+
+@pytest.fixture
+def anim(tmp_path):
+    """The eight frames in the folder that the program runs in."""
+    for file in ANIM.glob("*.exr"):
+        shutil.copy(file, tmp_path)
+    return tmp_path
+
+
+def flip(exposures="frame"):
+    return f"{FLIP}:exposures={exposures}"
+
+
+def pair(*words):
+    return ["ref.#.exr", "test.#.exr", *words]
+
+
+def statuses(folder, name="c.json"):
+    return {frame["frame"]: frame["status"] for frame in load(folder / name)["frames"]}
+
+
+def load(path):
+    return json.loads(path.read_text(encoding="utf-8"))
+
+
+def image_bytes(make_image, tmp_path, name, **options):
+    make_image(name, **options)
+    return (tmp_path / name).read_bytes()
+
+
+# ---- what is found
+
+@pytest.mark.parametrize("exposures", ["frame", "shot"])
+def test_the_frame_without_its_light_group_is_found(tonetool, anim, exposures):
+    ran = tonetool(*pair(flip(exposures), "--json", "c.json", "--csv", "c.csv", "--junit", "c.xml"),
+                   status=3)
+    assert "check: failed, 8 frames: 1 failed, 7 passed; worst: frame 5" in ran.out
+    found = load(anim / "c.json")
+    assert found["verdict"] == "failed"
+    assert found["worst"] == [{"frame": 5}]
+    assert [f["frame"] for f in found["frames"]] == list(range(1, 9))
+    p99 = {f["frame"]: f["measurements"][0]["quantities"]["p99"] for f in found["frames"]}
+    assert max(p99, key=p99.get) == 5
+    assert ("exposures" in found) == (exposures == "shot")
+    rows = list(csv.DictReader(io.StringIO((anim / "c.csv").read_text())))
+    assert [row["frame"] for row in rows if row["status"] == "failed"] == ["5"]
+    assert float(rows[4]["hdrflip.p99"]) == p99[5]
+    suite = ElementTree.parse(anim / "c.xml").getroot().find("testsuite")
+    assert suite.get("tests") == "8" and suite.get("failures") == "1" and suite.get("errors") == "0"
+    failed = [case.get("name") for case in suite.findall("testcase") if case.find("failure") is not None]
+    assert failed == ["frame 0005"]
+
+
+def test_without_a_threshold_nothing_is_passed(tonetool, anim):
+    ran = tonetool(*pair("--hdrflip:layer=ViewLayer.Combined:print=0", "--json", "c.json", "--junit",
+                         "c.xml"))
+    assert "check: measured" in ran.out
+    assert set(statuses(anim).values()) == {"measured"}
+    assert load(anim / "c.json")["worst"] == [{"frame": 5}]
+    suite = ElementTree.parse(anim / "c.xml").getroot().find("testsuite")
+    assert suite.get("skipped") == "8"
+
+
+def test_nothing_measured_is_an_error(tonetool, anim):
+    tonetool(*pair("--pop", "--pop", "--json", "c.json"), status=1)
+    assert set(statuses(anim).values()) == {"error"}
+    tonetool(*pair("--if", "0", flip(), "--endif", "--json", "c.json"), status=1)
+    assert set(statuses(anim).values()) == {"error"}
+
+
+# ---- frames that cannot be compared
+
+def damage(anim):
+    (anim / "test.0002.exr").unlink()
+    whole = (anim / "test.0003.exr").read_bytes()
+    (anim / "test.0003.exr").write_bytes(whole[:len(whole) // 2])
+    (anim / "ref.0004.exr").write_bytes(b"not an image")
+    shutil.copy(TESTIMAGES / "cornell_ref.exr", anim / "test.0006.exr")
+    (anim / "ref.0007.exr").unlink()
+    (anim / "test.0007.exr").unlink()
+    (anim / "test.0008.exr").write_bytes(b"")
+    shutil.copy(ANIM / "ref.0001.exr", anim / "ref.0009.exr")
+
+
+DAMAGED = {1: "passed", 2: "missing", 3: "unreadable", 4: "unreadable", 5: "failed",
+           6: "size mismatch", 7: "missing", 8: "unreadable", 9: "missing"}
+
+
+@pytest.mark.parametrize("exposures", ["frame", "shot"])
+def test_every_bad_frame_has_its_own_status_and_the_rest_goes_on(tonetool, anim, exposures):
+    damage(anim)
+    ran = tonetool(*pair(flip(exposures), "--json", "c.json", "--csv", "c.csv", "--junit", "c.xml"),
+                   status=1)
+    assert statuses(anim) == DAMAGED
+    found = load(anim / "c.json")
+    assert found["counts"]["missing"] == 3
+    messages = {f["frame"]: f.get("message", "") for f in found["frames"]}
+    assert messages[2] == 'no file "test.0002.exr"'
+    assert "ref.0004.exr" in messages[4] and "96x96" in messages[6]
+    assert found["worst"][-1] == {"frame": 5}
+    assert "(frame 2)" in ran.err
+    suite = ElementTree.parse(anim / "c.xml").getroot().find("testsuite")
+    assert (suite.get("failures"), suite.get("errors")) == ("1", "7")
+
+
+def test_a_range_asks_for_frames_that_nobody_has(tonetool, anim):
+    tonetool("--frames", "7-10", *pair(flip(), "--json", "c.json"), status=1)
+    assert statuses(anim) == {7: "passed", 8: "passed", 9: "missing", 10: "missing"}
+
+
+def test_pairs_are_made_by_number_not_by_place(tonetool, anim):
+    (anim / "ref.0001.exr").unlink()
+    (anim / "test.0008.exr").unlink()
+    tonetool(*pair(flip(), "--json", "c.json"), status=1)
+    assert statuses(anim) == {1: "missing", 2: "passed", 3: "passed", 4: "passed", 5: "failed",
+                              6: "passed", 7: "passed", 8: "missing"}
+
+
+def test_steps_are_no_holes(tonetool, anim):
+    for number in (2, 4, 6, 8):
+        (anim / f"ref.000{number}.exr").unlink()
+        (anim / f"test.000{number}.exr").unlink()
+    tonetool(*pair(flip(), "--json", "c.json"), status=3)
+    assert sorted(statuses(anim)) == [1, 3, 5, 7]
+
+
+def test_no_file_at_all_is_an_error(tonetool, tmp_path):
+    ran = tonetool(*pair(flip(), "--json", "c.json"), status=1)
+    assert 'no file matches "ref.#.exr"' in ran.err
+    assert not os.listdir(tmp_path)
+
+
+def test_one_side_without_any_file(tonetool, anim):
+    for file in anim.glob("test.*"):
+        file.unlink()
+    tonetool(*pair(flip(), "--json", "c.json"), status=1)
+    assert set(statuses(anim).values()) == {"missing"}
+
+
+def test_a_pair_without_numbers(tonetool, anim):
+    tonetool("ref.0005.exr", "test.0005.exr", flip(), "--json", "c.json", status=3)
+    assert statuses(anim) == {0: "failed"}
+    tonetool("ref.0005.exr", "gone.exr", flip(), "--json", "c.json", status=1)
+    assert statuses(anim) == {0: "missing"}
+
+
+def test_every_comparison_is_recorded(tonetool, anim):
+    tonetool("--frames", "1-2", *pair(flip(), "ref.#.exr", "test.#.exr",
+             "--ldrflip:layer=ViewLayer.Combined:print=0:fail=1", "ref.#.exr", "test.#.exr",
+             "--errormap:metric=psnr:layer=ViewLayer.Combined:print=0:fail=10",
+             "ref.#.exr", "test.#.exr", "--flipdiff:layer=ViewLayer.Combined:print=0",
+             "ref.#.exr", "test.#.exr", "--failpercent", "100", "--warnpercent", "100",
+             "--diff", "--json", "c.json"))
+    (first, _) = load(anim / "c.json")["frames"]
+    assert [m["command"] for m in first["measurements"]] == ["hdrflip", "ldrflip", "errormap",
+                                                             "flipdiff", "diff"]
+    assert [m["status"] for m in first["measurements"]] == ["passed", "passed", "passed",
+                                                            "measured", "passed"]
+    assert first["measurements"][2]["threshold"]["higher_is_better"] is True
+
+
+def test_a_failing_diff_is_a_failed_frame(tonetool, anim):
+    tonetool("--frames", "1-2", *pair("--diff", "--json", "c.json"), status=1)
+    assert set(statuses(anim).values()) == {"failed"}
+
+
+def test_warnings(tonetool, anim):
+    words = pair("--hdrflip:layer=ViewLayer.Combined:quantity=p99:warn=0.5:print=0", "--json",
+                 "c.json")
+    tonetool(*words)
+    assert statuses(anim)[5] == "warning" and statuses(anim)[4] == "passed"
+    tonetool("--warnings-exit", *words, status=2)
+
+
+# ---- exposures of the shot
+
+def test_a_shot_has_one_range(tonetool, anim):
+    tonetool(*pair(flip("shot"), "--json", "c.json"), status=3)
+    found = load(anim / "c.json")
+    stops = {tuple(f["measurements"][0]["exposures"]) for f in found["frames"]}
+    assert len(stops) == 1
+    own = []
+    for number in range(1, 9):
+        ran = tonetool(f"ref.000{number}.exr", "--luminancestats:layer=ViewLayer.Combined")
+        own.append((float(ran.fact("max")), float(ran.fact("median"))))
+    assert found["exposures"]["max_luminance"] == pytest.approx(max(m for m, _ in own), rel=1e-5)
+    assert found["exposures"]["median_luminance"] == pytest.approx(sorted(m for _, m in own)[4],
+                                                                  rel=1e-5)
+    assert found["exposures"]["frames"] == 8
+
+
+def test_a_shot_of_one_frame_is_as_the_frame(tonetool, anim):
+    words = ["--frames", "3", *pair()]
+    tonetool(*words, flip("shot"), "--csv", "shot.csv")
+    tonetool(*words, flip("frame"), "--csv", "frame.csv")
+    assert (anim / "shot.csv").read_bytes() == (anim / "frame.csv").read_bytes()
+
+
+def test_exposures_are_written_and_read(tonetool, anim):
+    tonetool(*pair(flip("shot"), "--json", "shot.json"), status=3)
+    tonetool(*pair(flip("shot"), "--statistics", "range.json"))
+    tonetool(*pair(flip("range.json"), "--json", "read.json"), status=3)
+    assert (anim / "read.json").read_bytes() == (anim / "shot.json").read_bytes()
+    tonetool(*pair(flip("shot.json"), "--json", "again.json"), status=3)
+    assert (anim / "again.json").read_bytes() == (anim / "shot.json").read_bytes()
+    for part in ("1-3", "4", "5-8"):
+        tonetool("--frames", part, *pair(flip("shot"), "--statistics", f"{part}.range"))
+    tonetool("--merge", "5-8.range", "1-3.range", "4.range", "--statistics", "merged.range")
+    assert (anim / "merged.range").read_bytes() == (anim / "range.json").read_bytes()
+
+
+def test_exposures_of_the_shot_work_without_a_check(tonetool, anim):
+    ran = tonetool(*pair(flip("shot").replace("print=0", "print=1")), status=3)
+    assert len({line for line in ran.out.splitlines() if "exposures start" in line}) == 1
+
+
+def test_a_black_frame_has_no_say(tonetool, make_image, tmp_path):
+    for name in ("a", "b"):
+        make_image(f"{name}.1.exr", pixels=np.zeros((12, 16, 3)))
+        make_image(f"{name}.2.exr", seed=5)
+    tonetool("a.#.exr", "b.#.exr", "--framepadding", "1", "--hdrflip:exposures=shot:fail=0",
+             "--json", "c.json")
+    assert load(tmp_path / "c.json")["exposures"]["frames"] == 1
+
+
+@pytest.mark.parametrize("words, text", [
+    (["--hdrflip:exposures=gone.json"], 'no file "gone.json"'),
+    (["--hdrflip:exposures=ref.0001.exr"], "exposures of"),
+    (["--hdrflip:exposures=shot:maxluminance=3"], "goes without maxluminance="),
+    (["--hdrflip", "--statistics", "x.json"], "--hdrflip:exposures=shot"),
+    (["--json"], "missing argument FILE"),
+    (["--hdrflip", "--json", "--csv", "x"], "missing argument FILE"),
+    (["--hdrflip", "--json", "x", "--json", "y"], "--json is given twice"),
+    (["--hdrflip", "--json", "x", "--csv", "x"], "another's file"),
+    (["--hdrflip", "--json", "no/x.json"], 'no folder "no"'),
+    (["--hdrflip", "--json", "."], "is a folder"),
+    (["--hdrflip", "--state", "ref.0001.exr"], "cannot make the folder"),
+])
+def test_errors(tonetool, anim, words, text):
+    before = sorted(os.listdir(anim))
+    assert text in tonetool("--frames", "1", *pair(*words), status=1).err
+    assert sorted(set(os.listdir(anim)) - {"x", "y"}) == before
+
+
+def test_a_full_disk_is_an_error(tonetool, anim):
+    ran = tonetool("--frames", "1", *pair(flip(), "--json", "/dev/full"), status=1)
+    assert "No space left" in ran.err
+
+
+# ---- parts
+
+SPLITS = {"one": [(n, n) for n in range(1, 9)], "fours": [(5, 8), (1, 4)], "all": [(1, 8)],
+          "mixed": [(3, 3), (4, 8), (1, 2)]}
+
+
+@pytest.mark.parametrize("split", SPLITS)
+@pytest.mark.parametrize("exposures", ["frame", "shot"])
+def test_parts_merge_to_the_bytes_of_the_single_run(tonetool, anim, split, exposures):
+    (anim / "test.0007.exr").unlink()
+    tonetool(*pair(flip(exposures), "--json", "whole.json", "--csv", "whole.csv"), status=1)
+    own = "frame"
+    if exposures == "shot":
+        tonetool(*pair(flip("shot"), "--statistics", "range.json"), status=1)
+        own = "range.json"
+    for begin, end in SPLITS[split]:
+        subprocess.run([os.environ["TONETOOL"], "--frames", f"{begin}-{end}", *pair(flip(own)),
+                        "--jobs", "2", "--json", f"part{begin}.json"], cwd=anim, check=False,
+                       capture_output=True)
+    parts = [f"part{begin}.json" for begin, _ in SPLITS[split]]
+    tonetool("--merge", *parts, "--json", "merged.json", "--csv", "merged.csv", status=1)
+    assert (anim / "merged.json").read_bytes() == (anim / "whole.json").read_bytes()
+    assert (anim / "merged.csv").read_bytes() == (anim / "whole.csv").read_bytes()
+
+
+def test_frames_that_no_part_has_are_errors(tonetool, anim):
+    tonetool("--frames", "1-3", *pair(flip(), "--json", "a.json"))
+    tonetool("--merge", "a.json", "--json", "c.json")
+    ran = tonetool("--merge", "a.json", "b.json", "--frames", "1-5", "--json", "c.json", status=1)
+    assert 'no file "b.json"' in ran.err
+    assert statuses(anim) == {1: "passed", 2: "passed", 3: "passed", 4: "error", 5: "error"}
+
+
+@pytest.mark.parametrize("words, text", [
+    ([], "no part"),
+    (["gone.json"], 'no file "gone.json"'),
+    (["a.json", "a.json"], "there twice"),
+    (["a.json", "b.json"], "not of the same check"),
+    (["bad.json"], '"bad.json"'),
+    (["a.json", "--hdrflip"], "takes results alone"),
+    (["a.json", "--state", "s"], "exclude each other"),
+])
+def test_parts_that_do_not_fit(tonetool, anim, words, text):
+    tonetool("--frames", "1", *pair(flip(), "--json", "a.json"))
+    tonetool("--frames", "2", *pair(flip() + ":ppd=60", "--json", "b.json"))
+    (anim / "bad.json").write_text("{}")
+    assert text in tonetool("--merge", *words, "--json", "c.json", status=1).err
+    assert not (anim / "c.json").exists()
+
+
+# ---- state
+
+def test_a_state_gives_the_same_bytes_and_what_has_changed_is_checked_anew(tonetool, anim):
+    words = pair(flip("shot"), "--json", "c.json", "-o", "map.#.exr")
+    first = tonetool(*words, "--state", "s", status=3)
+    bytes_of_first = (anim / "c.json").read_bytes()
+    kept = {file: file.stat().st_mtime_ns for file in (anim / "s").iterdir()}
+    assert len(kept) == 16
+    again = tonetool(*words, "--state", "s", status=3)
+    assert again.out == first.out and (anim / "c.json").read_bytes() == bytes_of_first
+    assert {file: file.stat().st_mtime_ns for file in (anim / "s").iterdir()} == kept
+
+    shutil.copy(ANIM / "ref.0005.exr", anim / "test.0005.exr")
+    (anim / "map.0003.exr").unlink()
+    tonetool(*words, "--state", "s")
+    assert statuses(anim)[5] == "passed"
+    assert (anim / "map.0003.exr").exists()
+    changed = {file.name for file in kept if file.stat().st_mtime_ns != kept[file]}
+    assert {"frame.0003.json", "frame.0005.json"} <= changed
+    assert "frame.0001.json" not in changed
+
+
+def test_a_missing_frame_that_comes_is_checked(tonetool, anim):
+    (anim / "test.0002.exr").unlink()
+    tonetool(*pair(flip(), "--json", "c.json", "--state", "s"), status=1)
+    shutil.copy(ANIM / "test.0002.exr", anim / "test.0002.exr")
+    tonetool(*pair(flip(), "--json", "c.json", "--state", "s"), status=3)
+    assert statuses(anim)[2] == "passed"
+
+
+def test_a_damaged_state_is_made_anew(tonetool, anim):
+    tonetool(*pair(flip(), "--json", "c.json", "--state", "s"), status=3)
+    whole = (anim / "c.json").read_bytes()
+    (anim / "s" / "frame.0005.json").write_text("{")
+    (anim / "s" / "frame.0006.json").write_text('{"format": "tonetool-state", "version": 99}')
+    tonetool(*pair(flip(), "--json", "c.json", "--state", "s"), status=3)
+    assert (anim / "c.json").read_bytes() == whole
+
+
+def test_views_cannot_leave_the_state_folder(tonetool, make_image, tmp_path):
+    make_image("a_.._up.1.exr")
+    make_image("b_.._up.1.exr")
+    tonetool("--views", ".._up", "a_%V.#.exr", "b_%V.#.exr", "--framepadding", "1", "--hdrflip",
+             "--state", "s", "--json", "c.json")
+    assert [file.name for file in (tmp_path / "s").iterdir()] == ["frame.0001.%2E%2E_up.json"]
+
+
+def leftovers(folder):
+    return [file for file in folder.rglob(".*") if file.is_file()]
+
+
+@pytest.mark.parametrize("turn", range(50))
+def test_killed_at_a_random_moment_and_resumed(program, tmp_path_factory, turn):
+    folder = tmp_path_factory.getbasetemp() / "killed"
+    if not folder.exists():
+        folder.mkdir()
+        for file in ANIM.glob("*.exr"):
+            shutil.copy(file, folder)
+    words = [program, "--jobs", "2", *pair(flip("shot")), "-o", "map.#.exr", "--json", "c.json",
+             "--csv", "c.csv"]
+    wanted = {}
+    outputs = ["c.json", "c.csv", *(f"map.000{n}.exr" for n in range(1, 9))]
+    if not (folder / "wanted").exists():
+        begin = time.monotonic()
+        subprocess.run(words, cwd=folder, check=False, capture_output=True)
+        (folder / "seconds").write_text(str(time.monotonic() - begin))
+        (folder / "wanted").mkdir()
+        for name in outputs:
+            (folder / name).rename(folder / "wanted" / name)
+    wanted = {name: (folder / "wanted" / name).read_bytes() for name in outputs}
+    words += ["--state", "s"]
+    shutil.rmtree(folder / "s", ignore_errors=True)
+    for name in outputs:
+        (folder / name).unlink(missing_ok=True)
+    seconds = float((folder / "seconds").read_text())
+    with subprocess.Popen(words, cwd=folder, stdout=subprocess.DEVNULL,
+                          stderr=subprocess.DEVNULL) as process:
+        time.sleep(float(np.random.default_rng(turn).random()) * seconds)
+        process.send_signal(signal.SIGKILL)
+        process.wait()
+    for name in outputs:  # whole or not at all
+        if (folder / name).exists() and name.startswith("c."):
+            assert (folder / name).read_bytes() == wanted[name], name
+    done = subprocess.run(words, cwd=folder, check=False, capture_output=True)
+    assert done.returncode == 3
+    for name in ("c.json", "c.csv"):
+        assert (folder / name).read_bytes() == wanted[name], name
+    for file in (folder / "s").iterdir():
+        load(file)
+    assert leftovers(folder) == []
+
+
+# ---- names
+
+@pytest.mark.parametrize("name", ["<img onerror=alert(1)>", "a,b\"c", "=cmd", "it's & so"])
+def test_names_are_only_text(tonetool, make_image, tmp_path, name):
+    make_image(f"{name}.0001.exr")
+    make_image(f"{name}.0002.exr", width=4)
+    make_image("r.0001.exr")
+    make_image("r.0002.exr")
+    tonetool("r.#.exr", f"{name}.#.exr", "--hdrflip:fail=0", "--json", "c.json", "--csv", "c.csv",
+             "--junit", "c.xml", status=1)
+    found = load(tmp_path / "c.json")
+    assert [frame["test"] for frame in found["frames"]] == [f"{name}.0001.exr", f"{name}.0002.exr"]
+    rows = list(csv.DictReader(io.StringIO((tmp_path / "c.csv").read_text(), newline="")))
+    start = "'" if name.startswith("=") else ""
+    assert [row["test"] for row in rows] == [f"{start}{name}.0001.exr", f"{start}{name}.0002.exr"]
+    suite = ElementTree.parse(tmp_path / "c.xml").getroot().find("testsuite")
+    assert [case.get("classname") for case in suite.findall("testcase")] == [
+        f"{name}.0001.exr", f"{name}.0002.exr"]
+
+
+def test_only_named_files_are_written(tonetool, anim):
+    before = set(os.listdir(anim))
+    (anim / "out").mkdir()
+    tonetool(*pair(flip("shot"), "--json", "out/c.json", "--csv", "out/c.csv", "--junit",
+                   "out/c.xml", "--state", "out/s"), status=3)
+    assert set(os.listdir(anim)) - before == {"out"}
+    assert set(os.listdir(anim / "out")) == {"c.json", "c.csv", "c.xml", "s"}
+
+
+# ---- progress
+
+def test_a_line_for_every_finished_frame(tonetool, anim):
+    ran = tonetool("-v", "--jobs", "2", *pair(flip(), "--json", "c.json"), status=3)
+    lines = [line for line in ran.err.splitlines() if line.startswith("frame ")]
+    assert [int(line.split()[1].rstrip(":")) for line in lines] == list(range(1, 9))
+    assert lines[4].startswith("frame 5: failed (hdrflip: p99 0.")
+    assert " passed, " in lines[3]
