@@ -26,9 +26,11 @@ struct Selection {
 int required_channel(const OIIO::ImageSpec& spec, const std::string& name, Session* session) {
     int index = channel_index(spec, name);
     if (index < 0 && session && session->compat) {
-        session->warning("--ch", "Unknown channel name \"" + name +
-                                     "\", filling with 0 (actual channels: \"" +
-                                     join(spec.channelnames, ",") + "\")");
+        for (int time = 0; time < 2; ++time) { // as oiiotool
+            session->warning("--ch", "Unknown channel name \"" + name +
+                                         "\", filling with 0 (actual channels: \"" +
+                                         join(spec.channelnames, ",") + "\")");
+        }
     } else if (index < 0) {
         throw CommandError("Unknown channel name \"" + name + "\" (actual channels: \"" +
                            join(spec.channelnames, ",") + "\")");

@@ -154,9 +154,13 @@ bool warp(Op& op) {
         throw CommandError("expected 9 comma-separated floats to form a 3x3 matrix", "", true);
     }
     const float matrix[3][3] = {{m[0], m[1], m[2]}, {m[3], m[4], m[5]}, {m[6], m[7], m[8]}};
+    const std::string wrap = op.text("wrap", "black");
+    if (!op.session.compat) {
+        check_choice("wrap", wrap, {"black", "clamp", "periodic", "mirror"});
+    }
     return filtered(op, [&](const OIIO::ImageBuf& from) {
         return IBA::warp(op.dst, from, matrix, op.text("filter"), 0, op.flag("recompute_roi"),
-                         OIIO::ImageBuf::WrapBlack);
+                         OIIO::ImageBuf::WrapMode_from_string(wrap));
     });
 }
 
@@ -206,7 +210,7 @@ const std::vector<OpRow> scale_rows = {
     {"rotate DEGREES", 1, "Rotate clockwise around the middle of the display window", rotate,
      filters + highlights + recompute + "center=X,Y: around this position instead"},
     {"warp MATRIX", 1, "Warp by a 3x3 matrix of 9 numbers with commas between them", warp,
-     filters + highlights + recompute},
+     filters + highlights + recompute + "wrap=MODE: black, clamp, periodic, mirror beyond it"},
     {"st_warp", 2, "Warp the first image by the st coordinates in the second", st_warp,
      filters + "chan_s=N: channel of s (0)\n"
                "chan_t=N: channel of t (1)\n"

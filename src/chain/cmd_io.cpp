@@ -41,7 +41,11 @@ ImagePtr substitute(Session& session, const std::string& filename) {
     spec.set_format(OIIO::TypeFloat);
     spec.extra_attribs.clear();
     OIIO::ImageBuf pixels(spec);
-    const std::vector<float> black(size_t(spec.nchannels), 0.0f), white(black.size(), 1.0f);
+    std::vector<float> black(size_t(spec.nchannels), 0.0f);
+    const std::vector<float> white(black.size(), 1.0f);
+    if (spec.alpha_channel >= 0) { // only the checker's
+        black[size_t(spec.alpha_channel)] = 1;
+    }
     session.missing_file == "black" ? OIIO::ImageBufAlgo::zero(pixels)
                                     : OIIO::ImageBufAlgo::checker(pixels, 64, 64, 1, black, white);
     return Image::created(filename, std::move(pixels), format);
@@ -267,8 +271,8 @@ void write_one(Session& session, const Call& call, const ImagePtr& image,
     if (session.dry_run) {
         return;
     }
-    const OutputSettings settings = settings_of(session, call);
     session.note_format(*image);
+    const OutputSettings settings = settings_of(session, call);
     session.push(image);
     if (call.flag("autocc", session.autocc)) {
         convert_output(session, call, filename, settings);
@@ -314,7 +318,8 @@ OIIO::ImageSpec texture_config(const Session& session, const Call& call) {
         const std::string name = "maketx:" + (other == others.end() ? modifier.key : other->second);
         if (modifier.hint == "0|1") {
             config.attribute(name, int(call.flag(modifier.key, false)));
-        } else if (modifier.hint == "X" && (value || modifier.key != "fovcot")) {
+        } else if (modifier.hint == "X" &&
+                   (modifier.key != "fovcot" || (value && !session.compat))) {
             config.attribute(modifier.key == "fovcot" ? modifier.key : name,
                              float(call.number(modifier.key, any_number_at_all).value_or(0)));
         } else if (modifier.hint != "X" && value) {
@@ -337,7 +342,9 @@ OIIO::ImageSpec texture_config(const Session& session, const Call& call) {
         config.attribute("compression", output.compression);
     }
     if (output.history) {
-        config.attribute("Software", "tonetool : " + session.command_line);
+        // By that name readers trust the average and the hash that are in it.
+        config.attribute("Software",
+                         "OpenImageIO " OIIO_VERSION_STRING " : " + session.command_line);
         config.attribute("maketx:full_command_line", session.command_line);
     }
     return config;

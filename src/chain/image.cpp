@@ -90,6 +90,7 @@ PartPtr Part::with_headers(PartPtr source, const std::function<void(OIIO::ImageS
 PartPtr Part::of_level(PartPtr source, int level) {
     PartPtr part = with_headers(std::move(source), [](OIIO::ImageSpec&) {});
     part->m_headers = {part->header(level)};
+    part->m_format.reset();
     part->m_pixels.resize(1);
     part->m_first_level = level;
     return part;

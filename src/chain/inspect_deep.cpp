@@ -50,7 +50,7 @@ std::string histogram(const std::vector<size_t>& pixels_with, size_t pixels) {
     for (size_t i = 0; i < pixels_with.size(); ++i) {
         sum += pixels_with[i];
         if (i < 8 || i + 1 == pixels_with.size() || OIIO::ispow2(i + 1)) {
-            text += first == i ? format("    {:3}    ", i) : format("    {:3}-{:3}", first, i);
+            text += first == i ? format("  {:3}    ", i) : format("  {:3}-{:3}", first, i);
             text += format(" : {:8} ({:4.1f}%)\n", sum, 100.0 * double(sum) / double(pixels));
             first = i + 1;
             sum = 0;

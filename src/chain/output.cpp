@@ -163,6 +163,9 @@ OIIO::ImageSpec output_spec(const Outgoing& image, const Session& session,
                             const OutputSettings& settings, const std::string& filename,
                             const OIIO::ImageOutput& writer) {
     OIIO::ImageSpec spec = image.pixels->spec();
+    for (const char* hint : {"oiio:ConstantColor", "oiio:AverageColor", "oiio:SHA-1"}) {
+        spec.erase_attribute(hint); // of the pixels that some texture had
+    }
     if (settings.history) {
         note_history(spec, session);
     }
@@ -211,6 +214,9 @@ size_t parts_to_write(Session& session, const std::string& where, const Image& i
 } // namespace
 
 DataFormat format_of(const Session& session, const Part& part) {
+    if (part.format() && session.compat) { // oiiotool writes channels in their widest type
+        return {part.format()->type, {}, part.format()->bits};
+    }
     if (part.format()) {
         return *part.format();
     }
@@ -275,7 +281,8 @@ void write_output(Session& session, const std::string& where, const Image& image
     std::vector<OutputImage> ready;
     for (size_t i = 0; i < count; ++i) {
         Part& part = image.part(i);
-        for (int level = 0; level < (mipmap ? part.mip_levels() : 1); ++level) {
+        const int levels = mipmap ? part.mip_levels() : 1;
+        for (int level = 0; level < levels; ++level) {
             Outgoing& next = outgoing.emplace_back();
             next.pixels = &part.pixels(level);
             next.format = format_of(session, part);
@@ -286,6 +293,9 @@ void write_output(Session& session, const std::string& where, const Image& image
             choose_format(next.format, next.pixels->spec(), settings, session.output);
             ready.push_back({next.pixels, output_spec(next, session, settings, filename, *writer),
                              level > 0, settings.format_name});
+            if (levels == 1) { // OpenEXR would wait for more
+                ready.back().spec.erase_attribute("textureformat");
+            }
             warn_of_encoding(session, where, ready.back().spec, *writer);
         }
         if (part.mip_levels() > 1 && !mipmap && !session.compat) {

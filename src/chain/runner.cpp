@@ -169,8 +169,9 @@ void Runner::run_file(const std::string& word) {
     if (m_session.flow.running()) {
         m_where = "read";
         OIIO::Timer time;
+        double& seconds = m_session.seconds["-i"];
         push_file_or_label(m_session, word);
-        m_session.seconds["-i"] += time();
+        seconds += time();
         run_postponed();
     }
 }
