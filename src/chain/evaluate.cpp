@@ -48,19 +48,12 @@ Left left(Session& session, const Image& image, const std::string& label) {
 
 void take_images(Session& session, Evaluation& result) {
     std::map<ImagePtr, std::string> labels;
-    for (const std::string& label : session.label_order) {
-        labels.emplace(session.labels.at(label), label);
+    for (const auto& [label, image] : session.labels) {
+        labels.emplace(image, label);
     }
     for (const ImagePtr& image : session.stack) {
         auto label = labels.find(image);
         result.stack.push_back(left(session, *image, label == labels.end() ? "" : label->second));
-    }
-    for (const std::string& label : session.label_order) {
-        const ImagePtr& image = session.labels.at(label);
-        const std::vector<ImagePtr>& stack = session.stack;
-        if (std::find(stack.begin(), stack.end(), image) == stack.end()) {
-            result.named.push_back(left(session, *image, label));
-        }
     }
 }
 
@@ -107,7 +100,6 @@ Evaluation evaluate(const Strings& words, std::vector<OIIO::ImageBuf> images,
     result.files = session.files;
     if (session.errors > 0) {
         result.stack.clear();
-        result.named.clear();
     }
     return result;
 }

@@ -95,7 +95,6 @@ struct Session {
 
     std::vector<ImagePtr> stack; ///< the top is the last
     std::map<std::string, ImagePtr> labels;
-    Strings label_order;            ///< of their first use
     OIIO::ParamValueList variables; ///< of --set and --for
     bool evaluate = true;           ///< {expressions} are replaced by their values
     Frame frame;
