@@ -66,7 +66,8 @@ bool names_file(const std::string& hint) {
 }
 
 bool Command::writes() const {
-    return group == Group::Write && std::any_of(args.begin(), args.end(), names_file);
+    return group == Group::Check ||
+           (group == Group::Write && std::any_of(args.begin(), args.end(), names_file));
 }
 
 Command of_process(Command row) {

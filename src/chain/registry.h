@@ -76,7 +76,7 @@ struct Command : Shape {
     /// As messages call it: "hdrflip", "-o".
     std::string label() const;
 
-    /// Its arguments FILE or FILENAME are read, in the groups but Write, or written.
+    /// Its arguments FILE or FILENAME are read, in the groups but Write and Check, or written.
     bool writes() const;
     /// Something of it remains when the chain has ended.
     bool outlives_chain() const { return of_process || writes(); }
