@@ -161,15 +161,17 @@ void Module::add_mapping(const std::string& name, const std::vector<Parameter>& 
 }
 
 std::string Module::stubs() const {
-    return "# Made from the module by src/python/write_stubs.py: do not edit.\n"
+    return "# Made from the module by src/scripts/write_stubs.py: do not edit.\n"
            "import os\n"
-           "from collections.abc import Iterator, Mapping, Sequence\n"
-           "from typing import Any, Literal, TypedDict, Union\n\n"
+           "from collections.abc import Mapping, Sequence\n"
+           "from typing import Literal, TypedDict, Union\n\n"
            "import numpy as np\n"
            "from numpy.typing import NDArray\n"
            "from OpenImageIO import ROI, ImageBuf\n\n"
            "Image = Union[ImageBuf, NDArray[np.float32]]\n\n"
-           "__version__: str\n" +
+           "__version__: str\n\n"
+           "class Error(RuntimeError): ...\n\n"
+           "class CheckFailed(Error):\n    result: ChainResult\n" +
            m_classes + m_functions;
 }
 

@@ -11,6 +11,8 @@ void add_error(py::module_& handle) {
     static py::exception<Refused> error(handle, "Error", PyExc_RuntimeError);
     error.attr("__doc__") = "What the library refuses, in its words: an image it cannot read or "
                             "use, a value out of range, an output that cannot be written.";
+    static py::exception<Refused> failed(handle, "CheckFailed", error.ptr());
+    failed.attr("__doc__") = "A check of chain() that did not pass; `result` has what is left.";
     py::register_exception_translator([](std::exception_ptr raised) {
         try {
             if (raised)
@@ -35,7 +37,7 @@ void add_everything(Module& module) {
     add_display(module);
     add_lut(module);
     add_write(module);
-    // add_chain(module);
+    add_chain(module);
 }
 
 } // namespace
