@@ -11,7 +11,6 @@ namespace {
 
 struct ChainOptions {
     bool read_only = false;
-    std::string directory;
 };
 
 struct ChainObject {
@@ -80,7 +79,6 @@ py::object run(std::vector<py::object>& arguments, const ChainOptions& options) 
     Given given = given_images(arguments[1]);
     chain::Policy policy;
     policy.read_only = options.read_only;
-    policy.directory = options.directory;
     chain::Evaluation found;
     {
         const py::gil_scoped_release others_may_run;
@@ -130,9 +128,7 @@ void add_chain(Module& module) {
                "Any error of the command line.",
                "The language is that of oiiotool."},
            Fields<O>{field<O>("read_only", &O::read_only,
-                              "Commands that write files or change settings are errors."),
-                     field<O>("directory", &O::directory,
-                              "Of relative file names; \"\": the current one.")},
+                              "Commands that write files or change settings are errors.")},
            run);
 }
 

@@ -61,7 +61,7 @@ void add_choice(Module& module) {
 
 void add_pixels(Module& module) {
     const Table<PixelOptions>& table = table_of<PixelOptions>();
-    module.add_mapping(table.name, parameters_of(table.fields));
+    module.add_mapping(table);
     add_choice(module);
     const std::string notes = "Shapes, NaN: only the header of the image is looked at. Units: "
                               "channels are counted from 0.";

@@ -59,7 +59,7 @@ def test_read_only(noise, tmp_path):
     with pytest.raises(tonetool.Error, match="-o"):
         tonetool.chain(["-o", tmp_path / "x.exr"], [noise], read_only=True)
     assert not list(tmp_path.iterdir())
-    tonetool.chain("-o x.exr", [noise], directory=str(tmp_path))
+    tonetool.chain(["-o", tmp_path / "x.exr"], [noise])
     assert same(tmp_path / "x.exr", noise)
 
 

@@ -23,4 +23,7 @@ from . import _tonetool
 from ._tonetool import *  # noqa: F401,F403: its __all__ is the list of what there is
 from ._tonetool import CheckFailed, Error, __version__
 
+if __doc__:  # python3 -OO has none
+    __doc__ += "\nMappings of options:\n" + _tonetool._mappings
+
 __all__ = ["CheckFailed", "Error", *_tonetool.__all__]

@@ -584,6 +584,20 @@ class LutSummary:
     @property
     def samples(self) -> int: ...
 
+class ChainResult:
+    """What a command line has left."""
+
+    @property
+    def images(self) -> list[Image]: ...
+    @property
+    def names(self) -> list[str]: ...
+    @property
+    def out(self) -> str: ...
+    @property
+    def warnings(self) -> list[str]: ...
+    @property
+    def status(self) -> int: ...
+
 def find_color(
     image: Image,
     *,
@@ -903,3 +917,11 @@ def write_bytes(
 ) -> None: ...
 
 def remove_unfinished_outputs() -> None: ...
+
+def chain(
+    command: str | Sequence[str],
+    images: Sequence[Image] | None = ...,
+    *,
+    read_only: bool = ...,
+    directory: str = ...,
+) -> ChainResult: ...
