@@ -65,7 +65,7 @@ const std::string source_hdr =
     "High Dynamic Range Images\", Eurographics 2021; " +
     source_ldr;
 const std::string map_notes =
-    "The map is FLIP's error, 0 (no visible difference) to 1.\n"
+    "Units of the map: FLIP's error, 0 (no visible difference) to 1.\n"
     "NaN, Inf: a pixel that has them in one image has error 1, in both 0; neighbours see the other "
     "image's pixel. Counted, and in summary.warnings.";
 const std::string pair_errors =

@@ -153,23 +153,32 @@ void Module::add_class(const std::string& name, const std::string& text,
     m_names.append(name);
 }
 
-void Module::add_mapping(const std::string& name, const std::vector<Parameter>& fields) {
+void Module::add_mapping(const std::string& name, const std::string& text, const std::string& main,
+                         const std::vector<Parameter>& fields) {
     m_classes += "\n" + name + " = TypedDict(\n    \"" + name + "\",\n    {\n";
-    for (const Parameter& p : fields)
+    m_mappings += "\n" + name + ": " + text + "; a str is its `" + main + "`.\n";
+    for (const Parameter& p : fields) {
         m_classes += "        \"" + p.name + "\": " + p.type + ",\n";
+        m_mappings +=
+            "    " + p.name + " : " + p.type + ", default " + p.initial + "\n" + wrapped(p.text, 8);
+    }
     m_classes += "    },\n    total=False,\n)\n";
 }
 
 std::string Module::stubs() const {
-    return "# Made from the module by src/python/write_stubs.py: do not edit.\n"
+    return "# Made from the module by src/scripts/write_stubs.py: do not edit.\n"
            "import os\n"
-           "from collections.abc import Iterator, Mapping, Sequence\n"
-           "from typing import Any, Literal, TypedDict, Union\n\n"
+           "from collections.abc import Mapping, Sequence\n"
+           "from typing import Literal, TypedDict, Union\n\n"
            "import numpy as np\n"
            "from numpy.typing import NDArray\n"
            "from OpenImageIO import ROI, ImageBuf\n\n"
+           "# Image and the mappings of options are for annotations: the module does not have "
+           "them.\n"
            "Image = Union[ImageBuf, NDArray[np.float32]]\n\n"
-           "__version__: str\n" +
+           "__version__: str\n\n"
+           "class Error(RuntimeError): ...\n\n"
+           "class CheckFailed(Error):\n    result: ChainResult\n" +
            m_classes + m_functions;
 }
 

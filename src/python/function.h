@@ -49,16 +49,22 @@ public:
     void add_class(const std::string& name, const std::string& text,
                    const std::vector<Parameter>& fields);
     /// A mapping that stands for a struct of options.
-    void add_mapping(const std::string& name, const std::vector<Parameter>& fields);
+    template <class Options>
+    void add_mapping(const Table<Options>& table);
 
     /// The stubs of all that was added.
     std::string stubs() const;
+    /// What there is to say of the mappings.
+    const std::string& mappings() const { return m_mappings; }
     py::list names() const { return m_names; }
 
 private:
+    void add_mapping(const std::string& name, const std::string& text, const std::string& main,
+                     const std::vector<Parameter>& fields);
+
     py::module_ m_handle;
     py::list m_names;
-    std::string m_classes, m_functions;
+    std::string m_classes, m_functions, m_mappings;
 };
 
 template <class Options>
@@ -67,6 +73,11 @@ std::vector<Parameter> parameters_of(const Fields<Options>& fields) {
     for (const Field<Options>& row : fields)
         parameters.push_back({row.name, row.type, row.text, row.initial});
     return parameters;
+}
+
+template <class Options>
+void Module::add_mapping(const Table<Options>& table) {
+    add_mapping(table.name, table.text, table.main, parameters_of(table.fields));
 }
 
 /// Adds a function whose keywords are the rows of a table. `run` gets the positional arguments and

@@ -62,7 +62,7 @@ void InputImage::look_at(const py::array& array, const std::string& where) {
 }
 
 py::object to_python(OIIO::ImageBuf&& image, OutputKind kind) {
-    if (!kind.array)
+    if (!kind.array || image.deep())
         return py::cast(std::move(image));
     const bool plain = image.localpixels() && image.spec().format == OIIO::TypeFloat;
     auto owned =

@@ -144,8 +144,7 @@ void add_panorama(Module& module) {
 } // namespace
 
 void add_lights(Module& module) {
-    const Table<LightOptions>& table = table_of<LightOptions>();
-    module.add_mapping(table.name, parameters_of(table.fields));
+    module.add_mapping(table_of<LightOptions>());
     add_index_results(module);
     define(module,
            Description{"light_index",

@@ -9,8 +9,10 @@ namespace {
 
 void add_error(py::module_& handle) {
     static py::exception<Refused> error(handle, "Error", PyExc_RuntimeError);
-    error.attr("__doc__") = "What the library refuses, in its words: an image it cannot read or "
+    error.attr("__doc__") = "What the library refuses, in its words: an image it cannot read or\n"
                             "use, a value out of range, an output that cannot be written.";
+    static py::exception<Refused> failed(handle, "CheckFailed", error.ptr());
+    failed.attr("__doc__") = "A check of chain() that did not pass; `result` has what is left.";
     py::register_exception_translator([](std::exception_ptr raised) {
         try {
             if (raised)
@@ -35,7 +37,7 @@ void add_everything(Module& module) {
     add_display(module);
     add_lut(module);
     add_write(module);
-    // add_chain(module);
+    add_chain(module);
 }
 
 } // namespace
@@ -49,6 +51,7 @@ PYBIND11_MODULE(_tonetool, handle) {
     add_everything(module);
     handle.attr("__version__") = version();
     handle.attr("__all__") = module.names();
+    handle.attr("_mappings") = module.mappings();
     handle.attr("_stubs") = module.stubs();
     handle.attr("__name__") = "tonetool._tonetool";
 }

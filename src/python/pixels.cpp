@@ -25,6 +25,14 @@ py::object find_color(std::vector<py::object>& images, const PixelOptions& optio
     return py::cast(choice);
 }
 
+// `from` is a word of Python.
+Fields<PixelOptions> keywords() {
+    Fields<PixelOptions> fields = table_of<PixelOptions>().fields;
+    for (Field<PixelOptions>& row : fields)
+        row.name += row.name == "from" ? "_" : "";
+    return fields;
+}
+
 py::object color_layers(std::vector<py::object>& images) {
     const InputImage image(images[0], "color_layers: image");
     return Python<std::vector<std::string>>::to(ToneAlgo::color_layers(image.buf().spec()));
@@ -53,7 +61,7 @@ void add_choice(Module& module) {
 
 void add_pixels(Module& module) {
     const Table<PixelOptions>& table = table_of<PixelOptions>();
-    module.add_mapping(table.name, parameters_of(table.fields));
+    module.add_mapping(table);
     add_choice(module);
     const std::string notes = "Shapes, NaN: only the header of the image is looked at. Units: "
                               "channels are counted from 0.";
@@ -68,7 +76,7 @@ void add_pixels(Module& module) {
                notes,
                "No colour, or two candidates for the beauty; the layers are listed.",
                source},
-           table.fields, find_color);
+           keywords(), find_color);
     define(module,
            Description{"color_layers",
                        "Names of all layers that have R, G and B.",

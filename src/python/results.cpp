@@ -33,7 +33,9 @@ std::string value_repr(const py::handle& value) {
     if (py::isinstance<py::array>(value))
         return "<array " + std::string(py::str(value.attr("shape"))) + " " +
                std::string(py::str(value.attr("dtype"))) + ">";
-    return py::repr(value);
+    // OpenImageIO's own repr has no numbers.
+    return py::isinstance<OIIO::ROI>(value) ? "ROI(" + std::string(py::str(value)) + ")"
+                                            : std::string(py::repr(value));
 }
 
 } // namespace

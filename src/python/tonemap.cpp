@@ -146,12 +146,9 @@ void add_functions(Module& module) {
 } // namespace
 
 void add_tonemap(Module& module) {
-    const auto add = [&module](const auto& table) {
-        module.add_mapping(table.name, parameters_of(table.fields));
-    };
-    add(table_of<CurveOptions>());
-    add(table_of<ViewOptions>());
-    add(table_of<CalibrationOptions>());
+    module.add_mapping(table_of<CurveOptions>());
+    module.add_mapping(table_of<ViewOptions>());
+    module.add_mapping(table_of<CalibrationOptions>());
     add_results(module);
     add_functions(module);
     define_names(module, "display_encodings", "Names of the encodings of tonemap(encode=...).",

@@ -1,5 +1,6 @@
 #include "python/types.h"
 
+#include <OpenImageIO/strutil.h>
 #include <algorithm>
 
 #include "imagebuf/names.h"
@@ -7,7 +8,8 @@
 namespace tonetool::python {
 
 void wrong_type(const std::string& where, py::handle value, const std::string& wanted) {
-    std::string shown = py::repr(value);
+    std::string shown =
+        OIIO::Strutil::join(OIIO::Strutil::splits(std::string(py::repr(value))), " ");
     if (shown.size() > 60)
         shown = shown.substr(0, 57) + "...";
     const std::string type = py::str(py::type::handle_of(value).attr("__name__"));

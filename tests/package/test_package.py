@@ -123,6 +123,23 @@ def test_pkg_config(library, flags, mean, tmp_path):
     assert float(run(program, *PAIR)) == pytest.approx(mean, abs=1e-6)
 
 
+def test_readme_shows_the_example():
+    shown = re.search(r"```cpp\n(.*?)```", (ROOT / "README.md").read_text(encoding="utf-8"), re.S)
+    assert shown.group(1) == (HERE / "example" / "example.cpp").read_text()
+
+
+def test_installed_python_module(tree):
+    found = list(tree.glob("lib/python3*/dist-packages/tonetool/__init__.py"))
+    if not found and os.environ.get("PYTHON_MODULE") == "OFF":
+        pytest.skip("built without the Python module")
+    (package,) = found
+    code = ("import tonetool, OpenImageIO as o; print(tonetool.__file__); "
+            f"print(tonetool.hdr_flip(*(o.ImageBuf(p) for p in {PAIR!r})).summary.pool.mean)")
+    text = run("/usr/bin/python3", "-B", "-c", code, env={"PYTHONPATH": str(package.parents[1])})
+    assert text.splitlines()[0] == str(package) and float(text.splitlines()[1]) > 0
+    assert (package.parent / "py.typed").exists() and (package.parent / "__init__.pyi").exists()
+
+
 def test_other_version_is_refused(tree, tmp_path):
     shutil.copytree(HERE / "example", tmp_path / "source")
     lists = tmp_path / "source" / "CMakeLists.txt"
