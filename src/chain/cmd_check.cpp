@@ -18,7 +18,7 @@ std::vector<Command> check_commands() {
             "Write a page to look at: verdict, curve, worst frames, pictures, faults"),
         row("contactsheet", {"FILE"}, "Write an image of all frames as thumbnails"),
         row("pictures", {"DIR"},
-            "Keep the report's pictures in that folder; with --merge, take them from there"),
+            "Keep the pictures of the report in that folder; with --merge, take them from there"),
         row("state", {"DIR"},
             "Keep each finished frame's result in that folder: a run that was killed goes on, and "
             "frames whose files have changed are checked anew"),
