@@ -115,14 +115,15 @@ std::vector<Command> general_commands() {
             [](Session& session, const Call&) { session.dry_run = true; }),
         row({"a"}, {}, "Do operations on all subimages and MIP levels",
             [](Session& session, const Call&) { session.all_subimages = true; }),
-        row({"threads"}, {"N"}, "Number of threads (0: one per core)",
-            [](Session&, const Call& call) {
-                OIIO::attribute("threads", call.integer_argument(0, {0, 4096}));
-            }),
-        row({"memory"}, {"SIZE"},
-            "Peak memory of the comparisons that follow, 256M or 1G: larger images are read in "
-            "bands (half of the computer's)",
-            run_memory),
+        of_process(row({"threads"}, {"N"}, "Number of threads (0: one per core)",
+                       [](Session&, const Call& call) {
+                           OIIO::attribute("threads", call.integer_argument(0, {0, 4096}));
+                       })),
+        of_process(
+            row({"memory"}, {"SIZE"},
+                "Peak memory of the comparisons that follow, 256M or 1G: larger images are read in "
+                "bands (half of the computer's)",
+                run_memory)),
         row({"no-error-exit"}, {}, "After an error go on with the next command",
             [](Session& session, const Call&) { session.error_exit = false; }),
         row({"debug"}, {}, "Say what is done",
@@ -148,19 +149,20 @@ std::vector<Command> general_commands() {
             [](Session& session, const Call&) { session.autocc = false; }),
         row({"native"}, {}, "Pixels keep the file's data type in memory",
             [](Session& session, const Call&) { session.input.type = OIIO::TypeUnknown; }),
-        row({"cache"}, {"MB"}, "Size of OpenImageIO's image cache",
+        of_process(row(
+            {"cache"}, {"MB"}, "Size of OpenImageIO's image cache",
             [](Session&, const Call& call) {
                 auto* cache = OIIO::ImageCache::create();
                 cache->attribute("max_memory_MB", float(call.integer_argument(0, {0, 1 << 30})));
-            }),
-        row({"autotile"}, {"SIZE"}, "Tiles of OpenImageIO's image cache (0: none)",
-            [](Session&, const Call& call) {
-                auto* cache = OIIO::ImageCache::create();
-                cache->attribute("autotile", call.integer_argument(0, {0, 1 << 16}));
-            }),
+            })),
+        of_process(row({"autotile"}, {"SIZE"}, "Tiles of OpenImageIO's image cache (0: none)",
+                       [](Session&, const Call& call) {
+                           auto* cache = OIIO::ImageCache::create();
+                           cache->attribute("autotile", call.integer_argument(0, {0, 1 << 16}));
+                       })),
         row({"metamerge"}, {}, "Results have the metadata of all images they are made of",
             [](Session& session, const Call&) { session.metamerge = true; }),
-        oiioattrib,
+        of_process(oiioattrib),
         row({"warnings-exit"}, {}, "Exit with status 2 when there were warnings",
             [](Session& session, const Call&) { session.warnings_exit = true; }),
     };

@@ -122,7 +122,7 @@ void push_file_or_label(Session& session, const std::string& word) {
     if (labelled != session.labels.end()) {
         session.push(labelled->second);
     } else {
-        push_file(session, word);
+        push_file(session, session.file(word));
     }
 }
 

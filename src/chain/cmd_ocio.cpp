@@ -135,7 +135,7 @@ std::vector<Command> ocio_commands() {
     std::vector<Command> all = op_rows(Group::Color, rows);
     append(all, header_rows(Group::Color, {{"iccread FILENAME", "Take the ICC profile from a file",
                                             read_profile}}));
-    all.push_back(free_row(Group::Color, "iccwrite FILENAME", 1, 1,
+    all.push_back(free_row(Group::Write, "iccwrite FILENAME", 1, 1,
                            "Write the ICC profile to a file", write_profile));
     return all;
 }

@@ -256,7 +256,8 @@ ImagePtr Evaluator::indexed_image() {
             return *image;
         }
     }
-    return OIIO::Filesystem::exists(which) ? Image::open(which) : nullptr;
+    const std::string file = m_session.file(which);
+    return OIIO::Filesystem::exists(file) ? Image::open(file) : nullptr;
 }
 
 std::string Evaluator::attribute_name() {

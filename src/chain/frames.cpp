@@ -24,6 +24,7 @@ struct Pattern {
 
 struct Scan {
     FramePlan plan;
+    std::string directory{};
     sequence::PatternOptions options;
     std::vector<Pattern> patterns;
 };
@@ -80,8 +81,16 @@ Files listing_of(const Scan& scan, const Pattern& pattern, const std::string& wo
                  const Files& first) {
     bool inherits = &pattern != scan.patterns.data();
     Files listing;
+    const bool here = scan.directory.empty() || word.front() == '/' || word.front() == '-';
+    const std::string prefix = here ? "" : scan.directory + "/";
+    if (sequence::is_pattern(prefix)) {
+        throw CommandError("the folder \"" + scan.directory + "\" has wildcards in its name");
+    }
     if (!(inherits && pattern.is_output && scan.options.frames.empty())) {
-        listing = sequence::list_files(word, scan.options);
+        listing = sequence::list_files(prefix + word, scan.options);
+        for (std::string& name : listing.names) {
+            name.erase(0, prefix.size());
+        }
     }
     bool unmatched = listing.names.empty() && (pattern.is_output || !scan.plan.compat);
     if (inherits && unmatched) {
@@ -146,8 +155,9 @@ bool is_compat(const Strings& words) {
     return std::find(words.begin(), words.end(), "--compat") != words.end();
 }
 
-FramePlan plan_frames(const Strings& words) {
+FramePlan plan_frames(const Strings& words, const std::string& directory) {
     Scan scan = scan_words(words);
+    scan.directory = directory;
     scan.plan.check = plan_check(words);
     if (scan.plan.check.has("merge")) {
         return scan.plan;

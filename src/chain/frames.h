@@ -32,7 +32,8 @@ struct FramePlan {
 bool is_compat(const Strings& words);
 
 /// A CommandError where sequences do not fit together or match no file.
-FramePlan plan_frames(const Strings& words);
+/// `directory` is that of relative file names; empty: the current one.
+FramePlan plan_frames(const Strings& words, const std::string& directory = "");
 
 /// Frames done, rate and time left: a line on a terminal, or a line for each frame.
 class Progress {

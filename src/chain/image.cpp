@@ -15,14 +15,23 @@ DataFormat format_of(const OIIO::ImageSpec& spec) {
     return {spec.format, spec.channelformats, spec.get_int_attribute("oiio:BitsPerSample")};
 }
 
-FileState state_of(const std::string& filename) {
+// "shot.tone?frame=3" is a file with parameters, unless there is one of that very name.
+std::string without_parameters(const std::string& name) {
+    const size_t question = name.find('?');
+    return question == std::string::npos || OIIO::Filesystem::exists(name)
+               ? name
+               : name.substr(0, question);
+}
+
+FileState state_of(const std::string& name) {
+    const std::string filename = without_parameters(name);
     std::error_code ignored;
     return {std::filesystem::last_write_time(filename, ignored),
             std::filesystem::file_size(filename, ignored)};
 }
 
 std::unique_ptr<OIIO::ImageInput> open_input(const std::string& filename, const ReadOptions& how) {
-    if (!OIIO::Filesystem::exists(filename)) {
+    if (!OIIO::Filesystem::exists(without_parameters(filename))) {
         throw CommandError("File does not exist: \"" + filename + "\"");
     }
     std::error_code ignored;

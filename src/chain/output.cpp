@@ -111,12 +111,16 @@ void fit_channels(Session& session, const std::string& where, Outgoing& image,
     image.format.of_channel.clear();
 }
 
-void choose_format(Outgoing& image, const OutputSettings& asked, OutputSettings& memory) {
-    DataFormat& format = image.format;
+DataFormat usual_format(const Session& session, const Part& part) {
+    return part.format() ? *part.format()
+                         : session.read_format.value_or(DataFormat{part.header().format, {}, 0});
+}
+
+void choose_format(DataFormat& format, const OIIO::ImageSpec& spec, const OutputSettings& asked,
+                   OutputSettings& memory) {
     if (asked.type) {
         format = {asked.type->type, {}, asked.type->bits};
     }
-    const OIIO::ImageSpec& spec = image.pixels->spec();
     for (const auto& [name, type] : asked.type_of_channel) {
         for (size_t c = 0; c < spec.channelnames.size(); ++c) {
             if (spec.channelnames[c] == name) {
@@ -257,6 +261,15 @@ void check_compression(const std::string& compression) {
     }
 }
 
+OIIO::TypeDesc output_type(Session& session, const Part& part) {
+    DataFormat format = usual_format(session, part);
+    choose_format(format, part.header(), session.output, session.output);
+    for (const OIIO::TypeDesc& type : format.of_channel) {
+        format.type = OIIO::TypeDesc(OIIO::TypeDesc::basetype_merge(format.type, type));
+    }
+    return format.type;
+}
+
 void write_output(Session& session, const std::string& where, const Image& image,
                   const std::string& filename, const OutputSettings& settings) {
     auto writer = find_writer(filename, settings.format_name);
@@ -269,15 +282,12 @@ void write_output(Session& session, const std::string& where, const Image& image
         for (int level = 0; level < (mipmap ? part.mip_levels() : 1); ++level) {
             Outgoing& next = outgoing.emplace_back();
             next.pixels = &part.pixels(level);
-            next.format =
-                part.format()
-                    ? *part.format()
-                    : session.read_format.value_or(DataFormat{part.header().format, {}, 0});
+            next.format = usual_format(session, part);
             if (settings.autocrop) {
                 fit_windows(next, *writer);
             }
             fit_channels(session, where, next, *writer);
-            choose_format(next, settings, session.output);
+            choose_format(next.format, next.pixels->spec(), settings, session.output);
             ready.push_back({next.pixels, output_spec(next, session, settings, filename, *writer),
                              level > 0, settings.format_name});
             warn_of_encoding(session, where, ready.back().spec, *writer);

@@ -16,6 +16,9 @@ NamedType parse_data_type(const std::string& what, const std::string& name);
 /// Check a compression, "name" or "name:quality"; a CommandError if it cannot be one.
 void check_compression(const std::string& compression);
 
+/// The data type that a subimage would be written with, where the file format has it.
+OIIO::TypeDesc output_type(Session& session, const Part& part);
+
 /// Write an image with these settings; a CommandError if that fails, and then the file that was
 /// there is untouched. `where` is the command that warnings name.
 void write_output(Session& session, const std::string& where, const Image& image,

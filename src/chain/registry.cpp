@@ -48,6 +48,21 @@ std::string group_title(Group group) {
     return titles[static_cast<int>(group)];
 }
 
+bool names_file(const std::string& hint) {
+    const std::string last = split(hint, '|').back();
+    return last == "FILE" || last == "FILENAME";
+}
+
+bool Command::writes() const {
+    return group == Group::Check ||
+           (group == Group::Write && std::any_of(args.begin(), args.end(), names_file));
+}
+
+Command of_process(Command row) {
+    row.of_process = true;
+    return row;
+}
+
 std::string Command::label() const {
     return names.front().size() == 1 ? "-" + names.front() : names.front();
 }

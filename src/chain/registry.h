@@ -14,8 +14,12 @@ struct Session;
 
 struct Modifier {
     std::string key;
-    std::string hint; ///< what a value looks like, "0|1", "X", "NAME"
+    /// What a value looks like: "0|1", "X", "NAME"; "FILE" or "LAYER|FILE" is read, "PREFIX"
+    /// written.
+    std::string hint;
     std::string help;
+
+    bool writes() const { return hint == "PREFIX"; }
 };
 
 /// In the order in which help lists them.
@@ -64,10 +68,23 @@ struct Command : Shape {
     int (*pushes_of)(const Call&) = nullptr;
     /// --if and the like: seen also where commands are skipped.
     bool control = false;
+    /// What it sets is the process's and not the chain's.
+    bool of_process = false;
 
     /// As messages call it: "hdrflip", "-o".
     std::string label() const;
+
+    /// Its arguments FILE or FILENAME are read, in the groups but Write and Check, or written.
+    bool writes() const;
+    /// Something of it remains when the chain has ended.
+    bool outlives_chain() const { return of_process || writes(); }
 };
+
+/// Whether an argument or modifier of that name or hint is a file, or may be one.
+bool names_file(const std::string& hint);
+
+/// The row of a command that sets something of the process.
+Command of_process(Command row);
 
 /// The row of a command that takes and leaves no image.
 Command setting(Group group, Strings names, Strings args, std::string help, Run run,

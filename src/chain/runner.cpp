@@ -1,5 +1,6 @@
 #include "chain/runner.h"
 
+#include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 #include <OpenImageIO/strutil.h>
 #include <OpenImageIO/sysutil.h>
@@ -29,6 +30,24 @@ void execute(Session& session, Call& call) {
     call.row().run(session, call);
     if (call.pushes() != any_number && stack.size() != expected) {
         throw CommandError("internal error: wrong number of images on the stack");
+    }
+}
+
+// Files that a command reads are where the policy says.
+void locate_files(Session& session, const Command& row, Token& token, Strings& arguments) {
+    for (size_t i = 0; i < arguments.size() && i < row.args.size() && !row.writes(); ++i) {
+        if (names_file(row.args[i])) {
+            arguments[i] = session.file(arguments[i]);
+        }
+    }
+    for (auto& [key, value] : token.modifiers) {
+        for (const Modifier& modifier : row.modifiers) {
+            if (modifier.key == key && names_file(modifier.hint)) {
+                const std::string path = session.file(value);
+                const bool layer = modifier.hint != "FILE" && !OIIO::Filesystem::is_regular(path);
+                value = layer ? value : path;
+            }
+        }
     }
 }
 
@@ -99,6 +118,7 @@ void Runner::guarded(void (Runner::*step)()) {
 
 void Runner::run_word() {
     Flow& flow = m_session.flow;
+    count_word();
     const std::string raw = m_words[flow.next];
     flow.command = flow.next++;
     m_where = raw.substr(0, raw.find(':'));
@@ -110,12 +130,38 @@ void Runner::run_word() {
     }
     const Command& row = find(token);
     m_where = m_session.compat ? word : row.label();
-    Call checked(row, token, {}, m_session.compat);
+    check_policy(Call(row, token, {}, m_session.compat));
     Strings arguments = take_arguments(row, token);
+    locate_files(m_session, row, token, arguments);
     if (flow.running() || row.control) {
         run_or_postpone(Call(row, std::move(token), std::move(arguments), m_session.compat));
     }
     run_postponed();
+}
+
+void Runner::count_word() {
+    if (m_session.policy.max_words > 0 && ++m_count > m_session.policy.max_words) {
+        throw CommandError("stopped after " + std::to_string(m_session.policy.max_words) +
+                           " words, loops included");
+    }
+}
+
+void Runner::check_policy(const Call& call) const {
+    if (!m_session.policy.read_only) {
+        return;
+    }
+    if (call.row().outlives_chain()) {
+        throw CommandError(std::string("not allowed here: it ") +
+                           (call.row().writes() ? "writes a file" : "sets up the whole process") +
+                           ", and this chain is only run for its images");
+    }
+    for (const Modifier& modifier : call.row().modifiers) {
+        if (modifier.writes() && call.has(modifier.key)) {
+            throw CommandError("modifier \"" + modifier.key +
+                               "\" is not allowed here: it writes files, and this chain is only "
+                               "run for its images");
+        }
+    }
 }
 
 void Runner::run_file(const std::string& word) {
@@ -266,7 +312,7 @@ void Runner::finish() {
     }
     check_outputs(m_session);
     warn_of_unused();
-    if (!m_session.produced) {
+    if (!m_session.produced && !m_session.for_images) {
         throw CommandError("produced no output. Did you forget -o?");
     }
 }
@@ -279,7 +325,8 @@ void Runner::finish_leniently() {
         const std::string& kind = m_session.flow.blocks.back().kind;
         m_session.warning(kind, "unterminated " + kind);
     }
-    if (!m_session.produced && !m_session.listing() && !m_session.dry_run) {
+    if (!m_session.produced && !m_session.listing() && !m_session.dry_run &&
+        !m_session.for_images) {
         bool made = !m_session.stack.empty() && !m_session.stack.back()->part().from_file();
         m_session.warning("", made ? "modified images without outputting them. Did you forget -o?"
                                    : no_output);

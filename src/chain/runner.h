@@ -19,6 +19,8 @@ public:
     void run_all();
 
 private:
+    void check_policy(const Call& call) const;
+    void count_word();
     void guarded(void (Runner::*step)());
     void run_word();
     void run_file(const std::string& word);
@@ -41,6 +43,7 @@ private:
     std::string m_where; ///< the command that an error belongs to
     std::deque<Call> m_postponed;
     bool m_failed = false, m_ended = false;
+    size_t m_count = 0; ///< of words that were run
     OIIO::Timer m_time;
 };
 

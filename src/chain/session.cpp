@@ -1,5 +1,7 @@
 #include "chain/session.h"
 
+#include <algorithm>
+#include <filesystem>
 #include <ostream>
 
 #include "chain/registry.h"
@@ -49,6 +51,18 @@ void Session::report(const std::string& line) {
 
 void Session::print(const std::string& line) {
     out << line << '\n';
+}
+
+std::string Session::file(const std::string& name) {
+    // "ocio://..." names no file.
+    const bool as_it_is = name.empty() || name.find("://") != std::string::npos;
+    std::string path = as_it_is || policy.directory.empty()
+                           ? name
+                           : (std::filesystem::path(policy.directory) / name).string();
+    if (std::find(files.begin(), files.end(), path) == files.end()) {
+        files.push_back(path);
+    }
+    return path;
 }
 
 void Session::keep_pixels_of(const std::string& filename) {

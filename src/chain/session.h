@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "chain/image.h"
+#include "chain/policy.h"
 #include "chain/text.h"
 
 namespace tonetool::sequence {
@@ -95,9 +96,13 @@ struct Session {
 
     std::vector<ImagePtr> stack; ///< the top is the last
     std::map<std::string, ImagePtr> labels;
+    Strings label_order;            ///< of their first use
     OIIO::ParamValueList variables; ///< of --set and --for
     bool evaluate = true;           ///< {expressions} are replaced by their values
     Frame frame;
+    Policy policy{false, "", 0};
+    bool for_images = false;         ///< what is left on the stack is the result
+    Strings files;                   ///< that were read or looked for, as they were opened
     const FramePlan* plan = nullptr; ///< of all frames
     Flow flow;
 
@@ -139,6 +144,9 @@ struct Session {
 
     /// The name of an operator that waits for images; empty if none does.
     std::string waiting;
+
+    /// Where a file is that the chain names.
+    std::string file(const std::string& name);
 
     /// Reads what the stack and the labels still have to read from a file about to be replaced.
     void keep_pixels_of(const std::string& filename);

@@ -47,8 +47,9 @@ std::optional<Size> readable(const std::string& file, std::string& why) {
     for (int subimage = 0; in->seek_subimage(subimage, 0); ++subimage) {
         const OIIO::ImageSpec spec = in->spec(subimage, 0);
         OIIO::DeepData deep;
-        if (!(spec.deep ? in->read_native_deep_image(subimage, 0, deep)
-                        : read_rows(*in, subimage, spec))) {
+        const bool read = spec.deep ? in->read_native_deep_image(subimage, 0, deep)
+                                    : read_rows(*in, subimage, spec);
+        if (!read || in->has_error()) { // JPEG and TIFF go on beyond the end, with an error
             why = in->geterror();
             return std::nullopt;
         }
@@ -78,7 +79,8 @@ Probe probed(const std::vector<std::string>& files) {
         const std::optional<Size> size = readable(file, why);
         if (!size) {
             return {Status::Unreadable,
-                    format("cannot read \"{}\"{}{}", file, why.empty() ? "" : ": ", why)};
+                    format("cannot read \"{}\"{}{}", file, why.empty() ? "" : ": ",
+                           why.substr(0, why.find('\n')))};
         }
         if (first && *first != *size) {
             found = {Status::SizeMismatch,

@@ -6,6 +6,7 @@
 
 #include "chain/chain.h"
 #include "include/tonetool/write.h"
+#include "tone.imageio/tone_input.h"
 
 namespace {
 
@@ -34,6 +35,7 @@ void install_signal_handlers() {
 int main(int argc, char** argv) {
     try {
         install_signal_handlers();
+        tonetool::register_tone_format();
         tonetool::chain::Strings words(argv + (argc > 0 ? 1 : 0), argv + argc);
         return tonetool::chain::run(words, std::cout, std::cerr);
     } catch (const std::exception& problem) {

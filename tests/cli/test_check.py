@@ -87,6 +87,19 @@ def test_nothing_measured_is_an_error(tonetool, anim):
     assert set(statuses(anim).values()) == {"error"}
 
 
+def test_the_json_is_what_its_schema_says(tonetool, anim):
+    schema = pytest.importorskip("jsonschema", reason="no python3-jsonschema here")
+    damage(anim)
+    tonetool(*pair(flip("shot"), "--json", "c.json"), status=1)
+    description = load(TESTIMAGES.parent / "src" / "sequence" / "check.schema.json")
+    schema.Draft7Validator.check_schema(description)
+    found = load(anim / "c.json")
+    schema.validate(found, description)
+    found["frames"][0]["unknown"] = 1
+    with pytest.raises(schema.ValidationError):
+        schema.validate(found, description)
+
+
 # ---- frames that cannot be compared
 
 def damage(anim):
@@ -120,6 +133,15 @@ def test_every_bad_frame_has_its_own_status_and_the_rest_goes_on(tonetool, anim,
     assert "(frame 2)" in ran.err
     suite = ElementTree.parse(anim / "c.xml").getroot().find("testsuite")
     assert (suite.get("failures"), suite.get("errors")) == ("1", "7")
+
+
+@pytest.mark.parametrize("kind", ["bmp", "dpx", "exr", "hdr", "jpg", "png", "tga", "tif"])
+def test_half_a_file_is_unreadable_in_every_format(tonetool, oiiotool, tmp_path, kind):
+    oiiotool("--pattern", "noise", "128x128", "3", "-o", f"a.{kind}")
+    whole = (tmp_path / f"a.{kind}").read_bytes()
+    (tmp_path / f"b.{kind}").write_bytes(whole[:len(whole) // 2])
+    tonetool(f"a.{kind}", f"b.{kind}", "--ldrflip:fail=1", "--json", "c.json", status=1)
+    assert statuses(tmp_path) == {0: "unreadable"}
 
 
 def test_a_range_asks_for_frames_that_nobody_has(tonetool, anim):

@@ -1,0 +1,226 @@
+"""tonetool-slurm on a Slurm of one node that this test starts in a folder of its own."""
+
+import json
+import os
+import shutil
+import socket
+import subprocess
+import sys
+import tempfile
+import time
+from pathlib import Path
+
+import pytest
+from conftest import TESTIMAGES
+
+SCRIPT = Path(__file__).resolve().parents[2] / "src" / "farm" / "tonetool-slurm"
+ANIM = TESTIMAGES / "anim"
+FLIP = "--hdrflip:layer=ViewLayer.Combined:quantity=p99:fail=0.8:print=0"
+CONFIG = """ClusterName=test
+SlurmctldHost={host}(127.0.0.1)
+SlurmUser={user}
+SlurmdUser={user}
+AuthType=auth/munge
+AuthInfo=socket={folder}/munge.socket
+SlurmctldPort={port}
+SlurmdPort={second_port}
+StateSaveLocation={folder}/state
+SlurmdSpoolDir={folder}/spool
+SlurmctldPidFile={folder}/slurmctld.pid
+SlurmdPidFile={folder}/slurmd.pid
+SlurmctldLogFile={folder}/slurmctld.log
+SlurmdLogFile={folder}/slurmd.log
+ProctrackType=proctrack/pgid
+TaskPlugin=task/none
+SwitchType=switch/none
+MpiDefault=none
+JobAcctGatherType=jobacct_gather/none
+AccountingStorageType=accounting_storage/none
+SelectType=select/cons_tres
+SelectTypeParameters=CR_Core
+ReturnToService=2
+SchedulerParameters=batch_sched_delay=0,sched_interval=1
+NodeName={host} NodeAddr=127.0.0.1 CPUs=2 RealMemory=1000 State=UNKNOWN
+PartitionName=main Nodes={host} Default=YES MaxTime=INFINITE State=UP
+"""
+
+
+def free_port():
+    with socket.socket() as probe:
+        probe.bind(("127.0.0.1", 0))
+        return probe.getsockname()[1]
+
+
+def start(words, log, **options):
+    with open(log, "w", encoding="utf-8") as stream:
+        return subprocess.Popen(words, stdout=stream, stderr=stream, **options)
+
+
+def until(condition, seconds, what):
+    end = time.monotonic() + seconds
+    while not condition():
+        if time.monotonic() > end:
+            pytest.skip(f"Slurm cannot be started here: {what}")
+        time.sleep(0.2)
+
+
+@pytest.fixture(scope="module")
+def slurm():
+    """The environment of a running Slurm; ends its daemons afterwards."""
+    path = "/usr/sbin:/usr/bin:/sbin:/bin"
+    for name in ("slurmctld", "slurmd", "sbatch", "munged"):
+        if not shutil.which(name, path=path):
+            pytest.skip(f"no {name} here (packages slurmctld, slurmd, slurm-client, munge)")
+    if os.geteuid() != 0:
+        pytest.skip("slurmd wants to be root")
+    folder = Path(tempfile.mkdtemp(prefix="slurm-", dir="/tmp"))  # a socket's path is short
+    folder.chmod(0o755)
+    (folder / "state").mkdir()
+    (folder / "spool").mkdir()
+    host = socket.gethostname().split(".")[0]
+    config = folder / "slurm.conf"
+    config.write_text(CONFIG.format(folder=folder, host=host, user="root", port=free_port(),
+                                    second_port=free_port()))
+    environment = {**os.environ, "SLURM_CONF": str(config)}
+    key = folder / "munge.key"
+    key.write_bytes(os.urandom(128))
+    key.chmod(0o600)
+    running = []
+    try:
+        running.append(start(["/usr/sbin/munged", "--foreground", "--force", f"--key-file={key}",
+                              f"--socket={folder}/munge.socket", f"--pid-file={folder}/munge.pid",
+                              f"--seed-file={folder}/munge.seed", f"--log-file={folder}/munge.log"],
+                             folder / "munged.out"))
+        until((folder / "munge.socket").exists, 15, "munged")
+        running.append(start(["/usr/sbin/slurmctld", "-D", "-f", str(config)], folder / "c.out",
+                             env=environment))
+        running.append(start(["/usr/sbin/slurmd", "-D", "-f", str(config)], folder / "d.out",
+                             env=environment))
+
+        def idle():
+            done = subprocess.run(["sinfo", "--noheader", "--format=%T"], env=environment,
+                                  capture_output=True, text=True, check=False)
+            return done.stdout.strip() == "idle"
+        until(idle, 40, "no idle node: " + (folder / "c.out").read_text()[-300:])
+        yield environment
+        subprocess.run(["scancel", "--full", "--user", "root"], env=environment, check=False)
+    finally:
+        for process in reversed(running):
+            process.terminate()
+        for process in running:
+            try:
+                process.wait(timeout=20)
+            except subprocess.TimeoutExpired:
+                process.kill()
+        shutil.rmtree(folder, ignore_errors=True)
+
+
+@pytest.fixture
+def shot(tmp_path):
+    """Forty frames: the eight of testimages five times; frame 20 is the one that fails."""
+    for side in ("ref", "test"):
+        for number in range(1, 41):
+            of = number % 8 + 1
+            source = side if of != 5 or number == 20 else "ref"
+            (tmp_path / f"{side}.{number:04d}.exr").symlink_to(ANIM / f"{source}.000{of}.exr")
+    return tmp_path
+
+
+def words(exposures="frame", *more):
+    return ["--frames", "1-40", "ref.#.exr", "test.#.exr", f"{FLIP}:exposures={exposures}",
+            *more, "--json", "check.json", "--csv", "check.csv"]
+
+
+def farm(program, folder, environment, *line):
+    return subprocess.run([sys.executable, str(SCRIPT), "--tonetool", program, "--poll", "0.5",
+                           *line], cwd=folder, env=environment, capture_output=True, text=True,
+                          timeout=280, check=False)
+
+
+def local(program, folder, line):
+    done = subprocess.run([program, *line], cwd=folder, capture_output=True, text=True, check=False,
+                          timeout=200)
+    made = {name: (folder / name).read_bytes() for name in ("check.json", "check.csv")}
+    for name in made:
+        (folder / name).unlink()
+    return done, made
+
+
+def killing(program, folder, how_often):
+    """A program that is killed in the task of frame 11, so many times, and else is tonetool."""
+    wrapper = folder / "tonetool-killed"
+    wrapper.write_text(f"""#!/bin/bash
+case " $* " in
+*" --frames 11,"*)
+    count=$(cat '{folder}/killed' 2>/dev/null || echo 0)
+    if (( count < {how_often} )); then
+        echo $(( count + 1 )) > '{folder}/killed'
+        '{program}' "$@" & sleep 0.05; kill -9 $!; kill -9 $$
+    fi ;;
+esac
+exec '{program}' "$@"
+""")
+    wrapper.chmod(0o755)
+    return str(wrapper)
+
+
+@pytest.mark.parametrize("exposures", ["frame", "shot"])
+def test_the_farm_says_what_one_machine_says_though_a_task_is_killed(program, slurm, shot, exposures):
+    alone, wanted = local(program, shot, words(exposures))
+    assert alone.returncode == 3
+    ran = farm(killing(program, shot, 1), shot, slurm, "--chunk", "5", "--throttle", "4", "--",
+               *words(exposures))
+    assert ran.returncode == 3, (ran.stdout, ran.stderr)
+    assert "8 tasks" in ran.stdout
+    assert alone.stdout.splitlines()[-1] in ran.stdout
+    assert (shot / "killed").read_text().strip() == "1"
+    for name, text in wanted.items():
+        assert (shot / name).read_bytes() == text, name
+
+
+def test_a_task_that_never_succeeds_is_reported(program, slurm, shot):
+    ran = farm(killing(program, shot, 9), shot, slurm, "--chunk", "5", "--", *words())
+    assert ran.returncode == 1, (ran.stdout, ran.stderr)
+    assert (shot / "killed").read_text().strip() == "2"  # once more, not for ever
+    found = json.loads((shot / "check.json").read_text())
+    without = [frame["frame"] for frame in found["frames"] if frame["status"] == "error"]
+    assert without == [11, 12, 13, 14, 15]
+    assert len(found["frames"]) == 40
+
+
+def test_a_frame_that_never_succeeds_is_reported(program, slurm, shot):
+    (shot / "test.0033.exr").unlink()
+    ran = farm(program, shot, slurm, "--chunk", "5", "--", *words())
+    assert ran.returncode == 1, (ran.stdout, ran.stderr)
+    found = json.loads((shot / "check.json").read_text())
+    assert {f["frame"]: f["status"] for f in found["frames"]}[33] == "missing"
+    assert found["counts"]["passed"] == 38
+
+
+def test_dry_run_prints_the_scripts_and_does_nothing(program, shot):
+    before = sorted(os.listdir(shot))
+    ran = farm(program, shot, os.environ, "--dry-run", "--sbatch=--time=10", "--throttle", "3",
+               "--", *words("shot", "--state", "s", "--warnings-exit"))
+    assert ran.returncode == 0, ran.stderr
+    assert "#SBATCH --array=0-7%3" in ran.stdout and "#SBATCH --time=10" in ran.stdout
+    scripts = [line for line in ran.stdout.splitlines() if line.startswith("# ") and ".sh" in line]
+    assert [line.split()[1].rstrip(",") for line in scripts] == [
+        "exposures.sh", "exposures-again.sh", "exposures-merge.sh", "check.sh", "check-again.sh",
+        "merge.sh"]
+    merge = ran.stdout.split("# merge.sh")[1]
+    assert "--json check.json" in merge and "--warnings-exit" in merge and "--state" not in merge
+    assert sorted(os.listdir(shot)) == before
+
+
+@pytest.mark.parametrize("line, text", [
+    (["--", "a.#.exr", "b.#.exr", "--hdrflip", "--json", "c.json"], "need --frames"),
+    (["--", "--frames", "1-4", "a.#.exr", "b.#.exr", "--hdrflip"], "no result"),
+    (["--", "--frames", "x", "a.#.exr", "--json", "c.json"], "no frame range"),
+    (["--", "--frames", "1-4", "a.#.exr", "--merge", "--json", "c.json"], "program's own"),
+    (["--chunk", "0", "--", "x"], "at least 1"),
+])
+def test_errors(program, tmp_path, line, text):
+    ran = farm(program, tmp_path, os.environ, *line)
+    assert ran.returncode in (1, 2)
+    assert text in ran.stderr
+    assert not os.listdir(tmp_path)

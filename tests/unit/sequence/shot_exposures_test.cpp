@@ -1,0 +1,43 @@
+#include "sequence/shot_exposures.h"
+
+#include <algorithm>
+#include <gmock/gmock.h>
+#include <stdexcept>
+
+namespace tonetool::sequence {
+namespace {
+
+const ExposureSamples samples{{3, "", 2, 0.25}, {1, "", 8, 1.0 / 3}, {2, "", 4, 0.5}};
+
+TEST(ShotExposures, Maximum_of_maxima_and_median_of_medians) {
+    const ShotExposures range = shot_exposures(samples);
+    EXPECT_EQ(range.max_luminance, 8);
+    EXPECT_EQ(range.median_luminance, 1.0 / 3);
+    EXPECT_EQ(range.frames, 3);
+}
+
+TEST(ShotExposures, Of_an_even_number_the_upper_median) {
+    EXPECT_EQ(shot_exposures({samples[0], samples[2]}).median_luminance, 0.5);
+}
+
+TEST(ShotExposures, Order_has_no_say_and_black_frames_have_none) {
+    ExposureSamples other = samples;
+    std::sort(other.begin(), other.end(),
+              [](const auto& a, const auto& b) { return a.frame < b.frame; });
+    other.push_back({4, "", 0, 0});
+    EXPECT_EQ(shot_exposures(other), shot_exposures(samples));
+    EXPECT_THROW(shot_exposures({{4, "", 0, 0}}), std::runtime_error);
+}
+
+TEST(ShotExposures, Files_come_back_to_the_bit_sorted) {
+    const ExposureSamples back = samples_from_json(to_json(samples));
+    ASSERT_EQ(back.size(), 3u);
+    EXPECT_EQ(back[0].frame, 1);
+    EXPECT_EQ(back[0].median_luminance, 1.0 / 3);
+    EXPECT_EQ(to_json(back), to_json(samples));
+    EXPECT_THROW(samples_from_json("{}"), std::runtime_error);
+    EXPECT_THROW(to_json({samples[0], samples[0]}), std::runtime_error);
+}
+
+} // namespace
+} // namespace tonetool::sequence
