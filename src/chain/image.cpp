@@ -156,17 +156,42 @@ void Part::read(int level) {
     m_pixels[size_t(level)] = std::move(buffer);
 }
 
-OIIO::ImageBuf Part::color_view() {
-    const OIIO::ImageBuf& buffer = pixels();
-    OIIO::ImageSpec spec = buffer.spec();
+void Part::tag_encoding(OIIO::ImageSpec& spec) const {
     bool told = spec.find_attribute("oiio:ColorSpace") || spec.find_attribute("chromaticities");
-    if (spec.deep) {
-        return buffer;
-    }
     if (m_integer_encoded && !told) {
         spec.attribute("oiio:ColorSpace", "sRGB");
     }
+}
+
+OIIO::ImageBuf Part::color_view() {
+    const OIIO::ImageBuf& buffer = pixels();
+    if (buffer.deep()) {
+        return buffer;
+    }
+    OIIO::ImageSpec spec = buffer.spec();
+    tag_encoding(spec);
     return oiio::view_with_spec(buffer, spec);
+}
+
+OIIO::ImageBuf Part::color_view(int begin, int end) {
+    const bool ready = m_source || m_pixels.front().initialized();
+    if (ready || header().deep || m_how.type != OIIO::TypeFloat) {
+        return color_view();
+    }
+    check_unchanged();
+    auto input = open_input(m_file, m_how);
+    OIIO::ImageSpec spec = header();
+    spec.set_format(OIIO::TypeFloat);
+    spec.nchannels = end - begin;
+    spec.channelnames = {spec.channelnames.begin() + begin, spec.channelnames.begin() + end};
+    spec.alpha_channel = spec.z_channel = -1;
+    tag_encoding(spec);
+    OIIO::ImageBuf buffer(spec);
+    if (input->spec(m_subimage, 0).roi() != header().roi() || !buffer.localpixels() ||
+        !oiio::read_channels(*input, m_subimage, begin, end, buffer.localpixels())) {
+        throw ReadError(m_file, input->geterror());
+    }
+    return buffer;
 }
 
 OIIO::ImageBuf Part::color_source() {

@@ -70,7 +70,12 @@ public:
     /// if its pixels are still to come.
     OIIO::ImageBuf color_source();
 
+    /// As color_view(), but of a file whose pixels are still to come only the channels from `begin`
+    /// to before `end`, which the caller owns.
+    OIIO::ImageBuf color_view(int begin, int end);
+
 private:
+    void tag_encoding(OIIO::ImageSpec& spec) const;
     void read(int level);
     void share(int level);
     void check_unchanged() const;

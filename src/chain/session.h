@@ -16,6 +16,7 @@
 #include "chain/text.h"
 
 namespace tonetool::sequence {
+struct FramePainter;
 struct FrameResult;
 struct ShotExposures;
 struct ExposureSample;
@@ -138,6 +139,7 @@ struct Session {
     std::string first_error;
     Strings warning_texts;
     sequence::FrameResult* result = nullptr; ///< of a check: gathers what commands measure
+    sequence::FramePainter* painter = nullptr; ///< of a check with a report: what it shows
     /// The range of exposures=shot or of a file; while that is still measured, where to.
     const sequence::ShotExposures* shot = nullptr;
     sequence::ExposureSample* sample = nullptr;

@@ -78,6 +78,11 @@ inline bool read_flat_pixels(OIIO::ImageInput& input, int subimage, int level,
     return input.read_image(subimage, level, 0, spec.nchannels, spec.format, buffer);
 }
 
+/// Read the channels from `begin` to before `end` of one subimage as floats into `buffer`.
+inline bool read_channels(OIIO::ImageInput& input, int subimage, int begin, int end, void* buffer) {
+    return input.read_image(subimage, 0, begin, end, OIIO::TypeFloat, buffer);
+}
+
 inline bool read_deep_pixels(OIIO::ImageInput& input, int subimage, int level,
                              OIIO::DeepData& data) {
     return input.read_native_deep_image(subimage, level, data);

@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "include/tonetool/write.h"
+#include "sequence/results_json.h"
 
 namespace tonetool::sequence {
 
@@ -31,6 +32,16 @@ std::string key_of(int frame, const std::string& view) {
 
 std::string key_of(const FrameResult& frame) {
     return key_of(frame.frame, frame.view);
+}
+
+// How the text of a frame's pictures begins: with what was measured of it, so that pictures of
+// other files, or of the same before they changed, are not taken for this frame's.
+std::string beginning(const FrameResult& frame) {
+    FrameResult measured;
+    measured.reference = frame.reference;
+    measured.test = frame.test;
+    measured.measurements = frame.measurements;
+    return format("{{\"of\":\"{:016x}\",", OIIO::Strutil::strhash(to_json(measured)));
 }
 
 } // namespace
@@ -60,48 +71,62 @@ bool PictureStore::insert(const FrameResult& frame) {
     if (m_worst.size() > m_full_frames) {
         const Rank best = *m_worst.rbegin();
         m_worst.erase(best);
-        drop(best);
+        drop(key_of(std::get<2>(best), std::get<3>(best)), full_size);
         return best != rank;
     }
     return true;
 }
 
-void PictureStore::drop(const Rank& rank) {
-    const std::string key = key_of(std::get<2>(rank), std::get<3>(rank));
+void PictureStore::drop(const std::string& key, const char* size) {
     if (m_folder.empty()) {
-        m_texts.erase(key + full_size);
+        m_texts.erase(key + size);
     } else {
-        OIIO::Filesystem::remove(file(key, full_size));
+        OIIO::Filesystem::remove(file(key, size));
     }
 }
 
 void PictureStore::add(const FrameResult& frame, const FramePictures& pictures) {
     const std::lock_guard<std::mutex> lock(m_mutex);
-    const std::string key = key_of(frame);
+    const std::string key = key_of(frame), start = beginning(frame);
     if (!pictures.exposures.empty() && insert(frame)) {
-        write(key, full_size, full_json(pictures));
+        write(key, full_size, start + full_json(pictures).substr(1));
+    } else {
+        drop(key, full_size);
     }
-    write(key, small_size, small_json(pictures));
+    write(key, small_size, start + small_json(pictures).substr(1));
+}
+
+void PictureStore::forget(const FrameResult& frame) {
+    const std::lock_guard<std::mutex> lock(m_mutex);
+    drop(key_of(frame), full_size);
+    drop(key_of(frame), small_size);
+}
+
+std::vector<std::string> PictureStore::files(int frame, const std::string& view) const {
+    if (m_folder.empty()) {
+        return {};
+    }
+    const std::string key = key_of(frame, view);
+    return {file(key, full_size), file(key, small_size)};
 }
 
 bool PictureStore::restore(const FrameResult& frame) {
     const std::lock_guard<std::mutex> lock(m_mutex);
-    const std::string key = key_of(frame);
-    if (m_folder.empty() || !OIIO::Filesystem::is_regular(file(key, small_size))) {
+    if (m_folder.empty() || read(frame, small_size).empty()) {
         return false;
     }
-    if (OIIO::Filesystem::is_regular(file(key, full_size))) {
+    if (!read(frame, full_size).empty()) {
         insert(frame);
     }
     return true;
 }
 
 std::string PictureStore::small(const FrameResult& frame) const {
-    return read(key_of(frame), small_size);
+    return read(frame, small_size);
 }
 
 std::string PictureStore::full(const FrameResult& frame) const {
-    return read(key_of(frame), full_size);
+    return read(frame, full_size);
 }
 
 std::string PictureStore::file(const std::string& key, const char* size) const {
@@ -117,15 +142,16 @@ void PictureStore::write(const std::string& key, const char* size, const std::st
     }
 }
 
-std::string PictureStore::read(const std::string& key, const char* size) const {
+std::string PictureStore::read(const FrameResult& frame, const char* size) const {
+    const std::string key = key_of(frame);
+    std::string text;
     if (m_folder.empty()) {
         const auto found = m_texts.find(key + size);
-        return found == m_texts.end() ? "" : found->second;
+        text = found == m_texts.end() ? "" : found->second;
+    } else if (const std::string name = file(key, size); OIIO::Filesystem::is_regular(name)) {
+        OIIO::Filesystem::read_text_file(name, text);
     }
-    std::string text;
-    const std::string name = file(key, size);
-    return OIIO::Filesystem::is_regular(name) && OIIO::Filesystem::read_text_file(name, text) ? text
-                                                                                              : "";
+    return text.rfind(beginning(frame), 0) == 0 ? text : "";
 }
 
 } // namespace tonetool::sequence

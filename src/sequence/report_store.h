@@ -3,9 +3,11 @@
 
 #include <map>
 #include <mutex>
+#include <optional>
 #include <set>
 #include <string>
 #include <tuple>
+#include <vector>
 
 #include "sequence/report_pictures.h"
 #include "sequence/results.h"
@@ -24,11 +26,16 @@ public:
     /// Whether a frame like this, by its status and measurements so far, would be kept in full.
     bool wants_full(const FrameResult& frame) const;
 
-    /// A runtime_error if a file cannot be written.
+    /// In place of what was kept of the frame before. A runtime_error if a file cannot be written.
     void add(const FrameResult& frame, const FramePictures& pictures);
+    /// A frame without pictures: what an earlier run has kept of it is not this frame's.
+    void forget(const FrameResult& frame);
 
     /// A frame that an earlier run has finished: false if its pictures are not there.
     bool restore(const FrameResult& frame);
+
+    /// The names of a frame's files; none in memory.
+    std::vector<std::string> files(int frame, const std::string& view) const;
 
     /// The texts of small_json() and full_json(); empty where there is none.
     std::string small(const FrameResult& frame) const;
@@ -40,16 +47,22 @@ private:
     using Rank = std::tuple<int, double, int, std::string>; ///< the worst first
     static Rank rank_of(const FrameResult& frame);
     bool insert(const FrameResult& frame);
-    void drop(const Rank& rank);
+    void drop(const std::string& key, const char* size);
     std::string file(const std::string& key, const char* size) const;
     void write(const std::string& key, const char* size, const std::string& text);
-    std::string read(const std::string& key, const char* size) const;
+    std::string read(const FrameResult& frame, const char* size) const;
 
     std::string m_folder;
     size_t m_full_frames;
     mutable std::mutex m_mutex;
     std::set<Rank> m_worst; ///< the frames that are kept in full
     std::map<std::string, std::string> m_texts;
+};
+
+/// What is drawn of one frame while its commands run, for the store.
+struct FramePainter {
+    const PictureStore& store;
+    std::optional<FramePictures> drawn;
 };
 
 } // namespace tonetool::sequence

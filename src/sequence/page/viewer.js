@@ -87,6 +87,7 @@ function drawPictures() {
   const small = picturesOf(viewer.index, "small");
   const [large, words, below] = stageOf(frame, full, small);
   byId("stage").className = full && full.height > full.width ? "stage tall" : "stage";
+  document.querySelector(".pictures").classList.toggle("coarse", Boolean(full) && full.width < 400);
   byId("stage").replaceChildren(large);
   byId("stage-caption").replaceChildren(...[below, words].filter(Boolean));
   const maps = [];

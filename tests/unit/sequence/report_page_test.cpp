@@ -101,6 +101,24 @@ TEST_F(Folder, A_continued_run_finds_its_pictures) {
     EXPECT_FALSE(store.small(frame(1, 0.9)).empty());
 }
 
+TEST_F(Folder, Pictures_of_what_has_changed_since_are_not_shown) {
+    PictureStore store(name);
+    store.add(frame(1, 0.9), pictures(10));
+    FrameResult missing;
+    missing.frame = 1;
+    missing.status = Status::Missing;
+    for (const FrameResult& other : {frame(1, 0.8), missing}) {
+        EXPECT_TRUE(store.full(other).empty());
+        EXPECT_TRUE(store.small(other).empty());
+        EXPECT_FALSE(store.restore(other));
+    }
+    FrameResult faulty = frame(1, 0.9);
+    faulty.faults = {{"flicker", Severity::Error, "It flickers.", "", {}, {}, {}}};
+    EXPECT_FALSE(store.full(faulty).empty()); // drawn before the shot was judged
+    store.forget(missing);
+    EXPECT_TRUE(files().empty());
+}
+
 TEST_F(Folder, A_view_does_not_lead_out_of_it) {
     PictureStore store(name + "/p");
     FrameResult odd = frame(1, 0.9);
@@ -183,9 +201,9 @@ TEST(Page, Very_many_frames_have_no_histograms_but_the_worst_ones) {
 TEST_F(Folder, A_broken_file_of_pictures_is_left_out) {
     PictureStore store(name);
     store.add(frame(1, 0.9), pictures(10));
-    std::string text = store.full(frame(1, 0.9));
-    fs::write_text_file(name + "/0001.full.json", text.substr(0, 9));
-    fs::write_text_file(name + "/0001.small.json", "{}</script><b>");
+    const std::string text = store.full(frame(1, 0.9));
+    fs::write_text_file(name + "/0001.full.json", text.substr(0, 40));
+    fs::write_text_file(name + "/0001.small.json", store.small(frame(1, 0.9)) + "</script><b>");
     const std::string page = report_page(shot({frame(1, 0.9)}), store);
     EXPECT_EQ(count(page, "id=\"full-"), 0U);
     EXPECT_EQ(count(page, "id=\"small-"), 0U);
