@@ -104,7 +104,7 @@ bool draw_pattern(Op& op, const std::string& pattern) {
     if (!op.session.compat) {
         check_choice("pattern", pattern, names);
     } else if (pattern != "black") {
-        op.session.warning(op.call.text(), "Unknown pattern \"" + pattern + "\"");
+        op.session.warning("--pattern", "Unknown pattern \"" + pattern + "\"");
     }
     return true;
 }
@@ -252,6 +252,9 @@ std::vector<Command> create_commands() {
         free_row(Group::Create, "capture", 0, 1, "An image from a camera", run_capture,
                  "camera=N: which camera (0)"),
     };
+    for (Command& row : all) {
+        row.operation = row.label() == "kernel";
+    }
     append(all, op_rows(Group::Create, drawing_rows));
     return all;
 }

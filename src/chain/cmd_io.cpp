@@ -83,7 +83,7 @@ void convert(Session& session, const std::string& from, const std::string& to, b
 
 // From the colour space that the file's name or its metadata tell to the linear one.
 void convert_input(Session& session, const std::string& filename, bool unpremult) {
-    std::string space = color_config(session).parseColorSpaceFromString(filename);
+    std::string space = color_config(session).getColorSpaceFromFilepath(filename);
     if (space.empty()) {
         space = session.stack.back()->part().header().get_string_attribute("oiio:ColorSpace");
     }
@@ -168,7 +168,11 @@ void run_input(Session& session, const Call& call) {
         session.stack.back()->part().pixels();
     }
     if (auto list = call.text("ch")) {
-        session.stack.back()->noted = session.compat; // so float, as oiiotool
+        const Strings wanted = split(*list, ',');
+        const Strings names = session.stack.back()->part().header().channelnames;
+        const bool in_order =
+            std::search(names.begin(), names.end(), wanted.begin(), wanted.end()) != names.end();
+        session.stack.back()->noted = session.compat && !in_order; // so float, as oiiotool
         run_command(session, "ch", {*list});
     }
 }
@@ -232,12 +236,34 @@ std::string numbered_name(const std::string& pattern, int number) {
     return pattern.substr(0, percent) + digits + pattern.substr(end + 1);
 }
 
+// oiiotool puts the data type of the colour space in place of the one of -d.
+void take_type_of(const std::string& space, Session& session, const Call& call,
+                  const std::string& filename, OutputSettings& settings) {
+    int bits = 0;
+    const auto implied = color_config(session).getColorSpaceDataType(space, &bits);
+    const auto& asked = session.output.type;
+    if (implied.basetype == OIIO::TypeDesc::UNKNOWN) {
+        return;
+    }
+    if (asked && asked->type != implied) {
+        session.warning(call.text(),
+                        OIIO::Strutil::fmt::format(
+                            "Output filename ({}) colorspace \"{}\" implies {} ({} bits), "
+                            "overriding prior request for {}.",
+                            filename, space, implied, implied.size() * 8, asked->type));
+    }
+    settings.type = call.has("datatype") ? settings.type : NamedType{implied, 0};
+}
+
 // The colour space that the file's name tells; else sRGB for 8 bits and the linear one for more.
 void convert_output(Session& session, const Call& call, const std::string& filename,
-                    const OutputSettings& settings) {
+                    OutputSettings& settings) {
     const std::string linear = linear_space(session);
     const Part& part = session.stack.back()->part();
-    std::string space = color_config(session).parseColorSpaceFromString(filename);
+    std::string space = color_config(session).getColorSpaceFromFilepath(filename);
+    if (session.compat && !space.empty()) {
+        take_type_of(space, session, call, filename, settings);
+    }
     if (space.empty()) {
         OIIO::TypeDesc type = settings.type ? settings.type->type : part.header().format;
         const std::string extension = OIIO::Strutil::lower(OIIO::Filesystem::extension(filename));
@@ -272,7 +298,7 @@ void write_one(Session& session, const Call& call, const ImagePtr& image,
         return;
     }
     session.note_format(*image);
-    const OutputSettings settings = settings_of(session, call);
+    OutputSettings settings = settings_of(session, call);
     session.push(image);
     if (call.flag("autocc", session.autocc)) {
         convert_output(session, call, filename, settings);

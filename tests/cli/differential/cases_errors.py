@@ -8,7 +8,7 @@ TAKE_ARGUMENTS = """metamatch no-metamatch threads cache autotile oiioattrib set
     planarconfig echo colorcount rangecheck attrib sattrib eraseattrib
     caption keyword orientation originoffset fullsize chnames fail
     failpercent hardfail warn warnpercent hardwarn addc subc mulc divc
-    absdiffc powc pixelaspect dilate erode maxc minc saturate line point box
+    absdiffc powc quality pixelaspect dilate erode maxc minc saturate line point box
     fill label iscolorspace tocolorspace""".split()
 
 NOT_DEEP_ONE = """invert abs noise rotate90 rotate180 rotate270 flip flop unsharp laplacian ifft

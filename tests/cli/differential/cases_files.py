@@ -84,14 +84,16 @@ otex-bump-keys: in/rgb.exr -otex:bumpformat=height:uvslopes_scale=2 out.exr
 oenv-wrap: in/rgb.exr --resize 64x32 -oenv:wrap=clamp:swrap=periodic:twrap=clamp:filter=box out.exr
 oenv-sizes: in/rgb.exr --resize 60x30 -oenv:resize=1:nomipmap=1:updatemode=0:sharpen=0.3 out.exr
 oenv-detect: in/rgba.exr --resize 64x32
-    -oenv:monochrome_detect=1:opaque_detect=1:unpremult=1:highlightcomp=1 out.exr
+    -oenv:monochrome_detect=1:opaque_detect=1:constant_color_detect=1:unpremult=1:highlightcomp=1
+    out.exr
 oenv-colors!: in/u8.tif --resize 64x32 -oenv:incolorspace=sRGB:outcolorspace=linear out.exr
 oenv-kinds: in/rgb.exr --resize 64x32
     -oenv:prman=1:oiio=0:fovcot=2:fileformatname=tiff:bumpformat=auto:uvslopes_scale=1 out.exr
 obump-wrap: in/grey.exr -obump:wrap=clamp:swrap=mirror:twrap=black:filter=box out.exr
 obump-sizes: in/grey.exr -obump:resize=1:nomipmap=1:updatemode=0:sharpen=0.3 out.exr
 obump-detect: in/grey.exr
-    -obump:monochrome_detect=1:opaque_detect=1:unpremult=1:highlightcomp=1 out.exr
+    -obump:monochrome_detect=1:opaque_detect=1:constant_color_detect=1:unpremult=1:highlightcomp=1
+    out.exr
 obump-colors!: in/grey.tif -obump:incolorspace=sRGB:outcolorspace=linear out.exr
 obump-kinds: in/grey.exr -obump:prman=1:oiio=0:fovcot=2:fileformatname=tiff out.exr
 oenv: --pattern fill:top=1,0,0:bottom=0,0,1 64x32 3 -oenv out.exr

@@ -4,6 +4,7 @@ import pytest
 from cases import CASES
 from joined import joined
 
+
 @pytest.mark.parametrize("case", joined(CASES), ids=lambda case: case.name)
 def test_case_is_identical(assert_identical, case):
     assert_identical(case)

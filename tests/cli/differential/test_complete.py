@@ -59,7 +59,6 @@ def test_every_command_has_two_differential_cases(registry):
     assert not lacking(registry, lambda row: sum(used[name] for name in row["names"]) >= 2)
 
 
-@pytest.mark.xfail(strict=True, reason="some commands have no error case yet")
 def test_every_command_has_an_error_case(registry):
     used = {name for case in CASES if case.status for name in case.commands()}
     assert not lacking(registry, lambda row: used & set(row["names"]))
