@@ -7,6 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 from OpenImageIO import ROI, ImageBuf
 
+# Image and the mappings of options are for annotations: the module does not have them.
 Image = Union[ImageBuf, NDArray[np.float32]]
 
 __version__: str
@@ -923,5 +924,4 @@ def chain(
     images: Sequence[Image] | None = ...,
     *,
     read_only: bool = ...,
-    directory: str = ...,
 ) -> ChainResult: ...
