@@ -1,5 +1,6 @@
 #include "chain/check_run.h"
 
+#include <OpenImageIO/sysutil.h>
 #include <algorithm>
 #include <optional>
 #include <ostream>
@@ -47,6 +48,14 @@ int conclude_check(const sequence::ShotResult& shot, const FramePlan& plan, std:
     out << "check: " << status_name(shot.verdict) << ", " << shot.sentence << '\n';
     const int status = exit_status(shot.verdict, plan.warnings_exit);
     return plan.compat && status == 3 ? 1 : status;
+}
+
+// Of what one comparison alone would take, half of the computer's memory; --memory says otherwise.
+uint64_t share_of_memory(int parallel) {
+    constexpr uint64_t enough = uint64_t(1) << 29;
+    return parallel < 2
+               ? 0
+               : std::max(enough, OIIO::Sysutil::physical_memory() / 2 / uint64_t(parallel));
 }
 
 class PlanRun {
@@ -134,6 +143,7 @@ Session PlanRun::session_of(const FrameRun& run, std::ostream& out, std::ostream
     session.frame = run.frame;
     session.plan = &m_plan;
     session.parallel = m_plan.parallel;
+    session.memory = share_of_memory(m_plan.parallel);
     session.shot = m_shot ? &*m_shot : nullptr;
     return session;
 }
@@ -229,11 +239,16 @@ Kept PlanRun::check_anew(const FrameRun& run, FrameResult& result) const {
     session.result = &result;
     run_commands(session, run);
     result.warnings = session.warning_texts;
+    if (session.warnings > int(result.warnings.size())) {
+        result.warnings.push_back("there were warnings, see what the frame printed");
+    }
     const std::string error = session.errors > 0 && session.first_error.empty()
                                   ? "the command line cannot be run"
                                   : session.first_error;
     sequence::settle(result, error, words_at(run.words, m_plan.check.inputs));
-    return {sequence::to_json(result), out.str(), err.str(), session.exit_status()};
+    // Warnings are the verdict's matter: whether they count may differ when the result is found.
+    const int status = session.exit_status();
+    return {sequence::to_json(result), out.str(), err.str(), status == 2 ? 0 : status};
 }
 
 Kept PlanRun::check_or_find(const FrameRun& run, FrameResult& result) const {
