@@ -12,6 +12,7 @@
 #include "sequence/check_files.h"
 #include "sequence/merge.h"
 #include "sequence/probe.h"
+#include "sequence/qc.h"
 #include "sequence/results_json.h"
 #include "sequence/shot_exposures.h"
 #include "sequence/state.h"
@@ -44,6 +45,7 @@ std::string in_words(const FrameResult& result) {
 // What the whole came to: a line, and the files.
 int conclude_check(const sequence::ShotResult& shot, const FramePlan& plan, std::ostream& out) {
     write_results(shot, plan.check.words);
+    out << sequence::faults_text(shot);
     out << "check: " << status_name(shot.verdict) << ", " << shot.sentence << '\n';
     const int status = exit_status(shot.verdict, plan.warnings_exit);
     return plan.compat && status == 3 ? 1 : status;
@@ -110,7 +112,9 @@ void PlanRun::prepare() {
     m_sample_state.emplace(check.argument("state"), "exposures");
     Strings files;
     for (const auto& word : check.words) {
-        files.push_back(word.second);
+        if (!word.second.empty()) {
+            files.push_back(word.second);
+        }
     }
     for (const FrameRun& run : m_plan.runs) {
         const Strings outputs = words_at(run.words, check.outputs);
