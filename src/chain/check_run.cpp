@@ -16,6 +16,7 @@
 #include "sequence/check_files.h"
 #include "sequence/merge.h"
 #include "sequence/probe.h"
+#include "sequence/qc.h"
 #include "sequence/report_files.h"
 #include "sequence/report_store.h"
 #include "sequence/results_json.h"
@@ -51,6 +52,7 @@ std::string in_words(const FrameResult& result) {
 int conclude_check(const sequence::ShotResult& shot, const FramePlan& plan,
                    const sequence::PictureStore& pictures, std::ostream& out) {
     write_results(shot, plan.check.words);
+    out << sequence::faults_text(shot);
     for (const std::string& complaint : write_reports(shot, pictures, plan.check.words)) {
         out << "check: " << complaint << '\n';
     }
@@ -148,7 +150,9 @@ void PlanRun::remove_abandoned() const {
     const CheckPlan& check = m_plan.check;
     Strings files;
     for (const auto& word : check.words) {
-        files.push_back(word.second);
+        if (!word.second.empty()) {
+            files.push_back(word.second);
+        }
     }
     for (const FrameRun& run : m_plan.runs) {
         const Strings outputs = words_at(run.words, check.outputs);

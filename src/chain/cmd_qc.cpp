@@ -53,7 +53,10 @@ void run_qc(Session& session, const Call& call) {
     for (const OIIO::ImageBuf& part : parts) {
         pointers.push_back(&part);
     }
-    QcOptions options{pixel_options(call), split(call.text("groups").value_or(""), ',')};
+    QcOptions options{pixel_options(call), {}};
+    if (const auto groups = call.text("groups")) {
+        options.groups = split(*groups, ',');
+    }
     std::string why;
     if (!ToneAlgo::qc_facts(record.facts, pointers, why, options)) {
         throw CommandError("\"" + image.name() + "\": " + why);
@@ -70,9 +73,9 @@ std::vector<Modifier> modifiers() {
         if (rule.threshold) {
             usual = format_number(*rule.threshold) + "," + usual;
         }
-        all.push_back({rule.code, rule.threshold ? "X,SEVERITY" : "SEVERITY",
-                       rule.help + (rule.threshold ? "; X: " + rule.measures : "") + " (" + usual +
-                           ")"});
+        all.push_back(
+            {rule.code, rule.threshold ? "X,SEVERITY" : "SEVERITY",
+             rule.help + (rule.threshold ? "; X: " + rule.measures : "") + " (" + usual + ")"});
     }
     return all;
 }
@@ -80,10 +83,11 @@ std::vector<Modifier> modifiers() {
 } // namespace
 
 std::vector<Command> qc_commands() {
-    return {{{{"qc"}, {}, 1, 1, Group::Measure},
-             modifiers(),
-             "Look for faults of the pictures and of the shot; severities: off, info, warning, error",
-             run_qc}};
+    return {
+        {{{"qc"}, {}, 1, 1, Group::Measure},
+         modifiers(),
+         "Look for faults of the pictures and of the shot; severities: off, info, warning, error",
+         run_qc}};
 }
 
 } // namespace tonetool::chain
