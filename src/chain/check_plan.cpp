@@ -68,7 +68,8 @@ private:
         if (!manner) {
             keep(at, with_shot_exposures(m_words[at]));
         }
-        if (check) {
+        // What --qc looks for is part of what comes of the line.
+        if (check || name == "qc") {
             take_check(row, at);
         }
         for (const std::string& argument : row.args) {

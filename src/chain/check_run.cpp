@@ -14,6 +14,7 @@
 #include "sequence/check_files.h"
 #include "sequence/merge.h"
 #include "sequence/probe.h"
+#include "sequence/qc.h"
 #include "sequence/report_files.h"
 #include "sequence/report_store.h"
 #include "sequence/results_json.h"
@@ -52,6 +53,7 @@ int conclude_check(const sequence::ShotResult& shot, const FramePlan& plan,
     for (const std::string& complaint : write_reports(shot, pictures, plan.check.words)) {
         out << "check: " << complaint << '\n';
     }
+    out << sequence::faults_text(shot);
     out << "check: " << status_name(shot.verdict) << ", " << shot.sentence << '\n';
     const int status = exit_status(shot.verdict, plan.warnings_exit);
     return plan.compat && status == 3 ? 1 : status;
@@ -138,7 +140,9 @@ void PlanRun::remove_abandoned() const {
     const CheckPlan& check = m_plan.check;
     Strings files;
     for (const auto& word : check.words) {
-        files.push_back(word.second);
+        if (!word.second.empty()) {
+            files.push_back(word.second);
+        }
     }
     for (const FrameRun& run : m_plan.runs) {
         const Strings outputs = words_at(run.words, check.outputs);

@@ -78,7 +78,10 @@ void run_qc(Session& session, const Call& call) {
     for (const OIIO::ImageBuf& part : parts) {
         pointers.push_back(&part);
     }
-    QcOptions options{pixel_options(call), split(call.text("groups").value_or(""), ',')};
+    QcOptions options{pixel_options(call), {}};
+    if (const auto groups = call.text("groups")) {
+        options.groups = split(*groups, ',');
+    }
     std::string why;
     if (!ToneAlgo::qc_facts(record.facts, pointers, why, options)) {
         throw CommandError("\"" + image.name() + "\": " + why);

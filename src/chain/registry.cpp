@@ -12,11 +12,12 @@ namespace {
 std::vector<Command> collect() {
     std::vector<Command> all;
     for (auto family :
-         {general_commands,   control_commands,    io_commands,       inspect_commands,
-          compare_commands,   diff_commands,       check_commands,    color_commands,
-          tone_commands,      cgtmo_commands,      light_commands,    metadata_commands,
-          create_commands,    arithmetic_commands, geometry_commands, filter_commands,
-          composite_commands, ocio_commands,       channel_commands,  stack_commands}) {
+         {general_commands,  control_commands,   io_commands,         inspect_commands,
+          compare_commands,  diff_commands,      check_commands,      qc_commands,
+          color_commands,    tone_commands,      cgtmo_commands,      light_commands,
+          metadata_commands, create_commands,    arithmetic_commands, geometry_commands,
+          filter_commands,   composite_commands, ocio_commands,       channel_commands,
+          stack_commands}) {
         std::vector<Command> rows = family();
         std::move(rows.begin(), rows.end(), std::back_inserter(all));
     }

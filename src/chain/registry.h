@@ -107,6 +107,7 @@ std::vector<Command> inspect_commands();
 std::vector<Command> compare_commands();
 std::vector<Command> diff_commands();
 std::vector<Command> check_commands();
+std::vector<Command> qc_commands();
 std::vector<Command> color_commands();
 std::vector<Command> channel_commands();
 std::vector<Command> stack_commands();

@@ -56,13 +56,15 @@ void judge_view(const std::vector<FrameResult*>& frames) {
             limits = record.limits;
             take_record(frame, std::move(record));
         }
-        auto& faults = result->faults;
-        faults.erase(std::remove_if(faults.begin(), faults.end(), is_found_here), faults.end());
     }
     const bool any = std::any_of(found.begin(), found.end(),
                                  [](const QcFrame& frame) { return frame.measured; });
     if (!any) {
         return;
+    }
+    for (FrameResult* result : frames) {
+        auto& faults = result->faults;
+        faults.erase(std::remove_if(faults.begin(), faults.end(), is_found_here), faults.end());
     }
     QcShot shot(limits);
     shot.frames = std::move(found);
@@ -97,6 +99,18 @@ void judge_qc(std::vector<FrameResult>& frames) {
     for (const auto& [view, of_view] : views) {
         judge_view(of_view);
     }
+}
+
+std::string faults_text(const ShotResult& shot) {
+    std::string text;
+    for (const FrameResult& frame : shot.frames) {
+        for (const Fault& fault : frame.faults) {
+            text += OIIO::Strutil::fmt::format(
+                "qc: frame {}{}{}: {} {}: {}\n", frame.frame, frame.view.empty() ? "" : " ",
+                frame.view, severity_name(fault.severity), fault.code, fault.sentence);
+        }
+    }
+    return text;
 }
 
 void QcShot::add(QcFrame& frame, const std::string& code, const std::string& sentence,

@@ -19,4 +19,7 @@ std::vector<Fault> picture_faults(const QcRecord& record);
 /// then view. A runtime_error where a record cannot be read.
 void judge_qc(std::vector<FrameResult>& frames);
 
+/// A line for each fault, in the order of the frames: "qc: frame 5: error blacklayer: ...".
+std::string faults_text(const ShotResult& shot);
+
 } // namespace tonetool::sequence

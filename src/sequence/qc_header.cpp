@@ -293,10 +293,10 @@ void find_odd_headers(QcShot& shot) {
     const auto of_part = [](const auto& text_of) {
         return [text_of](const QcFacts& facts) { return of_parts(facts, text_of); };
     };
-    find_odd(shot, "display-window", "the display window",
+    find_odd(shot, "displaywindow", "the display window",
              of_part([](const QcPart& part) { return window_text(part.display); }), false,
              Change::Picture);
-    find_odd(shot, "data-window", "the data window",
+    find_odd(shot, "datawindow", "the data window",
              of_part([](const QcPart& part) { return window_text(part.data); }), true,
              Change::Picture);
     find_odd(shot, "compression", "the compression",

@@ -14,7 +14,7 @@ using OIIO::Strutil::fmt::format;
 // A layer with fewer pixels may be black in the next frame by chance or motion; and one that fades
 // is at less than this share of its usual light before it is black.
 constexpr int64_t kEnoughPixels = 25;
-constexpr double kNotFaded = 0.25;
+constexpr double kNotFaded = 0.4;
 
 struct LayerFrame {
     QcFrame* frame;
@@ -48,7 +48,7 @@ void add_black_run(QcShot& shot, const std::vector<LayerFrame>& frames, size_t f
         frames[last + 1].frame->changed = true;
     }
     const int neighbour = before ? frames[first - 1].frame->number : frames[last + 1].frame->number;
-    shot.add(*at.frame, "black-layer",
+    shot.add(*at.frame, "blacklayer",
              format("{} is black in {}, but not in frame {}", layer_text(*at.layer),
                     frames_text(at.frame->number, frames[last].frame->number), neighbour),
              {at.layer->name, {}, {}});
@@ -95,7 +95,7 @@ void find_missing(QcShot& shot, const std::string& name, const QcLayer& like) {
         while (last + 1 < frames.size() && !find_layer(frames[last + 1]->facts, name)) {
             ++last;
         }
-        shot.add(*frames[first], "missing-layer",
+        shot.add(*frames[first], "missinglayer",
                  format("{} is not there in {}, but in {} other frames", layer_text(like),
                         frames_text(frames[first]->number, frames[last]->number), there),
                  {name, {}, {}});
@@ -110,7 +110,7 @@ double difference_of(const QcFrame& frame) {
 
 void add_group_fault(QcShot& shot, QcFrame& frame, const std::string& more) {
     const QcPicture& picture = frame.facts.picture;
-    shot.add(frame, "light-sum",
+    shot.add(frame, "lightsum",
              format("the {} light groups do not add up to the picture: their light is {:.4g} of "
                     "it, and pixels are off by {:.3g} of its light, most at ({}, {}){}",
                     picture.groups, picture.group_sum, picture.group_difference,
@@ -157,7 +157,7 @@ void find_group_faults(QcShot& shot) {
             differences.push_back(difference_of(*frame));
         }
     }
-    const double limit = shot.threshold("light-sum"), usual = median(differences);
+    const double limit = shot.threshold("lightsum"), usual = median(differences);
     if (usual > limit) {
         add_group_fault(shot, *frames.front(),
                         format(" (and so in most of {} frames)", frames.size()));

@@ -65,12 +65,14 @@ void find_stalls(QcShot& shot, const std::vector<QcFrame*>& frames,
     for (size_t i = 1; i < frames.size(); ++i) {
         change.push_back(distance(thumbnails[i - 1], thumbnails[i]));
     }
+    // Beside a flash all motion is small: what is usual counts, too.
+    const double usual = usual_step_of(thumbnails);
     for (size_t i = 2; i + 1 < frames.size(); ++i) {
-        const double around = std::min(change[i - 1], change[i + 1]);
+        const double around = std::min({change[i - 1], change[i + 1], 2 * usual});
         const bool identical = frames[i]->facts.picture.hash == frames[i - 1]->facts.picture.hash;
         const double share = around > 0 ? change[i] / around : 1;
-        if (!identical && around > visible && share < shot.threshold("near-duplicate")) {
-            shot.add(*frames[i], "near-duplicate",
+        if (!identical && around > visible && share < shot.threshold("nearduplicate")) {
+            shot.add(*frames[i], "nearduplicate",
                      format("nearly the same picture as frame {}: the change is {:.2g} of that "
                             "around it",
                             frames[i - 1]->number, share),

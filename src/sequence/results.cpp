@@ -7,6 +7,8 @@
 #include <stdexcept>
 #include <tuple>
 
+#include "sequence/qc.h"
+
 namespace tonetool::sequence {
 
 namespace {
@@ -209,6 +211,7 @@ double badness(const FrameResult& frame) {
 
 void conclude(ShotResult& shot) {
     sort_frames(shot.frames);
+    judge_qc(shot.frames);
     shot.worst = by_badness(shot.frames);
     if (shot.frames.empty()) {
         shot.verdict = Status::Error;

@@ -42,7 +42,7 @@ struct Position {
 
 /// A fault of a picture (--qc). An Error fails its frame, a Warning warns of it.
 struct Fault {
-    std::string code; ///< "nan", "firefly", "black-layer", ...
+    std::string code; ///< "nan", "firefly", "blacklayer", ...
     Severity severity = Severity::Error;
     std::string sentence; ///< for people
     std::string layer;    ///< or channel; empty: the whole picture
@@ -120,7 +120,7 @@ struct ShotResult {
 /// already: sets status and message.
 void judge(FrameResult& frame);
 
-/// Sorts the frames and fills verdict, sentence and worst. A shot without a frame that was measured
+/// Sorts the frames, finds the faults of --qc anew and fills verdict, sentence and worst. A shot without a frame that was measured
 /// is an Error, never passed. A runtime_error if a frame is there twice.
 void conclude(ShotResult& shot);
 

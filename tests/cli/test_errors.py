@@ -28,6 +28,7 @@ def test_error_text(tonetool):
     (["--exposure"], "missing argument STOPS"),
     (["-o", "--dup"], '"--dup" is a command'),
     (["--help", "hdrflp"], "did you mean --hdrflip"),
+    (["--qc:fireflies=off"], 'did you mean "firefly"'),
     (["--threads", "x"], "not a whole number"),
     (["--threads", "-1"], "out of range"),
     (["-"], 'File does not exist: "-"'),

@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <stdexcept>
 
+#include "sequence/qc_json.h"
 #include "sequence/results_json.h"
 
 namespace tonetool::sequence {
@@ -119,11 +120,23 @@ TEST(Conclude, No_frame_is_an_error_and_one_twice_is_refused) {
     EXPECT_THROW(shot({frame(1, 0.1), frame(1, 0.2)}), std::runtime_error);
 }
 
+std::string qc_text() {
+    QcRecord record;
+    record.facts.parts.resize(1);
+    record.facts.parts[0].metadata["1/3"] = "0.333";
+    record.facts.picture.group_sum = 1.0 / 3;
+    record.facts.picture.groups = 1;
+    record.facts.picture.thumbnail.resize(size_t(QcPicture::kWide) * QcPicture::kHigh, -2474);
+    record.facts.picture.peaks = record.facts.picture.thumbnail;
+    record.limits.set("jump", "0.1,error");
+    return to_json(record);
+}
+
 TEST(Json, Comes_back_to_the_byte) {
     FrameResult second = frame(2, std::nextafter(0.1, 1.0));
     second.view = "left";
-    second.faults = {{"nan", Severity::Warning, "NaN.", "R", Position{1, 2}, -HUGE_VAL, 1e-310}};
-    second.qc = R"({"mean":0.1})";
+    second.faults = {{"odd", Severity::Warning, "NaN.", "R", Position{1, 2}, -HUGE_VAL, 1e-310}};
+    second.qc = qc_text();
     ShotResult result = shot({frame(1, std::nan("")), second, missing(7)});
     result.exposures = ShotExposures{1.0 / 3, 0.1, 8};
     const std::string text = to_json(result);

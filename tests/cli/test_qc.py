@@ -1,0 +1,105 @@
+"""--qc: each fault alone is found in its frame, and nothing else; shots without a fault have none."""
+
+import json
+from pathlib import Path
+
+import make_shot
+import pytest
+from conftest import TESTIMAGES
+
+SHARED = Path(__file__).resolve().parents[3] / "shared" / "scenes" / "anim"
+
+
+def faults(report):
+    return [(frame["frame"], fault["code"]) for frame in json.loads(report.read_text())["frames"]
+            for fault in frame.get("faults", [])]
+
+
+@pytest.fixture
+def check(tonetool, tmp_path):
+    """Runs --qc over shot.#.exr and returns what was found."""
+
+    def run(status, qc="--qc", frames="1-20"):
+        ran = tonetool("--frames", frames, "shot.#.exr", qc, "--warnings-exit", "--json",
+                       "check.json", status=status)
+        return ran, faults(tmp_path / "check.json")
+
+    return run
+
+
+@pytest.mark.parametrize("fault", make_shot.FAULTS)
+def test_each_fault_is_found_and_nothing_else(check, tmp_path, fault):
+    code, first = make_shot.make_shot(tmp_path, fault)
+    ran, found = check({"error": 3, "warning": 2}[severity_of(code)] if code != "missing" else 1)
+    assert found == [(first, code)]
+    assert f"qc: frame {first}: {severity_of(code)} {code}: " in ran.out
+
+
+def severity_of(code):
+    errors = ("missing", "black", "constant", "missinglayer", "blacklayer", "nan", "inf",
+              "lightsum", "channels", "displaywindow")
+    return "error" if code in errors else "warning"
+
+
+@pytest.mark.parametrize("kind", [{}, {"noisy": True}, {"cut": True}, {"noisy": True, "cut": True}])
+def test_no_false_alarm(check, tmp_path, kind):
+    make_shot.make_shot(tmp_path, **kind)
+    ran, found = check(0)
+    assert found == []
+    assert "check: passed, 20 frames: 20 passed" in ran.out
+
+
+def test_severities_and_thresholds(check, tonetool, tmp_path):
+    make_shot.make_shot(tmp_path, "jump")
+    assert check(3, "--qc:jump=error")[1] == [(11, "jump")]
+    assert check(0, "--qc:jump=0.9")[1] == []
+    assert check(0, "--qc:jump=off")[1] == []
+    assert check(0, "--qc:jump=info")[1] == [(11, "jump")]
+    for value, text in (("loud", "must be off, info"), ("-1", "must be off"), ("", "has no value")):
+        assert text in tonetool("shot.0001.exr", f"--qc:jump={value}", status=1).err
+    assert "jmp" in tonetool("shot.0001.exr", "--qc:jmp=1", status=1).err
+
+
+def test_any_split_gives_the_bytes_of_the_whole(tonetool, tmp_path):
+    make_shot.make_shot(tmp_path, "flicker")
+    tonetool("--frames", "1-20", "shot.#.exr", "--qc", "--json", "whole.json", "--csv", "whole.csv")
+    for size in (1, 5):
+        parts = []
+        for first in range(1, 21, size):
+            parts.append(f"part{first}.json")
+            tonetool("--frames", f"{first}-{first + size - 1}", "shot.#.exr", "--qc", "--json",
+                     parts[-1])
+        tonetool("--merge", *reversed(parts), "--json", "merged.json", "--csv", "merged.csv")
+        for kind in ("json", "csv"):
+            assert ((tmp_path / f"merged.{kind}").read_bytes() ==
+                    (tmp_path / f"whole.{kind}").read_bytes())
+    assert faults(tmp_path / "merged.json") == [(5, "flicker")]
+
+
+def test_a_gap_on_the_disk_is_a_fault(tonetool, tmp_path):
+    make_shot.make_shot(tmp_path, "missing")
+    ran = tonetool("shot.#.exr", "--qc", status=1)
+    assert "qc: frame 8: error missing: " in ran.out
+
+
+def test_one_picture(tonetool):
+    ran = tonetool(TESTIMAGES / "nan_center.exr", "--qc", status=3)
+    assert "error nan: the picture is not a number in " in ran.out
+    assert "faults" not in tonetool(TESTIMAGES / "cornell_ref.exr", "--qc").out
+    assert "deep" in tonetool(TESTIMAGES / "deep.exr", "--qc", status=1).err
+
+
+@pytest.mark.parametrize("folder", [TESTIMAGES / "anim", SHARED])
+def test_the_light_group_that_goes_black(tonetool, tmp_path, folder):
+    if not folder.exists():
+        pytest.skip(f"no folder {folder}")
+    ran = tonetool("--frames", "1-8", folder / "test.#.exr", "--qc", "--json", "check.json",
+                   "--csv", "check.csv", "--junit", "check.xml", status=3)
+    report = json.loads((tmp_path / "check.json").read_text())
+    assert {frame for frame, _ in faults(tmp_path / "check.json")} == {5}
+    assert report["worst"] == [{"frame": 5}]
+    first = next(f for f in report["frames"] if f["frame"] == 5)["faults"][0]
+    assert (first["code"], first["layer"]) == ("blacklayer", "ViewLayer.Combined_neonC")
+    for text in (ran.out, (tmp_path / "check.csv").read_text(), (tmp_path / "check.xml").read_text()):
+        assert "neonC is black in frame 5" in text
+    tonetool("--frames", "1-8", folder / "ref.#.exr", "--qc", "--warnings-exit")
