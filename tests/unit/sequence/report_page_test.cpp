@@ -188,14 +188,15 @@ TEST(Page, Spots_that_turned_out_to_be_no_fault_are_left_out) {
     FrameResult spotted = frame(1, 0.9);
     spotted.measurements[0].worst = Position{5, 6};
     FramePictures drawn = pictures(10);
-    drawn.spots = {
-        {{1, 2}, "", "data:a", ""}, {{3, 4}, "", "data:b", ""}, {{5, 6}, "", "data:c", ""}};
+    drawn.spots = {{{1, 2}, "", "data:spot-a", ""},
+                   {{3, 4}, "", "data:spot-b", ""},
+                   {{5, 6}, "", "data:spot-c", ""}};
     store.add(spotted, drawn);
     spotted.faults = {{"nan", Severity::Error, "NaN.", "", Position{3, 4}, {}, {}}};
     const std::string page = report_page(shot({spotted}), store);
-    EXPECT_EQ(count(page, "data:a"), 0U);
-    EXPECT_EQ(count(page, "data:b"), 2U); // small and full
-    EXPECT_EQ(count(page, "data:c"), 2U);
+    EXPECT_EQ(count(page, "data:spot-a"), 0U);
+    EXPECT_EQ(count(page, "data:spot-b"), 2U); // small and full
+    EXPECT_EQ(count(page, "data:spot-c"), 2U);
 }
 
 TEST(Page, Very_many_frames_have_no_histograms_but_the_worst_ones) {
