@@ -52,10 +52,10 @@ std::string in_words(const FrameResult& result) {
 int conclude_check(const sequence::ShotResult& shot, const FramePlan& plan,
                    const sequence::PictureStore& pictures, std::ostream& out) {
     write_results(shot, plan.check.words);
-    out << sequence::faults_text(shot);
     for (const std::string& complaint : write_reports(shot, pictures, plan.check.words)) {
         out << "check: " << complaint << '\n';
     }
+    out << sequence::faults_text(shot);
     out << "check: " << status_name(shot.verdict) << ", " << shot.sentence << '\n';
     const int status = exit_status(shot.verdict, plan.warnings_exit);
     return plan.compat && status == 3 ? 1 : status;

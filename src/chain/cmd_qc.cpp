@@ -1,7 +1,9 @@
 // --qc: the faults that a picture shows without a reference.
 #include "chain/error.h"
 #include "chain/flip_args.h"
+#include "chain/frame_pictures.h"
 #include "include/tonetool/qc.h"
+#include "sequence/qc.h"
 #include "sequence/qc_json.h"
 #include "sequence/results.h"
 
@@ -37,6 +39,29 @@ void take_types(const Image& image, QcFacts& facts) {
     }
 }
 
+// The picture, and from near the pixels that have a fault or may turn out to have one.
+void show_faults(Session& session, const Call& call, const sequence::QcRecord& record) {
+    if (!session.painter) {
+        return;
+    }
+    const sequence::FrameResult before = *session.result;
+    session.result->faults = sequence::picture_faults(record);
+    sequence::PictureRequest request;
+    for (const sequence::Fault& fault : session.result->faults) {
+        if (fault.position) {
+            request.spots.push_back(*fault.position);
+        }
+    }
+    for (const QcSpot& spike : record.facts.picture.spikes) {
+        request.spots.push_back({spike.x, spike.y});
+    }
+    request.look.pixels = pixel_options(call);
+    const OIIO::ImageBuf picture = shown_input(session, call, *call.images[0], request.look.pixels);
+    request.test = &picture;
+    show(session, call, std::move(request));
+    *session.result = before;
+}
+
 void run_qc(Session& session, const Call& call) {
     const Image& image = *call.images[0];
     sequence::QcRecord record{{}, limits_of(call)};
@@ -63,6 +88,7 @@ void run_qc(Session& session, const Call& call) {
     }
     take_types(image, record.facts);
     session.result->qc = sequence::to_json(record);
+    show_faults(session, call, record);
 }
 
 std::vector<Modifier> modifiers() {

@@ -39,9 +39,10 @@ OIIO::ImageBuf shown_input(Session& session, const Call& call, const Image& imag
 }
 
 void show(Session& session, const Call& call, sequence::PictureRequest request) {
-    if (!session.painter || session.painter->drawn) {
+    if (!session.painter) {
         return;
     }
+    sequence::FramePainter& painter = *session.painter;
     const std::string nothing = call.row().label() + ": no pictures for the report: ";
     if (!is_read(request.reference) || !is_read(request.test)) {
         session.report(nothing + "the images do not fit into --memory");
@@ -49,14 +50,14 @@ void show(Session& session, const Call& call, sequence::PictureRequest request) 
     }
     sequence::FrameResult so_far = *session.result;
     sequence::judge(so_far);
-    request.full = session.painter->store.wants_full(so_far);
+    request.full = painter.store.wants_full(so_far) && painter.wants(request);
     for (const sequence::Measurement& measured : so_far.measurements) {
-        if (measured.worst) {
+        if (measured.worst && request.full) {
             request.spots.push_back(*measured.worst);
         }
     }
     try {
-        session.painter->drawn = sequence::draw_pictures(request);
+        painter.take(sequence::draw_pictures(request), request);
     } catch (const std::exception& problem) {
         session.report(nothing + problem.what());
     }

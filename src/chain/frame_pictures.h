@@ -14,9 +14,9 @@ namespace tonetool::chain {
 OIIO::ImageBuf shown_input(Session& session, const Call& call, const Image& image,
                            const PixelOptions& options);
 
-/// Draws the pictures of the frame, if there is a report and no command before has drawn them: in
-/// full where the measurements so far are among the worst. What cannot be drawn is said and changes
-/// nothing of the result.
+/// Draws the pictures of the frame, if there is a report: in full where what was found so far is
+/// among the worst. The pictures are those of the first pair, else of the first image; spots are
+/// added to them. What cannot be drawn is said and changes nothing of the result.
 void show(Session& session, const Call& call, sequence::PictureRequest request);
 
 } // namespace tonetool::chain

@@ -45,9 +45,31 @@ struct Kept {
     size_t small = 0;
 };
 
-// Elements of data, as many as fit. A text that is no JSON would be a page that does not work.
+// Without spots that turned out to be no fault. Empty where the text is no JSON: that would be a
+// page that does not work.
+std::string trimmed(const std::string& text, const FrameResult& frame) {
+    ordered_json pictures = ordered_json::parse(text, nullptr, false);
+    if (!pictures.is_object() || !pictures.contains("spots")) {
+        return "";
+    }
+    ordered_json spots = ordered_json::array();
+    for (const ordered_json& spot : pictures["spots"]) {
+        const Position at{spot["x"].get<int>(), spot["y"].get<int>()};
+        const auto of_fault = [&](const Fault& fault) { return fault.position == at; };
+        const auto of_error = [&](const Measurement& one) { return one.worst == at; };
+        if (std::any_of(frame.faults.begin(), frame.faults.end(), of_fault) ||
+            std::any_of(frame.measurements.begin(), frame.measurements.end(), of_error)) {
+            spots.push_back(spot);
+        }
+    }
+    pictures["spots"] = spots;
+    pictures.erase("of");
+    return pictures.dump(-1, ' ', false, ordered_json::error_handler_t::replace);
+}
+
+// An element of data, where it fits.
 size_t put_block(std::string& blocks, const std::string& id, const std::string& text, size_t room) {
-    if (text.empty() || text.size() > room || !ordered_json::accept(text)) {
+    if (text.empty() || text.size() > room) {
         return 0;
     }
     blocks +=
@@ -62,14 +84,16 @@ Kept kept(const ShotResult& shot, const PictureStore& pictures, const PageLimits
     for (const size_t i : order) {
         const size_t room = std::min(limits.small_bytes, limits.bytes) - small;
         const size_t taken =
-            put_block(result.blocks, format("small-{}", i), pictures.small(shot.frames[i]), room);
+            put_block(result.blocks, format("small-{}", i),
+                      trimmed(pictures.small(shot.frames[i]), shot.frames[i]), room);
         result.small += taken > 0 ? 1 : 0;
         small += taken;
     }
     size_t room = limits.bytes - small;
     for (const size_t i : order) {
         const size_t taken =
-            put_block(result.blocks, format("full-{}", i), pictures.full(shot.frames[i]), room);
+            put_block(result.blocks, format("full-{}", i),
+                      trimmed(pictures.full(shot.frames[i]), shot.frames[i]), room);
         if (taken > 0) {
             result.full.insert(i);
         }

@@ -2,8 +2,10 @@
 
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/strutil.h>
+#include <algorithm>
 #include <cctype>
 #include <stdexcept>
+#include <utility>
 
 #include "include/tonetool/write.h"
 #include "sequence/results_json.h"
@@ -152,6 +154,22 @@ std::string PictureStore::read(const FrameResult& frame, const char* size) const
         OIIO::Filesystem::read_text_file(name, text);
     }
     return text.rfind(beginning(frame), 0) == 0 ? text : "";
+}
+
+void FramePainter::take(FramePictures pictures, const PictureRequest& request) {
+    const bool wanted = wants(request);
+    if (!drawn || wanted) {
+        std::swap(pictures, drawn ? *drawn : drawn.emplace());
+        pair = request.reference != nullptr;
+    }
+    // Each pixel once, as it was seen first.
+    for (SpotPictures& spot : pictures.spots) {
+        const bool there = std::any_of(drawn->spots.begin(), drawn->spots.end(),
+                                       [&](const auto& other) { return other.at == spot.at; });
+        if (!there) {
+            drawn->spots.push_back(std::move(spot));
+        }
+    }
 }
 
 } // namespace tonetool::sequence

@@ -59,10 +59,17 @@ private:
     std::map<std::string, std::string> m_texts;
 };
 
-/// What is drawn of one frame while its commands run, for the store.
+/// What is drawn of one frame while its commands run, for the store: a pair rather than an image,
+/// the first of its kind, and the spots of all.
 struct FramePainter {
     const PictureStore& store;
-    std::optional<FramePictures> drawn;
+    std::optional<FramePictures> drawn{};
+    bool pair = false; ///< that was drawn
+
+    bool wants(const PictureRequest& request) const {
+        return !drawn || (!pair && request.reference);
+    }
+    void take(FramePictures pictures, const PictureRequest& request);
 };
 
 } // namespace tonetool::sequence

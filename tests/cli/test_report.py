@@ -1,12 +1,15 @@
 """--report, --contactsheet and --pictures, without a browser; test_report_page.py opens the page."""
 
+import base64
 import json
+import math
 import re
 import shutil
 import signal
 import subprocess
 import time
 
+import OpenImageIO as oiio
 import pytest
 
 FLIP = "--hdrflip:exposures=shot:fail=0.7:quantity=p99"
@@ -170,3 +173,29 @@ def test_a_view_or_a_frame_does_not_lead_out_of_the_folder(tonetool, anim):
              "--pictures", "kept", "--report", "page.html")
     assert {file.name for file in (anim / "kept").iterdir()} == {
         "0001.up.full.json", "0001.up.small.json"}
+
+
+def test_faults_are_seen_from_near(tonetool, anim, read):
+    """Frame 5 without a light group, and with a NaN that is put in here."""
+    file = anim / "test.0003.exr"
+    source = oiio.ImageInput.open(str(file))
+    spec, pixels = source.spec(), source.read_image("float")
+    source.close()
+    pixels[10, 20, spec.channelnames.index("ViewLayer.Combined.R")] = math.nan
+    out = oiio.ImageOutput.create(str(file))
+    assert out.open(str(file), spec) and out.write_image(pixels)
+    out.close()
+    tonetool("--frames", "1-7", "-q", "test.#.exr", "--qc", "--report", "page.html", status=3)
+    data = blocks((anim / "page.html").read_text())
+    found = data["result"]["shot"]["frames"]
+    codes = {frame["frame"]: {fault["code"] for fault in frame.get("faults", [])}
+             for frame in found}
+    assert "nan" in codes[3] and "blacklayer" in codes[5]
+    assert [20, 10] in [fault.get("position") for fault in found[2]["faults"]]
+    (spot,) = [spot for spot in data["full-2"]["spots"] if (spot["x"], spot["y"]) == (20, 10)]
+    (anim / "spot.png").write_bytes(base64.b64decode(spot["test"].split(",")[1]))
+    near, _ = read("spot.png")
+    assert tuple(near[10, 16]) == (1, 0, 1)  # the image's edge is above
+    assert spot["reference"] == ""
+    assert data["full-4"]["exposures"][0]["reference"] == ""
+    assert data["full-4"]["error"] == ""

@@ -183,6 +183,22 @@ TEST(Page, A_thousand_frames_stay_below_60_megabytes_and_the_page_says_what_is_k
                           std::to_string(small)));
 }
 
+TEST(Page, Spots_that_turned_out_to_be_no_fault_are_left_out) {
+    PictureStore store;
+    FrameResult spotted = frame(1, 0.9);
+    spotted.measurements[0].worst = Position{5, 6};
+    FramePictures drawn = pictures(10);
+    drawn.spots = {{{1, 2}, "", "data:spot-a", ""},
+                   {{3, 4}, "", "data:spot-b", ""},
+                   {{5, 6}, "", "data:spot-c", ""}};
+    store.add(spotted, drawn);
+    spotted.faults = {{"nan", Severity::Error, "NaN.", "", Position{3, 4}, {}, {}}};
+    const std::string page = report_page(shot({spotted}), store);
+    EXPECT_EQ(count(page, "data:spot-a"), 0U);
+    EXPECT_EQ(count(page, "data:spot-b"), 2U); // small and full
+    EXPECT_EQ(count(page, "data:spot-c"), 2U);
+}
+
 TEST(Page, Very_many_frames_have_no_histograms_but_the_worst_ones) {
     PictureStore store;
     std::vector<FrameResult> frames{frame(0, 0.9)};
