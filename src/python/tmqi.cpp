@@ -20,14 +20,14 @@ namespace {
 const std::string source = "H. Yeganeh, Z. Wang, \"Objective Quality Assessment of Tone-Mapped "
                            "Images\", IEEE Transactions on Image Processing 22(2), 2013.";
 
-struct Options : TmqiOptions {
+struct CallOptions : TmqiOptions {
     PixelOptions hdr_pixels, ldr_pixels;
     int nthreads = 0;
 };
 using TmqiObject = Imaged<TmqiSummary>;
 
-Fields<Options> fields() {
-    using O = Options;
+Fields<CallOptions> fields() {
+    using O = CallOptions;
     return {
         field<O>("hdr_pixels", &O::hdr_pixels, "Layer and colour space of hdr."),
         field<O>("ldr_pixels", &O::ldr_pixels,
@@ -38,7 +38,7 @@ Fields<Options> fields() {
         threads_field<O>()};
 }
 
-py::object run(std::vector<py::object>& images, const Options& options) {
+py::object run(std::vector<py::object>& images, const CallOptions& options) {
     const InputImage hdr(images[0], "tmqi: hdr"), ldr(images[1], "tmqi: ldr");
     TmqiOptions plain = options;
     plain.hdr = options.hdr_pixels;
