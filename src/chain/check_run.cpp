@@ -1,6 +1,7 @@
 #include "chain/check_run.h"
 
 #include <OpenImageIO/filesystem.h>
+#include <OpenImageIO/sysutil.h>
 #include <algorithm>
 #include <memory>
 #include <optional>
@@ -68,6 +69,14 @@ std::string picture_folder(const CheckPlan& check) {
     return check.has("pictures")                ? check.argument("pictures")
            : check.has("state") && draws(check) ? check.argument("state") + "/pictures"
                                                 : "";
+}
+
+// Of what one comparison alone would take, half of the computer's memory; --memory says otherwise.
+uint64_t share_of_memory(int parallel) {
+    constexpr uint64_t enough = uint64_t(1) << 29;
+    return parallel < 2
+               ? 0
+               : std::max(enough, OIIO::Sysutil::physical_memory() / 2 / uint64_t(parallel));
 }
 
 class PlanRun {
@@ -168,6 +177,7 @@ Session PlanRun::session_of(const FrameRun& run, std::ostream& out, std::ostream
     session.frame = run.frame;
     session.plan = &m_plan;
     session.parallel = m_plan.parallel;
+    session.memory = share_of_memory(m_plan.parallel);
     session.shot = m_shot ? &*m_shot : nullptr;
     return session;
 }
@@ -265,6 +275,9 @@ Kept PlanRun::check_anew(const FrameRun& run, FrameResult& result) const {
     session.painter = draws(m_plan.check) ? &painter : nullptr;
     run_commands(session, run);
     result.warnings = session.warning_texts;
+    if (session.warnings > int(result.warnings.size())) {
+        result.warnings.push_back("there were warnings, see what the frame printed");
+    }
     const std::string error = session.errors > 0 && session.first_error.empty()
                                   ? "the command line cannot be run"
                                   : session.first_error;
@@ -274,7 +287,9 @@ Kept PlanRun::check_anew(const FrameRun& run, FrameResult& result) const {
     } else {
         m_pictures->forget(result);
     }
-    return {sequence::to_json(result), out.str(), err.str(), session.exit_status()};
+    // Warnings are the verdict's matter: whether they count may differ when the result is found.
+    const int status = session.exit_status();
+    return {sequence::to_json(result), out.str(), err.str(), status == 2 ? 0 : status};
 }
 
 Kept PlanRun::check_or_find(const FrameRun& run, FrameResult& result) const {

@@ -34,18 +34,26 @@ void check_same(const ShotResult& whole, const ShotResult& part, const std::stri
     }
 }
 
+// In every view that some part has.
 void add_frames_without_result(ShotResult& shot, const std::vector<Item>& expected) {
     std::set<std::pair<int, std::string>> there;
+    std::set<std::string> views;
     for (const FrameResult& frame : shot.frames) {
         there.emplace(frame.frame, frame.view);
+        views.insert(frame.view);
+    }
+    if (views.empty()) {
+        views.insert("");
     }
     for (const Item& item : expected) {
-        if (there.count({item.frame, item.view}) == 0) {
-            FrameResult frame;
-            frame.frame = item.frame;
-            frame.view = item.view;
-            frame.message = "no part has a result of this frame";
-            shot.frames.push_back(frame);
+        for (const std::string& view : views) {
+            if (there.emplace(item.frame, view).second) {
+                FrameResult frame;
+                frame.frame = item.frame;
+                frame.view = view;
+                frame.message = "no part has a result of this frame";
+                shot.frames.push_back(frame);
+            }
         }
     }
 }

@@ -211,6 +211,9 @@ def test_warnings(tonetool, anim):
     tonetool(*words)
     assert statuses(anim)[5] == "warning" and statuses(anim)[4] == "passed"
     tonetool("--warnings-exit", *words, status=2)
+    tonetool("--warnings-exit", *words, "--state", "s", status=2)
+    tonetool(*words, "--state", "s")
+    tonetool("--warnings-exit", *words, "--state", "s", status=2)
 
 
 # ---- exposures of the shot
@@ -319,6 +322,26 @@ def test_frames_that_no_part_has_are_errors(tonetool, anim):
     ran = tonetool("--merge", "a.json", "b.json", "--frames", "1-5", "--json", "c.json", status=1)
     assert 'no file "b.json"' in ran.err
     assert statuses(anim) == {1: "passed", 2: "passed", 3: "passed", 4: "error", 5: "error"}
+
+
+def test_views_are_frames_of_their_own(tonetool, make_image, tmp_path):
+    for view in ("left", "right"):
+        for number in (1, 2, 3):
+            make_image(f"r_{view}.{number}.exr")
+            make_image(f"t_{view}.{number}.exr")
+    (tmp_path / "t_right.2.exr").unlink()
+    words = ["r_%V.#.exr", "t_%V.#.exr", "--framepadding", "1", "--hdrflip:fail=0"]
+    tonetool(*words, "--json", "c.json", status=1)
+    found = load(tmp_path / "c.json")["frames"]
+    assert [(f["frame"], f["view"], f["status"]) for f in found] == [
+        (1, "left", "passed"), (1, "right", "passed"), (2, "left", "passed"),
+        (2, "right", "missing"), (3, "left", "passed"), (3, "right", "passed")]
+    tonetool("--frames", "3", *words, "--json", "part.json")
+    tonetool("--merge", "part.json", "--frames", "3", "--json", "c.json")
+    tonetool("--merge", "part.json", "--frames", "2-3", "--json", "c.json", status=1)
+    found = load(tmp_path / "c.json")["frames"]
+    assert [(f["frame"], f["view"], f["status"]) for f in found] == [
+        (2, "left", "error"), (2, "right", "error"), (3, "left", "passed"), (3, "right", "passed")]
 
 
 @pytest.mark.parametrize("words, text", [

@@ -178,6 +178,16 @@ def test_the_farm_says_what_one_machine_says_though_a_task_is_killed(program, sl
         assert (shot / name).read_bytes() == text, name
 
 
+def test_the_page_shows_what_the_tasks_have_drawn(program, slurm, shot):
+    if subprocess.run([program, "--help", "report"], capture_output=True, check=False).returncode:
+        pytest.skip("this program has no --report")
+    ran = farm(program, shot, slurm, "--chunk", "4", "--", "--frames", "17-24", "ref.#.exr",
+               "test.#.exr", FLIP, "--report", "check.html")
+    assert ran.returncode == 3, (ran.stdout, ran.stderr)
+    page = (shot / "check.html").read_text(encoding="utf-8")
+    assert "frame 20" in page and page.count("data:image/") >= 8
+
+
 def test_a_task_that_never_succeeds_is_reported(program, slurm, shot):
     ran = farm(killing(program, shot, 9), shot, slurm, "--chunk", "5", "--", *words())
     assert ran.returncode == 1, (ran.stdout, ran.stderr)

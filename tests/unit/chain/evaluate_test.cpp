@@ -184,6 +184,16 @@ TEST(Evaluate, CommandsThatNameAFileSayWhetherTheyReadIt) {
     }
 }
 
+TEST(Evaluate, ACheckIsRefusedAndNotLeftOut) {
+    for (const char* word : {"--json", "--csv", "--junit", "--state", "--statistics"}) {
+        Evaluation done = evaluate({TESTIMAGES_DIR "/plain.exr", TESTIMAGES_DIR "/plain.exr",
+                                    "--hdrflip:exposures=shot:fail=0", word, "written"},
+                                   {}, Policy{false, "", 0});
+        EXPECT_EQ(done.status, 1) << word;
+        EXPECT_THAT(done.error, HasSubstr(word));
+    }
+}
+
 TEST(Evaluate, FilesOfModifiersAreInTheFolder) {
     Evaluation done =
         evaluate({"gallery_ref.exr", "--lightindex:lights=nosuch.json"}, {}, in_testimages);
