@@ -35,7 +35,7 @@ Maps compare(Session& session, const Call& call, const Look& look, const Compare
              Views* kept = nullptr) {
     Views own;
     Views& views = kept ? *kept : own;
-    const auto view = session.painter                     ? shown_input
+    const auto view = shown_bytes(session, call) > 0      ? shown_input
                       : look.again && session.memory == 0 ? color_input
                                                           : color_source;
     for (const ImagePtr& image : call.images) {
@@ -135,7 +135,7 @@ void run_hdrflip(Session& session, const Call& call) {
     Thresholds thresholds = thresholds_of(call);
     read_shot_exposures(session, call, options);
     auto exposure_map = call.choice("exposuremap", {"stops", "index"});
-    options.want_exposure_map = exposure_map || session.painter;
+    options.want_exposure_map = exposure_map || shown_bytes(session, call) > 0;
     options.want_exposures = call.has("saveexposures");
     std::vector<FlipResult> results;
     Views views;
@@ -194,7 +194,7 @@ void run_flipdiff(Session& session, const Call& call) {
         check_colormap(*colors);
     }
     (void)call.flag("print", true);
-    options.want_exposure_map = hdr && session.painter;
+    options.want_exposure_map = hdr && shown_bytes(session, call) > 0;
     FlipResult result;
     Views views;
     Maps maps = compare(

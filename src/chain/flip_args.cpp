@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "chain/error.h"
+#include "chain/frame_pictures.h"
 #include "chain/tone_args.h"
 
 namespace tonetool::chain {
@@ -109,7 +110,7 @@ PixelOptions pixel_options(const Call& call, const std::string& prefix) {
 }
 
 void read_pair_options(const Session& session, const Call& call, PairOptions& options) {
-    options.memory = session.memory;
+    options.memory = session.memory - std::min(session.memory, shown_bytes(session, call));
     options.pixels = pixel_options(call);
     read_size(call, options);
     bool error = call.choice("alpha", {"ignore", "error"}).value_or("ignore") == "error";
@@ -211,7 +212,7 @@ std::vector<Modifier> flipdiff_modifiers() {
 
 HdrFlipOptions flipdiff_options(const Session& session, const Call& call) {
     HdrFlipOptions options;
-    options.memory = session.memory;
+    options.memory = session.memory - std::min(session.memory, shown_bytes(session, call));
     options.pixels = pixel_options(call);
     options.ppd = call.number("ppd", {1, 1000}).value_or(67.02);
     options.curve.name =

@@ -9,21 +9,24 @@ namespace tonetool::chain {
 
 namespace {
 
-// A quarter of a frame's memory for each image; the rest is the comparison's.
-bool fits(const Session& session, const Image& image) {
-    const uint64_t bytes = image.part().header().image_pixels() * 4 * sizeof(float);
-    return session.memory == 0 || bytes * 4 * uint64_t(session.parallel) <= session.memory;
-}
-
 bool is_read(const OIIO::ImageBuf* image) {
     return !image || image->storage() != OIIO::ImageBuf::IMAGECACHE;
 }
 
 } // namespace
 
+uint64_t shown_bytes(const Session& session, const Call& call) {
+    uint64_t bytes = 0;
+    for (const ImagePtr& image : call.images) {
+        bytes += image->part().header().image_pixels() * 4 * sizeof(float);
+    }
+    const bool fits = session.memory == 0 || bytes <= session.memory / 3;
+    return session.painter && fits ? bytes : 0;
+}
+
 OIIO::ImageBuf shown_input(Session& session, const Call& call, const Image& image,
                            const PixelOptions& options) {
-    if (!fits(session, image)) {
+    if (shown_bytes(session, call) == 0) {
         return color_source(session, call, image, options);
     }
     check_color(session, call, image, options);

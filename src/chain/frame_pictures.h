@@ -9,6 +9,10 @@
 
 namespace tonetool::chain {
 
+/// What the images of a command take while the report looks at them; 0 without a report, and where
+/// that is more than a third of the frame's memory.
+uint64_t shown_bytes(const Session& session, const Call& call);
+
 /// color_input() that reads of a file no more than its colour and alpha, since the report will look
 /// at the pixels after the command; color_source() where they do not fit into --memory.
 OIIO::ImageBuf shown_input(Session& session, const Call& call, const Image& image,

@@ -59,6 +59,7 @@ class Page:
 
     def __init__(self, driver, file):
         self.driver = driver
+        driver.get("about:blank")  # the browser's own first page has requests of its own
         for log in ("browser", "performance"):
             driver.get_log(log)
         self.size(1440, 900)
