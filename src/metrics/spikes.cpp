@@ -50,14 +50,14 @@ void find_spikes(const float* const (&rows)[2 * kReach + 1], int64_t width, int6
                  std::vector<Spike>& out) {
     const float* row = rows[kReach];
     for (int64_t at = 0; at < width; ++at) {
-        const float limit = row[at] / Spike::kTimes;
-        const bool stands_out = row[at] > 0 && (at < kReach || row[at - kReach] <= limit) &&
-                                (at + kReach >= width || row[at + kReach] <= limit);
-        if (!stands_out || !is_top(rows, width, at))
+        const float value = row[at], limit = value / Spike::kTimes;
+        const bool left = at < kReach || row[at - kReach] <= limit;
+        const bool right = at >= width - kReach || row[at + kReach] <= limit;
+        if (!(value > 0 && left && right) || !is_top(rows, width, at))
             continue;
         const float around = largest_on_square(rows, width, at, kReach);
         if (around <= limit)
-            out.push_back({x + at, y, row[at], around});
+            out.push_back({x + at, y, value, around});
     }
 }
 

@@ -2,8 +2,8 @@
 
     make_shot.py FOLDER [--fault NAME] [--noisy] [--cut]
 
-A camera moves over a textured wall with a ball and a lamp before it. Layers: the picture with alpha,
-its light groups key and env, which add up to it, Depth and Normal. shot.0001.exr to shot.0020.exr.
+A camera moves over a textured wall with a ball and a lamp before it. Layers: the picture with
+alpha, its light groups key and env, which add up to it, Depth and Normal. shot.0001.exr to shot.0020.exr.
 """
 
 import argparse

@@ -1,4 +1,4 @@
-"""--qc: each fault alone is found in its frame, and nothing else; shots without a fault have none."""
+"""--qc: each fault alone is found in its frame, and nothing else; clean shots have none."""
 
 import json
 from pathlib import Path
@@ -100,6 +100,7 @@ def test_the_light_group_that_goes_black(tonetool, tmp_path, folder):
     assert report["worst"] == [{"frame": 5}]
     first = next(f for f in report["frames"] if f["frame"] == 5)["faults"][0]
     assert (first["code"], first["layer"]) == ("blacklayer", "ViewLayer.Combined_neonC")
-    for text in (ran.out, (tmp_path / "check.csv").read_text(), (tmp_path / "check.xml").read_text()):
+    files = [(tmp_path / name).read_text() for name in ("check.csv", "check.xml")]
+    for text in (ran.out, *files):
         assert "neonC is black in frame 5" in text
     tonetool("--frames", "1-8", folder / "ref.#.exr", "--qc", "--warnings-exit")

@@ -80,7 +80,7 @@ TEST(QcFacts, Do_not_depend_on_threads_nor_on_where_the_pixels_are) {
     const std::string file =
         (std::filesystem::temp_directory_path() / "tonetool_qc_facts.exr").string();
     const ImageBuf image =
-        noise(make_spec(301, 207, {"R", "G", "B", "C_a.R", "C_a.G", "C_a.B"}), 3);
+        noise(make_spec(301, 207, {"R", "G", "B", "C_key.R", "C_key.G", "C_key.B"}), 3);
     ASSERT_TRUE(image.write(file));
     const ImageBuf unread(file);
     const QcFacts one = facts_of(image, 1);
@@ -123,9 +123,10 @@ TEST(QcFacts, A_spike_is_alone_in_its_surroundings) {
 }
 
 TEST(QcFacts, Light_groups_add_up_where_the_picture_is_not_clamped) {
-    ImageBuf image = constant(
-        make_spec(32, 32, {"R", "G", "B", "C_a.R", "C_a.G", "C_a.B", "C_b.R", "C_b.G", "C_b.B"}),
-        {1, 1, 1, 0.75f, 0.75f, 0.75f, 0.25f, 0.25f, 0.25f});
+    ImageBuf image = constant(make_spec(32, 32,
+                                        {"R", "G", "B", "C_key.R", "C_key.G", "C_key.B", "C_rim.R",
+                                         "C_rim.G", "C_rim.B"}),
+                              {1, 1, 1, 0.75f, 0.75f, 0.75f, 0.25f, 0.25f, 0.25f});
     EXPECT_EQ(facts_of(image).picture.groups, 2);
     EXPECT_EQ(facts_of(image).picture.group_difference, 0);
     for (int c = 0; c < 3; ++c) {
