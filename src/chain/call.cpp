@@ -1,6 +1,8 @@
 #include "chain/call.h"
 
+#include <OpenImageIO/strutil.h>
 #include <algorithm>
+#include <map>
 
 #include "chain/error.h"
 #include "imagebuf/names.h"
@@ -67,8 +69,9 @@ void check_choice(const std::string& what, const std::string& value, const Strin
 Call::Call(const Command& row, Token token, Strings arguments, bool lenient)
     : m_row(&row),
       m_token(std::move(token)),
-      m_arguments(std::move(arguments)) {
-    if (!lenient) {
+      m_arguments(std::move(arguments)),
+      m_lenient(lenient && !row.own) {
+    if (!m_lenient) {
         check_keys(row, m_token);
     }
 }
@@ -85,6 +88,32 @@ bool Call::has(const std::string& key) const {
     return text(key).has_value();
 }
 
+std::string Call::operation() const {
+    static const std::map<std::string, std::string> others = {{"ch", ""},
+                                                              {"chappend", ""},
+                                                              {"clamp", ""},
+                                                              {"colorconvert", "colorconvert"},
+                                                              {"crop", ""},
+                                                              {"croptofull", ""},
+                                                              {"cut", ""},
+                                                              {"fill", ""},
+                                                              {"fillholes", ""},
+                                                              {"fit", ""},
+                                                              {"fixnan", ""},
+                                                              {"pixelaspect", "resize"},
+                                                              {"reorient", "reorient"},
+                                                              {"resample", "resample"},
+                                                              {"resize", "resize"},
+                                                              {"tocolorspace", "colorconvert"},
+                                                              {"trim", ""}};
+    auto other = others.find(m_row->label());
+    return !m_row->operation ? "" : other == others.end() ? "-" + m_row->label() : other->second;
+}
+
+double Call::parsed(const std::string& what, const std::string& value, Range range) const {
+    return m_lenient ? double(OIIO::Strutil::stof(value)) : checked_number(what, value, range);
+}
+
 std::optional<std::string> Call::text(const std::string& key) const {
     for (const auto& [name, value] : m_token.modifiers) {
         if (name == key) {
@@ -96,22 +125,24 @@ std::optional<std::string> Call::text(const std::string& key) const {
 
 std::optional<double> Call::number(const std::string& key, Range range) const {
     std::optional<std::string> value = text(key);
-    return value ? std::optional<double>(checked_number(key, *value, range)) : std::nullopt;
+    return value ? std::optional<double>(parsed(key, *value, range)) : std::nullopt;
 }
 
 std::optional<int> Call::integer(const std::string& key, Range range) const {
     std::optional<std::string> value = text(key);
-    return value ? std::optional<int>(checked_integer(key, *value, range)) : std::nullopt;
+    return !value      ? std::nullopt
+           : m_lenient ? std::optional<int>(OIIO::Strutil::stoi(*value))
+                       : std::optional<int>(checked_integer(key, *value, range));
 }
 
 bool Call::flag(const std::string& key, bool otherwise) const {
     std::optional<std::string> value = choice(key, {"0", "1"});
-    return value ? *value == "1" : otherwise;
+    return value ? OIIO::Strutil::stoi(*value) != 0 : otherwise;
 }
 
 std::optional<std::string> Call::choice(const std::string& key, const Strings& valid) const {
     std::optional<std::string> value = text(key);
-    if (value) {
+    if (value && !m_lenient) {
         check_choice(key, *value, valid);
     }
     return value;
@@ -135,11 +166,12 @@ std::vector<double> Call::numbers(const std::string& key, size_t count) const {
 }
 
 double Call::number_argument(size_t index, Range range) const {
-    return checked_number(m_row->args.at(index), argument(index), range);
+    return parsed(m_row->args.at(index), argument(index), range);
 }
 
 int Call::integer_argument(size_t index, Range range) const {
-    return checked_integer(m_row->args.at(index), argument(index), range);
+    return m_lenient ? OIIO::Strutil::stoi(argument(index))
+                     : checked_integer(m_row->args.at(index), argument(index), range);
 }
 
 } // namespace tonetool::chain

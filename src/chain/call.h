@@ -28,6 +28,9 @@ public:
     const Command& row() const { return *m_row; }
     /// As typed: "--resize:filter=box".
     const std::string& text() const { return m_token.text; }
+    /// What oiiotool calls an operation, and the image that it makes: "-mulc". Empty where the
+    /// image keeps its name and messages say what was typed.
+    std::string operation() const;
     /// As typed, with the arguments: "--mulc", "2".
     std::string quoted_words() const {
         Strings words = m_arguments;
@@ -42,7 +45,8 @@ public:
     /// The images popped, the deepest first.
     std::vector<ImagePtr> images;
 
-    // Modifiers: nullopt where not given, a CommandError where the value is not valid.
+    // Modifiers: nullopt where not given. A value that is not valid is a CommandError; if lenient,
+    // it is what oiiotool makes of it.
     bool has(const std::string& key) const;
     std::optional<std::string> text(const std::string& key) const;
     std::optional<double> number(const std::string& key, Range range) const;
@@ -54,11 +58,13 @@ public:
 
     double number_argument(size_t index, Range range) const;
     int integer_argument(size_t index, Range range) const;
+    double parsed(const std::string& what, const std::string& value, Range range) const;
 
 private:
     const Command* m_row;
     Token m_token;
     Strings m_arguments;
+    bool m_lenient;
 };
 
 /// "what "value": not a number; valid: ..." as a CommandError, for values of any origin.

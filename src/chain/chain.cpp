@@ -1,123 +1,12 @@
 #include "chain/chain.h"
 
-#include <algorithm>
-#include <map>
-#include <memory>
-#include <sstream>
-
 #include "chain/check_run.h"
-#include "chain/error.h"
 #include "chain/frames.h"
 #include "chain/help.h"
 #include "chain/loop.h"
-#include "chain/output.h"
 #include "chain/runner.h"
 
 namespace tonetool::chain {
-
-namespace {
-
-// An image from outside is like one that was read.
-void push_given(Session& session, OIIO::ImageBuf& pixels, size_t index) {
-    const std::string which = "image " + std::to_string(index + 1);
-    const bool unread = pixels.spec().undefined() || pixels.storage() == OIIO::ImageBuf::IMAGECACHE;
-    const OIIO::ImageSpec native = unread ? pixels.nativespec() : pixels.spec();
-    if (!pixels.initialized() ||
-        (unread && !pixels.read(pixels.subimage(), pixels.miplevel(), true, OIIO::TypeFloat))) {
-        const std::string why = pixels.geterror();
-        throw CommandError(which + " has no pixels" + (why.empty() ? "" : ": " + why));
-    }
-    const DataFormat format{native.format, {}, native.get_int_attribute("oiio:BitsPerSample")};
-    const bool integer = !native.format.is_floating_point();
-    const std::string name = pixels.name().empty() ? which : std::string(pixels.name());
-    std::vector<OIIO::ImageBuf> levels(1);
-    const bool is_float = pixels.spec().deep || pixels.spec().format == OIIO::TypeFloat;
-    levels[0] = is_float ? std::move(pixels) : pixels.copy(OIIO::TypeFloat);
-    auto part = std::make_shared<Part>(std::move(levels), format, integer);
-    session.read_format = format;
-    session.first_header = session.first_header.value_or(part->header());
-    session.push(std::make_shared<Image>(name, std::vector<PartPtr>{part}));
-}
-
-Left left(Session& session, const Image& image, const std::string& label) {
-    Left out{image.name(), label, {}, {}};
-    for (const PartPtr& part : image.parts()) {
-        const OIIO::ImageBuf& pixels = part->pixels();
-        out.subimages.push_back(pixels.copy(pixels.spec().format));
-        out.formats.push_back(output_type(session, *part));
-    }
-    return out;
-}
-
-void take_images(Session& session, Evaluation& result) {
-    std::map<ImagePtr, std::string> labels;
-    for (const std::string& label : session.label_order) {
-        labels.emplace(session.labels.at(label), label);
-    }
-    for (const ImagePtr& image : session.stack) {
-        auto label = labels.find(image);
-        result.stack.push_back(left(session, *image, label == labels.end() ? "" : label->second));
-    }
-    for (const std::string& label : session.label_order) {
-        const ImagePtr& image = session.labels.at(label);
-        const std::vector<ImagePtr>& stack = session.stack;
-        if (std::find(stack.begin(), stack.end(), image) == stack.end()) {
-            result.named.push_back(left(session, *image, label));
-        }
-    }
-}
-
-void evaluate_one(Session& session, std::vector<OIIO::ImageBuf>& images, FramePlan plan,
-                  Evaluation& result) {
-    if (plan.runs.size() != 1) {
-        throw CommandError("wildcards fit " + std::to_string(plan.runs.size()) +
-                           " frames, not one (--frames N chooses one)");
-    }
-    if (!plan.check.words.empty()) {
-        throw CommandError("--" + plan.check.words.begin()->first +
-                           " is for the frames of the program's command line");
-    }
-    for (size_t i = 0; i < images.size(); ++i) {
-        push_given(session, images[i], i);
-    }
-    session.frame = plan.runs[0].frame;
-    session.plan = &plan;
-    Runner(session, plan.runs[0].words).run_all();
-    if (session.errors == 0) {
-        take_images(session, result);
-    }
-}
-
-} // namespace
-
-Evaluation evaluate(const Strings& words, std::vector<OIIO::ImageBuf> images,
-                    const Policy& policy) {
-    Evaluation result;
-    std::ostringstream out, err;
-    Session session(out, err, full_command_line(words, false));
-    session.compat = is_compat(words);
-    session.policy = policy;
-    session.for_images = true;
-    try {
-        evaluate_one(session, images, plan_frames(words, policy.directory), result);
-    } catch (const std::exception& problem) {
-        session.error("", problem.what());
-    }
-    result.status = session.exit_status();
-    result.error = session.first_error;
-    if (result.error.empty() && result.status != 0 && result.status != 2) {
-        result.error = result.status == 3 ? "a threshold was exceeded" : "the images differ";
-    }
-    result.out = out.str();
-    result.err = err.str();
-    result.warnings = session.warning_texts;
-    result.files = session.files;
-    if (session.errors > 0) {
-        result.stack.clear();
-        result.named.clear();
-    }
-    return result;
-}
 
 int run(const Strings& words, std::ostream& out, std::ostream& err) {
     if (words.empty()) {

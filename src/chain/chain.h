@@ -32,7 +32,6 @@ struct Evaluation {
     std::string out, err;    ///< what was printed
     Strings warnings;        ///< one each
     std::vector<Left> stack; ///< the top is the last; empty where something was an error
-    std::vector<Left> named; ///< of labels that are not on the stack, in their order
     Strings files;           ///< that were read or looked for, as they were opened
 };
 

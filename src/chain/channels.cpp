@@ -26,9 +26,11 @@ struct Selection {
 int required_channel(const OIIO::ImageSpec& spec, const std::string& name, Session* session) {
     int index = channel_index(spec, name);
     if (index < 0 && session && session->compat) {
-        session->warning("--ch", "Unknown channel name \"" + name +
-                                     "\", filling with 0 (actual channels: \"" +
-                                     join(spec.channelnames, ",") + "\")");
+        for (int time = 0; time < 2; ++time) { // as oiiotool
+            session->warning("--ch", "Unknown channel name \"" + name +
+                                         "\", filling with 0 (actual channels: \"" +
+                                         join(spec.channelnames, ",") + "\")");
+        }
     } else if (index < 0) {
         throw CommandError("Unknown channel name \"" + name + "\" (actual channels: \"" +
                            join(spec.channelnames, ",") + "\")");
@@ -75,6 +77,9 @@ int channel_index(const OIIO::ImageSpec& spec, const std::string& name) {
 OIIO::ImageBuf select_channels(const OIIO::ImageBuf& pixels, const std::string& list,
                                Session* session) {
     const OIIO::ImageSpec& spec = pixels.spec();
+    if (list.empty()) {
+        throw CommandError("0-channel images not supported");
+    }
     Selection selection;
     for (const std::string& part : split(list, ',')) {
         const std::string word = OIIO::Strutil::strip(part);

@@ -1,7 +1,9 @@
 #include "chain/check_run.h"
 
+#include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/sysutil.h>
 #include <algorithm>
+#include <memory>
 #include <optional>
 #include <ostream>
 #include <sstream>
@@ -9,10 +11,13 @@
 #include "chain/error.h"
 #include "chain/loop.h"
 #include "chain/runner.h"
+#include "chain/token.h"
 #include "include/tonetool/write.h"
 #include "sequence/check_files.h"
 #include "sequence/merge.h"
 #include "sequence/probe.h"
+#include "sequence/report_files.h"
+#include "sequence/report_store.h"
 #include "sequence/results_json.h"
 #include "sequence/shot_exposures.h"
 #include "sequence/state.h"
@@ -43,8 +48,12 @@ std::string in_words(const FrameResult& result) {
 }
 
 // What the whole came to: a line, and the files.
-int conclude_check(const sequence::ShotResult& shot, const FramePlan& plan, std::ostream& out) {
+int conclude_check(const sequence::ShotResult& shot, const FramePlan& plan,
+                   const sequence::PictureStore& pictures, std::ostream& out) {
     write_results(shot, plan.check.words);
+    for (const std::string& complaint : write_reports(shot, pictures, plan.check.words)) {
+        out << "check: " << complaint << '\n';
+    }
     out << "check: " << status_name(shot.verdict) << ", " << shot.sentence << '\n';
     const int status = exit_status(shot.verdict, plan.warnings_exit);
     return plan.compat && status == 3 ? 1 : status;
@@ -56,6 +65,17 @@ uint64_t share_of_memory(int parallel) {
     return parallel < 2
                ? 0
                : std::max(enough, OIIO::Sysutil::physical_memory() / 2 / uint64_t(parallel));
+}
+
+bool draws(const CheckPlan& check) {
+    return check.has("report") || check.has("contactsheet") || check.has("pictures");
+}
+
+// Empty: in memory.
+std::string picture_folder(const CheckPlan& check) {
+    return check.has("pictures")                ? check.argument("pictures")
+           : check.has("state") && draws(check) ? check.argument("state") + "/pictures"
+                                                : "";
 }
 
 class PlanRun {
@@ -79,6 +99,7 @@ private:
 
     int find_exposures();
     void prepare();
+    void remove_abandoned() const;
     Kept check_anew(const FrameRun& run, FrameResult& result) const;
     Kept check_or_find(const FrameRun& run, FrameResult& result) const;
 
@@ -90,6 +111,7 @@ private:
     Strings m_sample_errors; ///< by frame, for threads' sake
     std::vector<FrameResult> m_results;
     std::optional<State> m_state, m_sample_state;
+    std::unique_ptr<sequence::PictureStore> m_pictures;
 };
 
 int PlanRun::run() {
@@ -106,17 +128,24 @@ int PlanRun::run() {
     const int status = loop(m_out, m_err, &PlanRun::check, true);
     sequence::ShotResult shot{check.essence, m_shot, std::move(m_results), {}, {}, {}};
     conclude(shot);
-    return worse(status, conclude_check(shot, m_plan, m_out));
+    return worse(status, conclude_check(shot, m_plan, *m_pictures, m_out));
 }
 
 void PlanRun::prepare() {
     const CheckPlan& check = m_plan.check;
     sequence::check_places(check.words);
-    if (!check.has("state")) {
-        return;
+    if (check.has("state")) {
+        m_state.emplace(check.argument("state"), "frame");
+        m_sample_state.emplace(check.argument("state"), "exposures");
     }
-    m_state.emplace(check.argument("state"), "frame");
-    m_sample_state.emplace(check.argument("state"), "exposures");
+    m_pictures = std::make_unique<sequence::PictureStore>(picture_folder(check));
+    if (m_state) {
+        remove_abandoned();
+    }
+}
+
+void PlanRun::remove_abandoned() const {
+    const CheckPlan& check = m_plan.check;
     Strings files;
     for (const auto& word : check.words) {
         files.push_back(word.second);
@@ -126,6 +155,8 @@ void PlanRun::prepare() {
         files.insert(files.end(), outputs.begin(), outputs.end());
         files.push_back(m_state->file(item_of(run)));
         files.push_back(m_sample_state->file(item_of(run)));
+        const Strings drawn = m_pictures->files(run.frame.number, run.frame.view);
+        files.insert(files.end(), drawn.begin(), drawn.end());
     }
     remove_abandoned_outputs(files);
 }
@@ -162,7 +193,7 @@ Ran PlanRun::plain(size_t index, std::ostream& out, std::ostream& err) {
     run_commands(session, m_plan.runs[index]);
     static const char* const words[] = {"done", "error", "warnings", "a threshold was exceeded"};
     const int status = session.exit_status();
-    return {status, words[status]};
+    return {status, words[status], session.aborted};
 }
 
 // ---- exposures of the shot
@@ -237,6 +268,8 @@ Kept PlanRun::check_anew(const FrameRun& run, FrameResult& result) const {
     std::ostringstream out, err;
     Session session = session_of(run, out, err);
     session.result = &result;
+    sequence::FramePainter painter{*m_pictures, {}};
+    session.painter = draws(m_plan.check) ? &painter : nullptr;
     run_commands(session, run);
     result.warnings = session.warning_texts;
     if (session.warnings > int(result.warnings.size())) {
@@ -246,6 +279,11 @@ Kept PlanRun::check_anew(const FrameRun& run, FrameResult& result) const {
                                   ? "the command line cannot be run"
                                   : session.first_error;
     sequence::settle(result, error, words_at(run.words, m_plan.check.inputs));
+    if (painter.drawn) {
+        m_pictures->add(result, *painter.drawn);
+    } else {
+        m_pictures->forget(result);
+    }
     // Warnings are the verdict's matter: whether they count may differ when the result is found.
     const int status = session.exit_status();
     return {sequence::to_json(result), out.str(), err.str(), status == 2 ? 0 : status};
@@ -260,8 +298,11 @@ Kept PlanRun::check_or_find(const FrameRun& run, FrameResult& result) const {
                                   words_at(run.words, m_plan.check.outputs)};
     const std::string key = State::key(origin);
     if (std::optional<Kept> kept = m_state->find(item_of(run), key)) {
-        result = sequence::frame_from_json(kept->result);
-        return *kept;
+        FrameResult found = sequence::frame_from_json(kept->result);
+        if (!draws(m_plan.check) || m_pictures->restore(found)) {
+            result = std::move(found);
+            return *kept;
+        }
     }
     Kept made = check_anew(run, result);
     if (result.status <= Status::SizeMismatch) {
@@ -305,14 +346,29 @@ int merge(const Strings& words, const FramePlan& plan, std::ostream& out, std::o
     for (const std::string& complaint : complaints) {
         session.error("merge", complaint);
     }
-    return worse(session.exit_status(), conclude_check(shot, plan, out));
+    if (check.has("pictures") && !OIIO::Filesystem::is_directory(check.argument("pictures"))) {
+        throw CommandError("--pictures: there is no folder \"" + check.argument("pictures") + "\"");
+    }
+    const sequence::PictureStore pictures(picture_folder(check));
+    return worse(session.exit_status(), conclude_check(shot, plan, pictures, out));
 }
 
 } // namespace
 
 std::string full_command_line(const Strings& words, bool compat) {
+    static const Strings attributes = {"attrib", "sattrib"};
+    const auto is_in = [](const Strings& names, const std::string& name) {
+        return std::find(names.begin(), names.end(), name) != names.end();
+    };
+    const bool sans = is_in(words, "--sansattrib") || is_in(words, "-sansattrib");
     std::string line = "tonetool";
-    for (const std::string& word : words) {
+    for (size_t i = 0; i < words.size(); ++i) {
+        const std::string& word = words[i];
+        const std::string name = parse_token(word, true).name;
+        if (sans && (name == "sansattrib" || is_in(attributes, name))) {
+            i += name == "sansattrib" ? 0 : 2;
+            continue;
+        }
         bool quoted = word.find_first_of(" \t\n") != std::string::npos;
         line += " " + (!compat ? shell_quoted(word) : (quoted ? '"' + word + '"' : word));
     }

@@ -106,7 +106,7 @@ const std::vector<OpRow> value_rows = {
      [](Op& op) { return IBA::rangecompress(op.dst, op.a(), op.flag("luma")); }, luma},
     {"rangeexpand", 1, "Undo --rangecompress",
      [](Op& op) { return IBA::rangeexpand(op.dst, op.a(), op.flag("luma")); }, luma},
-    {"noise", 1, "Add noise", noise, noise_modifiers()},
+    {"noise", 1, "Add noise", noise, noise_modifiers() + "nchannels=N: channels that get noise"},
     {"premult", 1, "Multiply the colour by alpha",
      [](Op& op) { return IBA::premult(op.dst, op.a()); }},
     {"unpremult", 1, "Divide the colour by alpha",
@@ -124,10 +124,14 @@ bool add_noise(Op& op, bool to_blank) {
         float first_value, second_value;
     } kinds[] = {{"gaussian", "mean", "stddev", middle, 0.1F},
                  {"uniform", "min", "max", middle, to_blank ? 1 : 0.1F},
+                 {"white", "min", "max", middle, to_blank ? 1 : 0.1F},
+                 {"blue", "min", "max", middle, to_blank ? 1 : 0.1F},
                  {"salt", "value", "portion", 0, to_blank ? 0.1F : 0.01F}};
     const std::string type = op.text("type", "gaussian");
     OIIO::ROI roi = op.dst.roi();
-    roi.chend = std::min(roi.chend, op.integer("nchannels", roi.chend));
+    if (!to_blank) {
+        roi.chend = std::min(roi.chend, op.integer("nchannels", roi.chend));
+    }
     for (const auto& kind : kinds) {
         if (type == kind.type) {
             return IBA::noise(op.dst, type, op.number(kind.first, kind.first_value),
@@ -136,11 +140,11 @@ bool add_noise(Op& op, bool to_blank) {
         }
     }
     throw CommandError("Unknown noise type \"" + type + "\"" +
-                       (op.session.compat ? "" : " (valid: gaussian, uniform, salt)"));
+                       (op.session.compat ? "" : " (valid: gaussian, uniform, white, blue, salt)"));
 }
 
 std::string noise_modifiers() {
-    return "type=gaussian|uniform|salt: kind (gaussian)\n"
+    return "type=gaussian|uniform|white|blue|salt: kind (gaussian)\n"
            "mean=X: of gaussian noise (0)\n"
            "stddev=X: of gaussian noise (0.1)\n"
            "min=X: of uniform noise (0)\n"
@@ -148,8 +152,7 @@ std::string noise_modifiers() {
            "value=X: of salt noise (0)\n"
            "portion=X: of pixels with salt (0.01)\n"
            "mono=0|1: the same in all channels\n"
-           "seed=N: seed (0)\n"
-           "nchannels=N: channels that get noise\n";
+           "seed=N: seed (0)\n";
 }
 
 std::vector<Command> arithmetic_commands() {

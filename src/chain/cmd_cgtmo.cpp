@@ -115,7 +115,7 @@ std::vector<Modifier> cgtmo_modifiers() {
            "lmax of the lights in the picture, their groups, the panorama, the image (the first "
            "there is)"},
           {"maxpercentile", "X", "of groups and image, instead of their largest (100)"},
-          {"lightindex", "LAYER", "index of each pixel's light; groups: by the groups (found)"}},
+          {"lightindex", "LAYER|FILE", "index of each pixel's light; groups: by the groups (found)"}},
          light_modifiers(),
          {{"bias", "X", "of Drago's curve (0.85)"},
           {"ldmax", "X", "cd/m2 of the display (100)"},

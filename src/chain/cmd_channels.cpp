@@ -125,11 +125,20 @@ void rangecheck(const Op& op) {
     print_count(op.session, within, "within range");
 }
 
+const char* const count_help = "n=N: so many images instead of two\n";
+
 const std::vector<OpRow> rows = {
     {"ch CHANLIST", 1, "Select or shuffle channels (\"R,G,B\", \"2,1,0\", \"R,G=0.5,B,A=1.0\")", ch,
      "", Scope::Levels},
-    {"chappend", 2, "The channels of the last two images in one",
-     [](Op& op) { return IBA::channel_append(op.dst, op.a(), op.b()); }},
+    {"chappend", 2, "The channels of the last two images (or n=) in one",
+     [](Op& op) {
+         op.dst.copy(op.a());
+         for (size_t i = 1; i < op.src.size(); ++i) {
+             op.dst = IBA::channel_append(op.dst, *op.src[i]);
+         }
+         return !op.dst.has_error();
+     },
+     count_help},
 };
 
 std::vector<Command> subimage_commands() {
@@ -141,8 +150,10 @@ std::vector<Command> subimage_commands() {
         row("subimage INDEX", 1, 1, "Select one subimage by index or name", run_subimage,
             "delete=0|1: keep all but this one"),
         row("sisplit", 1, any_number, "An image of its own for each subimage", run_sisplit),
-        row("siappend", 2, 1, "The subimages of the last two images in one image",
-            [](Session& session, const Call& call) { push_appended(session, call.images); }),
+        row(
+            "siappend", 2, 1, "The subimages of the last two images (or n=) in one image",
+            [](Session& session, const Call& call) { push_appended(session, call.images); },
+            count_help),
         row("siappendall", 0, any_number, "The subimages of all images of the stack in one image",
             [](Session& session, const Call&) { push_appended(session, take_images(session, 0)); }),
         row("selectmip MIPLEVEL", 1, 1, "Select one MIP level (0: the largest)",
@@ -160,6 +171,13 @@ std::vector<Command> subimage_commands() {
 std::vector<Command> channel_commands() {
     std::vector<Command> all = op_rows(Group::Channels, rows);
     append(all, subimage_commands());
+    for (Command& row : all) {
+        if (row.label() == "chappend" || row.label() == "siappend") {
+            row.pops_of = [](const Call& call) {
+                return call.integer("n", {1, 1000}).value_or(call.row().pops);
+            };
+        }
+    }
     all.push_back(free_row(
         Group::Print, "colorcount COLORLIST", 1, 1,
         "Count the pixels of each colour (COLOR;COLOR...)",

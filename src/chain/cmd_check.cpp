@@ -14,6 +14,11 @@ std::vector<Command> check_commands() {
         row("json", {"FILE"}, "Write what was found in all frames, at the end, as JSON"),
         row("csv", {"FILE"}, "Write a table of all frames, a line each"),
         row("junit", {"FILE"}, "Write a test case for each frame, as CI systems read them"),
+        row("report", {"FILE.html"},
+            "Write a page to look at: verdict, curve, worst frames, pictures, faults"),
+        row("contactsheet", {"FILE"}, "Write an image of all frames as thumbnails"),
+        row("pictures", {"DIR"},
+            "Keep the pictures of the report in that folder; with --merge, take them from there"),
         row("state", {"DIR"},
             "Keep each finished frame's result in that folder: a run that was killed goes on, and "
             "frames whose files have changed are checked anew"),

@@ -1,11 +1,11 @@
 // Commands that measure luminance, change exposure, and show values as colours.
-#include <OpenImageIO/imagebufalgo.h>
 #include <OpenImageIO/strutil.h>
 
 #include "chain/colormap.h"
 #include "chain/error.h"
 #include "chain/first_part.h"
 #include "chain/flip_args.h"
+#include "chain/ops.h"
 
 namespace tonetool::chain {
 
@@ -62,51 +62,40 @@ void run_luminance(Session& session, const Call& call) {
     session.push(call.images[0]);
 }
 
-// oiiotool's: of the first channel, as linear light.
+// oiiotool's: of the luminance, as linear light.
 OIIO::ImageBuf linear_colors(const OIIO::ImageBuf& pixels, const std::string& map) {
-    std::vector<float> knots;
-    const bool list = map.find(',') != std::string::npos;
-    for (const std::string& word : list ? split(map, ',') : Strings{}) {
-        knots.push_back(OIIO::Strutil::stof(word));
+    Floats knots;
+    if (map.find(',') == std::string::npos) {
+        return IBA::color_map(pixels, -1, map);
     }
-    OIIO::ImageBuf result =
-        list ? OIIO::ImageBufAlgo::color_map(pixels, 0, int(knots.size()) / 3, 3, knots)
-             : OIIO::ImageBufAlgo::color_map(pixels, 0, map);
-    if (result.has_error()) {
-        throw CommandError(result.geterror());
-    }
-    return result;
+    OIIO::Strutil::extract_from_list_string(knots, map);
+    return IBA::color_map(pixels, -1, int(knots.size()) / 3, 3, knots);
 }
 
-void run_colormap(Session& session, const Call& call) {
-    const Image& image = *call.images[0];
-    if (session.compat) {
-        OIIO::ImageBuf result = linear_colors(flat_pixels(image), call.argument(0));
-        session.push(Image::derived(image, std::move(result)));
-        return;
-    }
-    check_colormap(call.argument(0));
-    warn_of_other_parts(session, call, image);
-    session.push(Image::derived(image, colored(flat_pixels(image), call.argument(0))));
+bool colormap(Op& op) {
+    const std::string& map = op.call.argument(0);
+    op.dst = op.session.compat ? linear_colors(op.a(), map)
+                               : colored(flat_pixels(*op.call.images.front()), map);
+    return !op.dst.has_error();
 }
 
 } // namespace
 
 std::vector<Command> color_commands() {
-    return {
-        {{{"exposure"}, {"STOPS"}, 1, 1, Group::Color},
-         pixel_modifiers(),
-         "Multiply the colour by 2^STOPS",
-         run_exposure},
-        {{{"colormap"}, {"MAPNAME"}, 1, 1, Group::Color},
-         {},
-         "Show values as colours: " + join(ToneAlgo::color_maps(), ", ") + ", or RGB triples",
-         run_colormap},
-        {{{"luminancestats"}, {}, 1, 1, Group::Measure},
-         pixel_modifiers(),
-         "Print the luminance statistics of the current image",
-         run_luminance},
-    };
+    std::vector<Command> all = op_rows(
+        Group::Color,
+        {{"colormap MAPNAME", 1,
+          "Show values as colours: " + join(ToneAlgo::color_maps(), ", ") + ", or RGB triples",
+          colormap}});
+    all.push_back({{{"exposure"}, {"STOPS"}, 1, 1, Group::Color},
+                   pixel_modifiers(),
+                   "Multiply the colour by 2^STOPS",
+                   run_exposure});
+    all.push_back({{{"luminancestats"}, {}, 1, 1, Group::Measure},
+                   pixel_modifiers(),
+                   "Print the luminance statistics of the current image",
+                   run_luminance});
+    return all;
 }
 
 } // namespace tonetool::chain

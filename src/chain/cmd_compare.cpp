@@ -6,6 +6,7 @@
 #include "chain/first_part.h"
 #include "chain/flip_args.h"
 #include "chain/flip_report.h"
+#include "chain/frame_pictures.h"
 #include "chain/shot_args.h"
 #include "sequence/measurement.h"
 
@@ -15,6 +16,7 @@ namespace {
 
 using Maps = std::vector<OIIO::ImageBuf>;
 using Tests = std::vector<const OIIO::ImageBuf*>;
+using Views = std::vector<OIIO::ImageBuf>;
 using Compare = std::function<bool(Maps&, const OIIO::ImageBuf&, const Tests&)>;
 
 // What the images of a command are looked at for: call.images is the reference and the tests.
@@ -28,10 +30,14 @@ Look same_look(const Call& call, bool again = false) {
     return {pixel_options(call), pixel_options(call), again};
 }
 
-// A map for each test.
-Maps compare(Session& session, const Call& call, const Look& look, const Compare& function) {
-    const auto view = look.again && session.memory == 0 ? color_input : color_source;
-    std::vector<OIIO::ImageBuf> views;
+// A map for each test. `kept` receives the images as they were compared.
+Maps compare(Session& session, const Call& call, const Look& look, const Compare& function,
+             Views* kept = nullptr) {
+    Views own;
+    Views& views = kept ? *kept : own;
+    const auto view = session.painter                     ? shown_input
+                      : look.again && session.memory == 0 ? color_input
+                                                          : color_source;
     for (const ImagePtr& image : call.images) {
         views.push_back(view(session, call, *image, views.empty() ? look.reference : look.tests));
     }
@@ -58,6 +64,25 @@ void report(Session& session, const Call& call, const Summary& summary, size_t t
         session.report(summary_text(label, summary, call.images.front()->name(),
                                     call.images.at(test + 1)->name()));
     }
+}
+
+// The pair for the report; of maps without a bound there are no colours that mean the same in all
+// frames.
+sequence::PictureRequest pair_request(const Views& views, size_t test = 0) {
+    sequence::PictureRequest request;
+    request.reference = &views.at(0);
+    request.test = &views.at(test + 1);
+    return request;
+}
+
+void show_flip(Session& session, const Call& call, sequence::PictureRequest request,
+               const OIIO::ImageBuf& map, const FlipResult& result) {
+    request.error = &map;
+    request.exposures = result.summary.exposures;
+    if (result.exposure_stops.initialized()) {
+        request.stops = &result.exposure_stops;
+    }
+    show(session, call, std::move(request));
 }
 
 bool judge_flip(Session& session, const Call& call, const Thresholds& thresholds,
@@ -110,18 +135,24 @@ void run_hdrflip(Session& session, const Call& call) {
     Thresholds thresholds = thresholds_of(call);
     read_shot_exposures(session, call, options);
     auto exposure_map = call.choice("exposuremap", {"stops", "index"});
-    options.want_exposure_map = exposure_map.has_value();
+    options.want_exposure_map = exposure_map || session.painter;
     options.want_exposures = call.has("saveexposures");
     std::vector<FlipResult> results;
-    Maps maps =
-        compare(session, call, same_look(call), [&](Maps& to, auto& reference, auto& tests) {
+    Views views;
+    Maps maps = compare(
+        session, call, same_look(call),
+        [&](Maps& to, auto& reference, auto& tests) {
             return ToneAlgo::hdr_flip(to, reference, tests, options, &results);
-        });
+        },
+        &views);
     for (size_t i = 0; i < maps.size(); ++i) {
         FlipResult& result = results[i];
         report(session, call, result.summary, i);
         judge_flip(session, call, thresholds, result.summary.pool, i);
         save_exposures(session, call, result, i);
+        sequence::PictureRequest request = pair_request(views, i);
+        request.look = options;
+        show_flip(session, call, std::move(request), maps[i], result);
         if (exposure_map) {
             push_map(session, call,
                      std::move(*exposure_map == "stops" ? result.exposure_stops
@@ -138,12 +169,19 @@ void run_ldrflip(Session& session, const Call& call) {
     read_flip_options(session, call, true, options);
     Thresholds thresholds = thresholds_of(call);
     FlipResult result;
-    Maps maps =
-        compare(session, call, same_look(call), [&](Maps& to, auto& reference, auto& tests) {
+    Views views;
+    Maps maps = compare(
+        session, call, same_look(call),
+        [&](Maps& to, auto& reference, auto& tests) {
             return ToneAlgo::ldr_flip(to[0], reference, *tests[0], options, &result);
-        });
+        },
+        &views);
     report(session, call, result.summary);
     judge_flip(session, call, thresholds, result.summary.pool);
+    sequence::PictureRequest request = pair_request(views);
+    static_cast<FlipOptions&>(request.look) = options;
+    request.hdr = false;
+    show_flip(session, call, std::move(request), maps[0], result);
     push_map(session, call, std::move(maps[0]));
 }
 
@@ -156,18 +194,26 @@ void run_flipdiff(Session& session, const Call& call) {
         check_colormap(*colors);
     }
     (void)call.flag("print", true);
+    options.want_exposure_map = hdr && session.painter;
     FlipResult result;
-    Maps maps =
-        compare(session, call, same_look(call), [&](Maps& to, auto& reference, auto& tests) {
+    Views views;
+    Maps maps = compare(
+        session, call, same_look(call),
+        [&](Maps& to, auto& reference, auto& tests) {
             return hdr ? ToneAlgo::hdr_flip(to[0], reference, *tests[0], options, &result)
                        : ToneAlgo::ldr_flip(to[0], reference, *tests[0], options, &result);
-        });
+        },
+        &views);
     report(session, call, result.summary);
     if (judge_flip(session, call, thresholds, result.summary.pool)) {
         session.print("FAILURE");
     } else if (thresholds.fail) {
         session.report("PASS");
     }
+    sequence::PictureRequest request = pair_request(views);
+    request.look = options;
+    request.hdr = hdr;
+    show_flip(session, call, std::move(request), maps[0], result);
     push_map(session, call, colors ? colored(maps[0], *colors) : std::move(maps[0]));
 }
 
@@ -198,13 +244,22 @@ void run_errormap(Session& session, const Call& call) {
     quantities.insert(quantities.begin(), options.metric);
     Thresholds thresholds = thresholds_of(call, quantities, {decibels ? -1e30 : 0, 1e30});
     ErrorSummary summary;
-    Maps maps =
-        compare(session, call, same_look(call), [&](Maps& to, auto& reference, auto& tests) {
+    Views views;
+    Maps maps = compare(
+        session, call, same_look(call),
+        [&](Maps& to, auto& reference, auto& tests) {
             return ToneAlgo::error_map(to[0], reference, *tests[0], options, &summary);
-        });
+        },
+        &views);
     report(session, call, summary);
     auto pooled = ToneAlgo::flip_quantity(summary.pool, thresholds.quantity);
     judge(session, call, thresholds, {pooled.value_or(summary.value), !pooled && decibels});
+    sequence::PictureRequest request = pair_request(views);
+    request.look.pixels = options.pixels;
+    request.look.size = options.size;
+    request.exposures = summary.exposures;
+    request.error = options.metric == "smape" || options.metric == "mpsnr" ? &maps[0] : nullptr;
+    show(session, call, std::move(request));
     push_map(session, call, std::move(maps[0]));
 }
 

@@ -3,6 +3,7 @@
 #include <cstdio>
 
 #include "chain/ops.h"
+#include "imagebuf/oiio_compat.h"
 
 namespace tonetool::chain {
 
@@ -101,8 +102,12 @@ std::vector<OIIO::ImageBuf> fitted(const Session& session, const Call& call,
         const OIIO::ImageBuf& pixels = image->part().pixels();
         const OIIO::ROI cell(0, int(size ? size->width : 0), 0, int(size ? size->height : 0), 0, 1,
                              0, pixels.nchannels());
-        all.push_back(cell.npixels() > 0 ? IBA::fit(pixels, "", 0, "letterbox", false, cell)
-                                         : pixels.copy(OIIO::TypeUnknown));
+        OIIO::ImageBuf& fitted = all.emplace_back();
+        if (cell.npixels() > 0) {
+            oiio::fit(fitted, pixels, "", "letterbox", false, cell);
+        } else {
+            fitted = pixels.copy(OIIO::TypeUnknown);
+        }
     }
     return all;
 }

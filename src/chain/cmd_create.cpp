@@ -21,7 +21,7 @@ OIIO::ImageBuf blank(Session& session, const Call& call, size_t first) {
         if (!session.compat) {
             throw CommandError(why + " (valid: 1 to 1024)");
         }
-        session.warning(call.row().label(), why);
+        session.warning(call.text(), why);
         channels = 3;
     }
     OIIO::ImageSpec spec(window.width(), window.height(), channels,
@@ -63,13 +63,20 @@ bool fill(Op& op, const OIIO::ROI& window) {
     if (Corners two = colors(op, {"top", "bottom"}); !two.empty()) {
         return IBA::fill(op.dst, two[0], two[1], window);
     }
+    if (Corners two = colors(op, {"left", "right"}); !two.empty()) {
+        return IBA::fill(op.dst, two[0], two[1], two[0], two[1], window);
+    }
+    if (!op.call.has("color") && op.session.compat && op.call.row().label() == "pattern") {
+        return true; // black, without a word
+    }
     if (!op.call.has("color")) {
         const std::string why = "No recognized fill parameters";
         if (!op.session.compat) {
-            throw CommandError(why + " (valid: color=, or top= and bottom=, or topleft=, "
+            throw CommandError(why + " (valid: color=, or top= and bottom=, or left= and "
+                                     "right=, or topleft=, "
                                      "topright=, bottomleft= and bottomright=)");
         }
-        op.session.warning(op.call.row().label(), why + ": filling with white.");
+        op.session.warning(op.call.text(), why + ": filling with white.");
     }
     return IBA::fill(op.dst, op.values("color", 1), window);
 }
@@ -97,15 +104,15 @@ bool draw_pattern(Op& op, const std::string& pattern) {
     if (!op.session.compat) {
         check_choice("pattern", pattern, names);
     } else if (pattern != "black") {
-        op.session.warning(op.call.row().label(), "Unknown pattern \"" + pattern + "\"");
+        op.session.warning(op.call.text(), "Unknown pattern \"" + pattern + "\"");
     }
     return true;
 }
 
 void run_pattern(Session& session, const Call& call) {
     OIIO::ImageBuf image = blank(session, call, 1);
-    const Token pattern = parse_token("--" + call.argument(0));
-    const Call own(call.row(), pattern, {});
+    const Token pattern = parse_token("--" + call.argument(0), session.compat);
+    const Call own(call.row(), pattern, {}, session.compat);
     Op op{session, own, image, {&image}};
     draw_pattern(op, pattern.name);
     push_created(session, std::move(image));
@@ -203,6 +210,8 @@ bool text(Op& op) {
 const std::string color = "color=VALUES: one value, or one per channel (1)\n";
 const std::string ramps = color + "top=VALUES: colour at the top, to bottom=\n"
                                   "bottom=VALUES: colour at the bottom\n"
+                                  "left=VALUES: colour at the left, to right=\n"
+                                  "right=VALUES: colour at the right\n"
                                   "topleft=VALUES: colour of a corner, with the other three\n"
                                   "topright=VALUES: colour of a corner\n"
                                   "bottomleft=VALUES: colour of a corner\n"

@@ -25,26 +25,38 @@ std::string values_at(const OIIO::ImageBuf& image, const Results& found) {
     return join(words, ", ");
 }
 
-void print_report(Session& session, const OIIO::ImageBuf& a, const OIIO::ImageBuf& b,
-                  const Results& found) {
-    const double pixels = double(std::max(a.spec().image_pixels(), b.spec().image_pixels()));
-    const DiffLimits& limits = session.diff;
-    const OIIO::ImageSpec& named = a.nchannels() > found.maxc ? a.spec() : b.spec();
-    session.out << format("  Mean error = {:g}\n  RMS error = {:g}\n  Peak SNR = {:g}\n",
-                          found.meanerror, found.rms_error, found.PSNR);
+void print_maximum(Session& session, const OIIO::ImageBuf& a, const OIIO::ImageBuf& b,
+                   const Results& found) {
     session.out << format("  Max error  = {:g}", found.maxerror);
     if (found.maxerror != 0) {
-        std::string layer = a.spec().depth > 1 ? format("{}, ", found.maxz) : "";
-        session.out << format(" @ ({}, {}, {}{})  values are {} vs {}", found.maxx, found.maxy,
-                              layer, named.channel_name(found.maxc), values_at(a, found),
-                              values_at(b, found));
+        const OIIO::ImageSpec& named = a.nchannels() > found.maxc ? a.spec() : b.spec();
+        session.out << format(" @ ({}, {}, {}{})", found.maxx, found.maxy,
+                              a.spec().depth > 1 ? format("{}, ", found.maxz) : "",
+                              named.channel_name(found.maxc));
+    }
+    if (found.maxerror != 0 && !a.deep() && !b.deep()) {
+        session.out << format("  values are {} vs {}", values_at(a, found), values_at(b, found));
     }
     session.out << '\n';
-    const std::pair<OIIO::imagesize_t, float> counts[] = {{found.nwarn, limits.warn},
-                                                          {found.nfail, limits.fail}};
-    for (const auto& [count, limit] : counts) {
-        session.out << format("  {} pixels ({:.3g}%) over {:g}\n", count,
-                              100.0 * double(count) / pixels, limit);
+}
+
+void print_report(Session& session, const OIIO::ImageBuf& a, const OIIO::ImageBuf& b,
+                  const Results& found, bool perceptual) {
+    const double pixels = double(std::max(a.spec().image_pixels(), b.spec().image_pixels()));
+    const DiffLimits& limits = session.diff;
+    if (!perceptual) {
+        session.out << format("  Mean error = {:g}\n  RMS error = {:g}\n  Peak SNR = {:g}\n",
+                              found.meanerror, found.rms_error, found.PSNR);
+    }
+    print_maximum(session, a, b, found);
+    const std::pair<OIIO::imagesize_t, std::string> counts[] = {
+        {found.nwarn, format("over {:g}", limits.warn)},
+        {found.nfail, format("over {:g}", limits.fail)},
+        {found.nfail, "failed the perceptual test"}};
+    for (size_t i = 0; i < (perceptual ? 3 : 2); ++i) {
+        const auto& [count, what] = counts[i];
+        session.out << format("  {} pixels ({:.3g}%) {}\n", count, 100.0 * double(count) / pixels,
+                              what);
     }
 }
 
@@ -102,56 +114,61 @@ void complete_record(Session& session, const Call& call, size_t before, Verdict 
     }
 }
 
-Verdict compare_pixels(Session& session, const OIIO::ImageBuf& a, const OIIO::ImageBuf& b,
-                       bool perceptual) {
-    const double pixels = double(std::max(a.spec().image_pixels(), b.spec().image_pixels()));
-    Results found;
+// Once something differs, all that follows is reported.
+void compare_pixels(Session& session, const OIIO::ImageBuf& a, const OIIO::ImageBuf& b,
+                    bool perceptual, const std::string& heading, Verdict& worst) {
+    Results found{};
     if (perceptual) {
         found.nfail = OIIO::imagesize_t(OIIO::ImageBufAlgo::compare_Yee(a, b, found));
-        found.nwarn = 0;
-        if (found.nfail > 0) {
-            session.out << format("  {} pixels ({:.3g}%) failed the perceptual test\n", found.nfail,
-                                  100.0 * double(found.nfail) / pixels);
-        }
-        const Verdict verdict = judge(found, session.diff, pixels);
-        record(session, found, pixels, verdict);
-        return verdict;
+    } else {
+        found = OIIO::ImageBufAlgo::compare(a, b, session.diff.fail, session.diff.warn);
     }
-    found = OIIO::ImageBufAlgo::compare(a, b, session.diff.fail, session.diff.warn);
     if (a.has_error() || b.has_error()) {
         throw CommandError(a.has_error() ? a.geterror() : b.geterror());
     }
-    Verdict verdict = judge(found, session.diff, pixels);
+    const double pixels = double(std::max(a.spec().image_pixels(), b.spec().image_pixels()));
+    const Verdict verdict = judge(found, session.diff, pixels);
     record(session, found, pixels, verdict);
-    if (verdict != Verdict::Pass || (session.verbose && found.maxerror > 0)) {
-        print_report(session, a, b, found);
+    worst = std::max(worst, verdict);
+    if (worst != Verdict::Pass || session.verbose) {
+        session.out << heading;
+        print_report(session, a, b, found, perceptual);
     }
-    return verdict;
+}
+
+Verdict compare_parts(Session& session, Part& a, Part& b, bool perceptual, size_t subimage,
+                      Verdict worst) {
+    const bool all = session.all_subimages;
+    for (int level = 0; level < (all ? a.mip_levels() : 1); ++level) {
+        if (level > 0 && a.mip_levels() != b.mip_levels()) {
+            session.print("Files do not match in their number of MIPmap levels");
+            return Verdict::Failure;
+        }
+        const OIIO::ImageSpec& spec = a.header(level);
+        const std::string heading = format("Subimage {} {}: {} x {}, {} channel\n", subimage,
+                                           level > 0 ? format(" MIP level {} ", level) : "",
+                                           spec.width, spec.height, spec.nchannels);
+        compare_pixels(session, a.pixels(level), b.pixels(level), perceptual, all ? heading : "",
+                       worst);
+    }
+    return worst;
 }
 
 Verdict compare_images(Session& session, const Image& a, const Image& b, bool perceptual) {
-    const size_t parts = std::min(a.part_count(), b.part_count());
+    const size_t parts = session.all_subimages ? std::min(a.part_count(), b.part_count()) : 1;
+    Verdict worst = Verdict::Pass;
+    for (size_t s = 0; s < parts; ++s) {
+        worst = compare_parts(session, a.part(s), b.part(s), perceptual, s, worst);
+    }
     if (session.all_subimages && a.part_count() != b.part_count()) {
         session.print(format("Images had differing numbers of subimages ({} vs {})", a.part_count(),
                              b.part_count()));
         return Verdict::Failure;
     }
-    if (!session.all_subimages && (a.part_count() > 1 || b.part_count() > 1)) {
+    if (a.part_count() > parts || b.part_count() > parts) {
         session.print(format("Only compared the first subimage (of {} and {}, respectively)",
                              a.part_count(), b.part_count()));
         session.warnings += session.compat ? 0 : 1;
-    }
-    Verdict worst = Verdict::Pass;
-    for (size_t s = 0; s < (session.all_subimages ? parts : 1); ++s) {
-        Part &first = a.part(s), &second = b.part(s);
-        if (session.all_subimages && first.mip_levels() != second.mip_levels()) {
-            session.print("Files do not match in their number of MIPmap levels");
-            return Verdict::Failure;
-        }
-        for (int level = 0; level < (session.all_subimages ? first.mip_levels() : 1); ++level) {
-            worst = std::max(worst, compare_pixels(session, first.pixels(level),
-                                                   second.pixels(level), perceptual));
-        }
     }
     return worst;
 }

@@ -27,7 +27,7 @@ bool blur(Op& op) {
     OIIO::ImageBuf kernel =
         IBA::make_kernel(op.text("kernel", "gaussian"), size.width, size.height, 1.0F, true);
     if (kernel.has_error()) {
-        throw CommandError(kernel.geterror());
+        throw CommandError(kernel.geterror(), "", true);
     }
     return IBA::convolve(op.dst, op.a(), kernel);
 }
@@ -39,20 +39,20 @@ bool unsharp(Op& op) {
 
 bool fixnan(Op& op) {
     const std::string& strategy = op.call.argument(0);
-    auto mode = strategy == "black"  ? IBA::NONFINITE_BLACK
-                : strategy == "box3" ? IBA::NONFINITE_BOX3
-                                     : IBA::NONFINITE_ERROR;
-    if (strategy != "none" && strategy != "black" && strategy != "box3" && strategy != "error") {
+    auto mode = strategy == "black"   ? IBA::NONFINITE_BLACK
+                : strategy == "error" ? IBA::NONFINITE_ERROR
+                                      : IBA::NONFINITE_BOX3;
+    if (strategy == "none" && !op.session.compat) {
+        mode = IBA::NONFINITE_NONE;
+    } else if (strategy != "black" && strategy != "box3" && strategy != "error") {
         const std::string why = "\"" + strategy +
                                 "\" not recognized. Valid choices: black, box3, "
                                 "error";
         if (!op.session.compat) {
             throw CommandError(why);
         }
-        op.session.warning(op.call.row().label(), why);
-        mode = IBA::NONFINITE_NONE;
+        op.session.warning(op.call.text(), why);
     }
-    mode = strategy == "none" ? IBA::NONFINITE_NONE : mode;
     return IBA::fixNonFinite(op.dst, op.a(), mode);
 }
 

@@ -63,7 +63,7 @@ void run_memory(Session& session, const Call& call) {
     give_memory_back();
 }
 
-void run_oiioattrib(Session&, const Call& call) {
+void run_oiioattrib(Session& session, const Call& call) {
     const std::string &name = call.argument(0), &value = call.argument(1);
     const std::string type = call.text("type").value_or("");
     auto whole = parse_integer(value);
@@ -71,7 +71,7 @@ void run_oiioattrib(Session&, const Call& call) {
     bool known = type == "string" || (type.empty() && !number) ? OIIO::attribute(name, value)
                  : type == "float" || !whole ? OIIO::attribute(name, float(number.value_or(0)))
                                              : OIIO::attribute(name, *whole);
-    if (!known) {
+    if (!known && !session.compat) {
         throw CommandError("unknown attribute \"" + name + "\" of OpenImageIO");
     }
 }
@@ -140,7 +140,9 @@ std::vector<Command> general_commands() {
             }),
         row({"autopremult"}, {}, "Multiply colour by an alpha that is not associated",
             [](Session& session, const Call&) {
-                session.input.config.erase_attribute("oiio:UnassociatedAlpha");
+                if (session.input.config.find_attribute("oiio:UnassociatedAlpha")) {
+                    session.input.config.attribute("oiio:UnassociatedAlpha", 0);
+                }
             }),
         row({"autoorient"}, {}, "--reorient every image that is read",
             [](Session& session, const Call&) { session.autoorient = true; }),

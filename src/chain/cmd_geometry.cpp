@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "chain/ops.h"
+#include "imagebuf/oiio_compat.h"
 
 namespace tonetool::chain {
 
@@ -82,7 +83,7 @@ bool scale_to(Op& op, const OIIO::ROI& display, bool resample) {
     const OIIO::ROI roi = op.dst.roi();
     return resample ? IBA::resample(op.dst, op.a(), op.flag("interp", true), roi)
                     : filtered(op, [&](const OIIO::ImageBuf& from) {
-                          return IBA::resize(op.dst, from, op.text("filter"), 0, roi);
+                          return oiio::resize(op.dst, from, op.text("filter"), roi);
                       });
 }
 
@@ -98,8 +99,8 @@ bool fit(Op& op) {
     const OIIO::ROI display = asked_window(op, op.a().roi_full(), Geometry::Window);
     const OIIO::ROI size(0, display.width(), 0, display.height(), 0, 1, 0, op.a().nchannels());
     bool done = filtered(op, [&](const OIIO::ImageBuf& from) {
-        return IBA::fit(op.dst, from, op.text("filter"), 0, op.text("fillmode", "letterbox"),
-                        op.flag("exact"), size);
+        return oiio::fit(op.dst, from, op.text("filter"), op.text("fillmode", "letterbox"),
+                         op.flag("exact"), size);
     });
     op.dst.set_roi_full(display);
     OIIO::ImageBuf padded;
@@ -150,12 +151,16 @@ bool rotate(Op& op) {
 bool warp(Op& op) {
     const Floats m = op.list("MATRIX", op.call.argument(0));
     if (m.size() != 9) {
-        throw CommandError("expected 9 comma-separated floats to form a 3x3 matrix");
+        throw CommandError("expected 9 comma-separated floats to form a 3x3 matrix", "", true);
     }
     const float matrix[3][3] = {{m[0], m[1], m[2]}, {m[3], m[4], m[5]}, {m[6], m[7], m[8]}};
+    const std::string wrap = op.text("wrap", "black");
+    if (!op.session.compat) {
+        check_choice("wrap", wrap, {"black", "clamp", "periodic", "mirror"});
+    }
     return filtered(op, [&](const OIIO::ImageBuf& from) {
         return IBA::warp(op.dst, from, matrix, op.text("filter"), 0, op.flag("recompute_roi"),
-                         OIIO::ImageBuf::WrapBlack);
+                         OIIO::ImageBuf::WrapMode_from_string(wrap));
     });
 }
 
@@ -165,7 +170,8 @@ bool cshift(Op& op) {
     bool found = std::sscanf(text.c_str(), "%d%d%n", &x, &y, &end) == 2;
     if (!found || (!op.session.compat && size_t(end) < text.size())) {
         throw CommandError("Invalid shift offset '" + text + "'" +
-                           (op.session.compat ? "" : " (valid: +X+Y)"));
+                               (op.session.compat ? "" : " (valid: +X+Y)"),
+                           "", true);
     }
     return IBA::circular_shift(op.dst, op.a(), x, y);
 }
@@ -204,7 +210,7 @@ const std::vector<OpRow> scale_rows = {
     {"rotate DEGREES", 1, "Rotate clockwise around the middle of the display window", rotate,
      filters + highlights + recompute + "center=X,Y: around this position instead"},
     {"warp MATRIX", 1, "Warp by a 3x3 matrix of 9 numbers with commas between them", warp,
-     filters + highlights + recompute},
+     filters + highlights + recompute + "wrap=MODE: black, clamp, periodic, mirror beyond it"},
     {"st_warp", 2, "Warp the first image by the st coordinates in the second", st_warp,
      filters + "chan_s=N: channel of s (0)\n"
                "chan_t=N: channel of t (1)\n"

@@ -30,14 +30,26 @@ void print_listing(Session& session, const Call& call, Listing what) {
     what.metamatch = session.list.metamatch;
     what.no_metamatch = session.list.no_metamatch;
     session.push(call.images[0]);
-    session.out << listing_text(*call.images[0], what);
+    try {
+        session.out << listing_text(*call.images[0], what);
+    } catch (const ReadError& problem) {
+        if (!session.compat || !what.stats) {
+            throw;
+        }
+        session.error("read", problem.why);
+        session.print(OIIO::Strutil::rstrip(header_text(*call.images[0], 0, false)));
+        throw CommandError("unable to compute: " + problem.why + "\nError reading from \"" +
+                               call.images[0]->name() + "\" (subimg=0, mip=0, tile@0,0,0)",
+                           "stats");
+    }
     session.produced = session.produced_by_name = true;
 }
 
 void run_printinfo(Session& session, const Call& call) {
     Listing what;
     what.verbose = call.flag("verbose", true);
-    what.format = call.choice("format", {"text", "xml"}).value_or("");
+    const auto format = call.choice("format", {"text", "xml"});
+    what.format = session.compat ? "" : format.value_or(""); // oiiotool takes no notice of it
     print_listing(session, call, what);
 }
 
@@ -69,7 +81,9 @@ void run_echo(Session& session, const Call& call) {
 void run_list_formats(Session& session, const Call&) {
     session.print("All OIIO supported formats and their extensions:");
     Strings entries = OIIO::Strutil::splits(OIIO::get_string_attribute("extension_list"), ";");
-    std::sort(entries.begin(), entries.end());
+    std::sort(entries.begin(), entries.end(), [](const std::string& a, const std::string& b) {
+        return a.substr(0, a.find(':')) < b.substr(0, b.find(':'));
+    });
     for (const std::string& entry : entries) {
         const std::vector<std::string> words = OIIO::Strutil::splits(entry, ":");
         session.print("    " + words[0] + " : " +

@@ -4,6 +4,7 @@
 #include <OpenImageIO/strutil.h>
 #include <algorithm>
 #include <cstdio>
+#include <map>
 #include <sstream>
 
 #include "chain/error.h"
@@ -18,22 +19,9 @@ namespace tonetool::chain {
 
 namespace {
 
-// What is computed is written in the widest type of the image that was read last.
-void note_format(Session& session, const Image& image) {
-    DataFormat format{image.part().format()->type, {}, image.part().format()->bits};
-    for (const PartPtr& part : image.parts()) {
-        format.type =
-            OIIO::TypeDesc(OIIO::TypeDesc::basetype_merge(format.type, part->format()->type));
-    }
-    session.read_format = format;
-    if (!session.first_header) {
-        session.first_header = image.part().header();
-    }
-}
-
 // Of the same file in another frame, or of the first image that was read.
 OIIO::ImageSpec missing_header(const Session& session) {
-    const OIIO::ImageSpec usual(1920, 1080, 4, OIIO::TypeFloat);
+    const OIIO::ImageSpec usual(1920, 1080, 4, OIIO::TypeHalf);
     if (session.compat || session.first_header) {
         return session.first_header.value_or(usual);
     }
@@ -49,22 +37,31 @@ OIIO::ImageSpec missing_header(const Session& session) {
 // What --missingfile puts in the place of a file that is not there.
 ImagePtr substitute(Session& session, const std::string& filename) {
     OIIO::ImageSpec spec = missing_header(session);
+    const DataFormat format{spec.format, {}, 0};
     spec.set_format(OIIO::TypeFloat);
     spec.extra_attribs.clear();
     OIIO::ImageBuf pixels(spec);
-    const std::vector<float> black(size_t(spec.nchannels), 0.0f), white(black.size(), 1.0f);
+    std::vector<float> black(size_t(spec.nchannels), 0.0f);
+    const std::vector<float> white(black.size(), 1.0f);
+    if (spec.alpha_channel >= 0) { // only the checker's
+        black[size_t(spec.alpha_channel)] = 1;
+    }
     session.missing_file == "black" ? OIIO::ImageBufAlgo::zero(pixels)
                                     : OIIO::ImageBufAlgo::checker(pixels, 64, 64, 1, black, white);
-    return Image::created(filename, std::move(pixels));
+    return Image::created(filename, std::move(pixels), format);
 }
 
 ImagePtr open_or_substitute(Session& session, const std::string& filename) {
-    if (session.missing_file == "error" || OIIO::Filesystem::exists(filename)) {
+    const bool exists = OIIO::Filesystem::exists(filename);
+    if (session.compat && !exists && !session.input.config.extra_attribs.empty()) {
+        throw CommandError("Could not open file \"" + filename + "\"");
+    }
+    if (exists || (session.missing_file != "black" && session.missing_file != "checker")) {
         return Image::open(filename, session.input);
     }
     const std::string missing = "File does not exist: \"" + filename + "\"";
     if (session.compat) {
-        session.error("read", missing);
+        session.error("read", missing, false);
     } else {
         session.warning("read", missing + ", " + session.missing_file + " instead");
     }
@@ -101,7 +98,9 @@ void push_file(Session& session, const std::string& filename) {
     ImagePtr image = open_or_substitute(session, filename);
     bool real = image->part().from_file();
     if (real) {
-        note_format(session, *image);
+        if (!session.first_header) {
+            session.first_header = image->part().header();
+        }
         session.newest_input =
             std::max(session.newest_input, OIIO::Filesystem::last_write_time(filename));
     }
@@ -153,7 +152,7 @@ void run_input(Session& session, const Call& call) {
     const ReadOptions usual = session.input;
     const bool autocc = session.autocc, unpremult = session.autocc_unpremult;
     if (auto type = call.text("type")) {
-        session.input.type = parse_data_type("data format", *type).type;
+        session.input.type = parse_data_type(session, *type).type;
     }
     session.autocc = call.flag("autocc", autocc);
     session.autocc_unpremult = call.flag("unpremult", unpremult);
@@ -169,6 +168,7 @@ void run_input(Session& session, const Call& call) {
         session.stack.back()->part().pixels();
     }
     if (auto list = call.text("ch")) {
+        session.stack.back()->noted = session.compat; // so float, as oiiotool
         run_command(session, "ch", {*list});
     }
 }
@@ -183,14 +183,18 @@ void set_tile(OutputSettings& settings, const std::string& text) {
 OutputSettings settings_of(const Session& session, const Call& call) {
     OutputSettings settings = session.output;
     if (auto name = call.text("datatype")) {
-        settings.type = parse_data_type("data format", *name);
+        settings.type = parse_data_type(session, *name);
         settings.type_of_channel.clear();
     }
     if (auto bits = call.integer("bits", {1, 32})) {
-        settings.type = settings.type.value_or(NamedType{OIIO::TypeUInt16, 0});
-        settings.type->bits = *bits;
+        if (!settings.type && !session.compat) { // oiiotool takes no notice of it then
+            settings.type = NamedType{OIIO::TypeUInt16, 0};
+        }
+        if (settings.type) {
+            settings.type->bits = *bits;
+        }
     }
-    if (auto compression = call.text("compression")) {
+    if (auto compression = call.text("compression"); compression && !session.compat) {
         check_compression(*compression);
         settings.compression = *compression;
     }
@@ -250,7 +254,7 @@ bool keeps_old(Session& session, const std::string& filename) {
         session.warning("-o", filename + " already exists, not overwriting.");
         return true;
     }
-    return session.update && OIIO::Filesystem::exists(filename) &&
+    return session.update && !session.compat && OIIO::Filesystem::exists(filename) &&
            OIIO::Filesystem::last_write_time(filename) > session.newest_input;
 }
 
@@ -260,12 +264,14 @@ void write_one(Session& session, const Call& call, const ImagePtr& image,
         return;
     }
     if (session.verbose) {
+        session.out << (session.debug ? "Output: " + filename + "\n" : "");
         session.print("Writing " + filename);
     }
-    session.produced = true;
+    session.wrote = image->written = true;
     if (session.dry_run) {
         return;
     }
+    session.note_format(*image);
     const OutputSettings settings = settings_of(session, call);
     session.push(image);
     if (call.flag("autocc", session.autocc)) {
@@ -301,39 +307,62 @@ void run_output(Session& session, const Call& call) {
     }
 }
 
-// -otex and its like: every modifier but these is an option of OpenImageIO's make_texture.
-void run_texture(Session& session, const Call& call) {
-    using OIIO::ImageBufAlgo::MakeTextureMode;
-    const Image& image = *call.images[0];
-    const std::string label = call.row().label();
+// What make_texture is to do: its options have the names of the modifiers, but for these.
+OIIO::ImageSpec texture_config(const Session& session, const Call& call) {
+    static const std::map<std::string, std::string> others = {
+        {"filter", "filtername"}, {"prman", "prman_options"}, {"oiio", "oiio_options"}};
     OIIO::ImageSpec config;
     for (const Modifier& modifier : call.row().modifiers) {
-        if (auto value = call.text(modifier.key)) {
-            auto number = parse_integer(*value);
-            number ? config.attribute("maketx:" + modifier.key, *number)
-                   : config.attribute("maketx:" + modifier.key, *value);
+        auto value = call.text(modifier.key);
+        auto other = others.find(modifier.key);
+        const std::string name = "maketx:" + (other == others.end() ? modifier.key : other->second);
+        if (modifier.hint == "0|1") {
+            config.attribute(name, int(call.flag(modifier.key, false)));
+        } else if (modifier.hint == "X" &&
+                   (modifier.key != "fovcot" || (value && !session.compat))) {
+            config.attribute(modifier.key == "fovcot" ? modifier.key : name,
+                             float(call.number(modifier.key, any_number_at_all).value_or(0)));
+        } else if (modifier.hint != "X" && value) {
+            config.attribute(name, *value);
         }
     }
-    if (session.output.type) {
-        config.set_format(session.output.type->type);
+    const std::string wrap = call.text("wrap").value_or("black");
+    config.attribute("wrapmodes",
+                     call.text("swrap").value_or(wrap) + "," + call.text("twrap").value_or(wrap));
+    config.attribute("maketx:bumpformat", call.text("bumpformat").value_or("auto"));
+    config.attribute("maketx:compute_average", 1);
+    config.attribute("maketx:colorconfig", session.color_config);
+    const OutputSettings& output = session.output;
+    config.set_format(output.type ? output.type->type
+                                  : format_of(session, call.images[0]->part()).type);
+    config.tile_width = output.tile_width > 0 ? output.tile_width : 64;
+    config.tile_height = output.tile_width > 0 ? output.tile_height : 64;
+    config.tile_depth = 1;
+    if (!output.compression.empty()) {
+        config.attribute("compression", output.compression);
     }
-    if (!session.output.compression.empty()) {
-        config.attribute("compression", session.output.compression);
-    }
-    config.tile_width = session.output.tile_width;
-    config.tile_height = session.output.tile_height;
-    if (session.output.history) {
+    if (output.history) {
+        // By that name readers trust the average and the hash that are in it.
+        config.attribute("Software",
+                         "OpenImageIO " OIIO_VERSION_STRING " : " + session.command_line);
         config.attribute("maketx:full_command_line", session.command_line);
     }
-    MakeTextureMode mode = label == "oenv"    ? OIIO::ImageBufAlgo::MakeTxEnvLatl
-                           : label == "obump" ? OIIO::ImageBufAlgo::MakeTxBumpWithSlopes
-                                              : OIIO::ImageBufAlgo::MakeTxTexture;
+    return config;
+}
+
+// -otex and its like.
+void run_texture(Session& session, const Call& call) {
+    namespace IBA = OIIO::ImageBufAlgo;
+    const std::string label = call.row().label();
+    const auto mode = label == "oenv"    ? IBA::MakeTxEnvLatl
+                      : label == "obump" ? IBA::MakeTxBumpWithSlopes
+                                         : IBA::MakeTxTexture;
     std::ostringstream told;
-    if (!OIIO::ImageBufAlgo::make_texture(mode, image.part().pixels(), call.argument(0), config,
-                                          &told)) {
-        throw CommandError(std::string(OIIO::Strutil::strip(told.str())) + OIIO::geterror());
+    const OIIO::ImageBuf& pixels = call.images[0]->part().pixels();
+    if (!IBA::make_texture(mode, pixels, call.argument(0), texture_config(session, call), &told)) {
+        throw CommandError("Could not make texture: " + OIIO::geterror(), call.text());
     }
-    session.produced = true;
+    session.wrote = call.images[0]->written = true;
     session.push(call.images[0]);
 }
 
@@ -353,7 +382,7 @@ void run_data_type(Session& session, const Call& call) {
     OutputSettings& output = session.output;
     const std::string& text = call.argument(0);
     if (text.find('=') == std::string::npos) {
-        output.type = parse_data_type("data format", text);
+        output.type = parse_data_type(session, text);
         output.type_of_channel.clear();
         return;
     }
@@ -363,8 +392,14 @@ void run_data_type(Session& session, const Call& call) {
             throw CommandError("Malformed format designator \"" + word +
                                "\" (valid: TYPE or CHANNEL=TYPE)");
         }
-        output.type_of_channel[word.substr(0, equals)] =
-            parse_data_type("data format", word.substr(equals + 1));
+        const std::string type = word.substr(equals + 1);
+        try {
+            output.type_of_channel[word.substr(0, equals)] = parse_data_type(session, type);
+        } catch (const CommandError&) {
+            if (!session.compat) {
+                throw;
+            }
+        }
     }
 }
 
@@ -396,7 +431,9 @@ std::vector<Command> io_commands() {
         free_row(Group::Read, "missingfile POLICY", 0, 0,
                  "What a file that is not there becomes: error, black or checker",
                  [](Session& session, const Call& call) {
-                     check_choice("POLICY", call.argument(0), {"error", "black", "checker"});
+                     if (!session.compat) {
+                         check_choice("POLICY", call.argument(0), {"error", "black", "checker"});
+                     }
                      session.missing_file = call.argument(0);
                  }),
         free_row(Group::Write, "o FILENAME", 0, any_number, "Write the current image", run_output,
@@ -445,12 +482,13 @@ std::vector<Command> io_commands() {
         set("nosoftwareattrib", "Do not write the command line into the metadata",
             [](Session& session, const Call&) { session.output.history = false; }),
         set("sansattrib", "Leave --attrib and --sattrib out of the command line that is written",
-            [](Session& session, const Call&) { session.output.arguments_in_history = false; }),
+            [](Session&, const Call&) {}),
     };
     const std::string options =
         "wrap=MODE: black, clamp, periodic, mirror\nswrap=MODE: in x\ntwrap=MODE: in y\n"
         "resize=0|1: to a power of 2\nnomipmap=0|1: the top level only\n"
         "updatemode=0|1: only if the texture would change\n"
+        "constant_color_detect=0|1: one tile where all pixels are the same\n"
         "monochrome_detect=0|1: one channel where all are the same\n"
         "opaque_detect=0|1: without an alpha that is 1 everywhere\n"
         "unpremult=0|1: divide by alpha for the colour conversion\n"

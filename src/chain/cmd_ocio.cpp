@@ -4,6 +4,7 @@
 #include <OpenImageIO/strutil.h>
 
 #include "chain/ops.h"
+#include "imagebuf/oiio_compat.h"
 #include "include/tonetool/write.h"
 
 namespace tonetool::chain {
@@ -48,7 +49,7 @@ bool display(Op& op) {
     if (!op.session.compat) {
         check_view(op.session, name, view);
     }
-    if (op.call.has("looks") && !op.session.compat && OIIO_VERSION < 20500) {
+    if (op.call.has("looks") && !op.session.compat && !oiio::display_takes_looks) {
         throw CommandError("looks= has no effect with OpenImageIO " OIIO_VERSION_STRING
                            " (valid: --ociolook before --ociodisplay)");
     }
@@ -63,7 +64,7 @@ bool matrix(Op& op) {
         m = {m[0], m[1], m[2], 0, m[3], m[4], m[5], 0, m[6], m[7], m[8], 0, 0, 0, 0, 1};
     }
     if (m.size() != 16) {
-        throw CommandError("expected 9 or 16 comma-separated floats to form a matrix");
+        throw CommandError("expected 9 or 16 comma-separated floats to form a matrix", "", true);
     }
     float values[4][4];
     for (size_t i = 0; i < 16; ++i) {

@@ -9,11 +9,7 @@ void label(Session& session, const Call& call) {
     if (call.argument(0).empty()) {
         throw CommandError("empty label");
     }
-    ImagePtr& named = session.labels[call.argument(0)];
-    if (!named) {
-        session.label_order.push_back(call.argument(0));
-    }
-    named = call.images[0];
+    session.labels[call.argument(0)] = call.images[0];
     session.push(call.images[0]);
 }
 

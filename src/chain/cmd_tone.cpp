@@ -14,6 +14,9 @@ namespace {
 void run_colorconfig(Session& session, const Call& call) {
     session.color_config = call.argument(0);
     session.ocio.reset();
+    if (session.compat && color_config(session).has_error()) {
+        throw CommandError(color_config(session).geterror());
+    }
 }
 
 void add_calibration(Lines& lines, const CalibrationSummary& found) {

@@ -10,7 +10,12 @@ namespace tonetool::chain {
 /// Ends the command line with status 1. The text says what was wrong, the value, and what would
 /// be valid; the name of the command is put before it where it is printed.
 struct CommandError : std::runtime_error {
-    using std::runtime_error::runtime_error;
+    explicit CommandError(const std::string& what, std::string name = "", bool repeated = false)
+        : std::runtime_error(what),
+          place(std::move(name)),
+          again(repeated) {}
+    std::string place; ///< with --compat: where oiiotool says it is, if not in the command
+    bool again;        ///< with --compat: as oiiotool, which adds an "unknown error"
 };
 
 /// The pixels of a file that cannot be read; with --compat the text is the reader's alone.

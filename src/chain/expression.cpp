@@ -263,8 +263,13 @@ ImagePtr Evaluator::indexed_image() {
 std::string Evaluator::attribute_name() {
     OIIO::string_view name;
     if (Strutil::parse_char(m_rest, '[')) {
-        std::string key = Strutil::strip(Strutil::parse_until(m_rest, "]"));
-        (void)Strutil::parse_char(m_rest, ']');
+        const bool quoted = !m_rest.empty() && (m_rest.front() == '\'' || m_rest.front() == '"');
+        std::string key = m_session.compat && !quoted
+                              ? Strutil::parse_identifier(m_rest)
+                              : Strutil::strip(Strutil::parse_until(m_rest, "]"));
+        if (!Strutil::parse_char(m_rest, ']')) {
+            fail("expected `]`");
+        }
         return Strutil::strip(key, "'\"");
     }
     if (!Strutil::parse_char(m_rest, '.')) {
@@ -344,24 +349,14 @@ std::string with_values(Session& session, const std::string& word) {
     if (!session.evaluate || word.find('{') == std::string::npos) {
         return word;
     }
-    std::string result;
-    for (size_t at = 0; at < word.size();) {
-        size_t open = word.find('{', at);
-        size_t close = open;
-        for (int depth = 0; close < word.size(); ++close) {
-            depth += word[close] == '{' ? 1 : (word[close] == '}' ? -1 : 0);
-            if (depth == 0) {
-                break;
-            }
-        }
-        if (open == std::string::npos || close >= word.size()) {
-            return result + word.substr(at);
-        }
-        result += word.substr(at, open - at) +
-                  evaluated(session, word.substr(open + 1, close - open - 1));
-        at = close + 1;
+    OIIO::string_view rest = OIIO::string_view(word).substr(word.find('{'));
+    const std::string before = word.substr(0, word.size() - rest.size());
+    const OIIO::string_view nested = Strutil::parse_nested(rest);
+    if (nested.empty()) {
+        return word;
     }
-    return result;
+    const std::string after = with_values(session, rest); // the order of oiiotool's messages
+    return before + evaluated(session, nested.substr(1, nested.size() - 2)) + after;
 }
 
 } // namespace tonetool::chain

@@ -22,6 +22,8 @@ void check_header(const Image& image, const OIIO::ImageSpec& header, const Pixel
     }
 }
 
+} // namespace
+
 void check_color(Session& session, const Call& call, const Image& image,
                  const PixelOptions& options) {
     warn_of_other_parts(session, call, image);
@@ -32,8 +34,6 @@ void check_color(Session& session, const Call& call, const Image& image,
     }
     check_header(image, header, options);
 }
-
-} // namespace
 
 OIIO::ImageBuf color_input(Session& session, const Call& call, const Image& image,
                            const PixelOptions& options) {

@@ -10,6 +10,10 @@ namespace tonetool::chain {
 /// A warning if the image has subimages beyond the first.
 void warn_of_other_parts(Session& session, const Call& call, const Image& image);
 
+/// A CommandError unless the first subimage has the colour that a function is to look at.
+void check_color(Session& session, const Call& call, const Image& image,
+                 const PixelOptions& options);
+
 /// The first subimage for a function that looks at its colour, which is checked to be one; valid as
 /// long as the image is.
 OIIO::ImageBuf color_input(Session& session, const Call& call, const Image& image,

@@ -85,7 +85,8 @@ bool adjust_window(Session& session, const Call& call, const std::string& text, 
     const bool whole = session.compat || size_t(end) == text.size();
     if (found == Found::Nothing || !whole) {
         throw CommandError("Unrecognized geometry \"" + text + "\"" +
-                           (session.compat ? "" : " (valid: " + valid_geometry(allowed) + ")"));
+                           (session.compat ? "" : " (valid: " + valid_geometry(allowed) + ")"),
+                           call.text());
     }
     const bool rescales = found == Found::Scaled && allowed != Geometry::Scalable;
     const bool resizes = found == Found::Sized && allowed == Geometry::Position;
@@ -96,7 +97,7 @@ bool adjust_window(Session& session, const Call& call, const std::string& text, 
             throw CommandError("\"" + text + "\": " + why + " (valid: " + valid_geometry(allowed) +
                                ")");
         }
-        session.warning(call.row().label(), why);
+        session.warning(call.text(), why);
         now.width = old.width;
         now.height = old.height;
     }

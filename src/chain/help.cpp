@@ -48,7 +48,7 @@ std::string usage_text() {
 }
 
 std::string help_text() {
-    std::string text = "tonetool " TONETOOL_VERSION "\n\n" + usage_text();
+    std::string text = "tonetool -- " TONETOOL_VERSION "\n\n" + usage_text();
     for (int group = 0; group < group_count; ++group) {
         std::string rows;
         for (const Command& row : all_commands()) {

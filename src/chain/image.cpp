@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "chain/error.h"
-#include "chain/oiio_compat.h"
+#include "imagebuf/oiio_compat.h"
 
 namespace tonetool::chain {
 
@@ -90,6 +90,7 @@ PartPtr Part::with_headers(PartPtr source, const std::function<void(OIIO::ImageS
 PartPtr Part::of_level(PartPtr source, int level) {
     PartPtr part = with_headers(std::move(source), [](OIIO::ImageSpec&) {});
     part->m_headers = {part->header(level)};
+    part->m_format.reset();
     part->m_pixels.resize(1);
     part->m_first_level = level;
     return part;
@@ -104,7 +105,7 @@ void Part::share(int level) {
         return;
     }
     spec.set_format(pixels.spec().format);
-    m_pixels[size_t(level)] = view_with_spec(pixels, spec);
+    m_pixels[size_t(level)] = oiio::view_with_spec(pixels, spec);
 }
 
 const OIIO::ImageBuf& Part::pixels(int level) {
@@ -146,25 +147,51 @@ void Part::read(int level) {
     if (!spec.deep && !buffer.localpixels()) {
         throw CommandError("not enough memory for \"" + m_file + "\"");
     }
-    bool done = spec.deep ? read_deep_pixels(*input, m_subimage, level, *buffer.deepdata())
-                          : read_flat_pixels(*input, m_subimage, level, spec, buffer.localpixels());
+    bool done = spec.deep
+                    ? oiio::read_deep_pixels(*input, m_subimage, level, *buffer.deepdata())
+                    : oiio::read_flat_pixels(*input, m_subimage, level, spec, buffer.localpixels());
     if (!done || input->has_error()) {
         throw ReadError(m_file, input->geterror());
     }
     m_pixels[size_t(level)] = std::move(buffer);
 }
 
-OIIO::ImageBuf Part::color_view() {
-    const OIIO::ImageBuf& buffer = pixels();
-    OIIO::ImageSpec spec = buffer.spec();
+void Part::tag_encoding(OIIO::ImageSpec& spec) const {
     bool told = spec.find_attribute("oiio:ColorSpace") || spec.find_attribute("chromaticities");
-    if (spec.deep) {
-        return buffer;
-    }
     if (m_integer_encoded && !told) {
         spec.attribute("oiio:ColorSpace", "sRGB");
     }
-    return view_with_spec(buffer, spec);
+}
+
+OIIO::ImageBuf Part::color_view() {
+    const OIIO::ImageBuf& buffer = pixels();
+    if (buffer.deep()) {
+        return buffer;
+    }
+    OIIO::ImageSpec spec = buffer.spec();
+    tag_encoding(spec);
+    return oiio::view_with_spec(buffer, spec);
+}
+
+OIIO::ImageBuf Part::color_view(int begin, int end) {
+    const bool ready = m_source || m_pixels.front().initialized();
+    if (ready || header().deep || m_how.type != OIIO::TypeFloat) {
+        return color_view();
+    }
+    check_unchanged();
+    auto input = open_input(m_file, m_how);
+    OIIO::ImageSpec spec = header();
+    spec.set_format(OIIO::TypeFloat);
+    spec.nchannels = end - begin;
+    spec.channelnames = {spec.channelnames.begin() + begin, spec.channelnames.begin() + end};
+    spec.alpha_channel = spec.z_channel = -1;
+    tag_encoding(spec);
+    OIIO::ImageBuf buffer(spec);
+    if (input->spec(m_subimage, 0).roi() != header().roi() || !buffer.localpixels() ||
+        !oiio::read_channels(*input, m_subimage, begin, end, buffer.localpixels())) {
+        throw ReadError(m_file, input->geterror());
+    }
+    return buffer;
 }
 
 OIIO::ImageBuf Part::color_source() {
@@ -172,8 +199,8 @@ OIIO::ImageBuf Part::color_source() {
         return color_view();
     }
     check_unchanged();
-    m_cache = make_header_cache();
-    OIIO::ImageBuf buffer = unread_file(m_file, m_subimage, m_cache);
+    m_cache = oiio::make_header_cache();
+    OIIO::ImageBuf buffer = oiio::unread_file(m_file, m_subimage, m_cache);
     return buffer.has_error() || buffer.spec().roi() != header().roi() ? color_view()
                                                                        : std::move(buffer);
 }

@@ -39,7 +39,7 @@ public:
     /// A subimage of a file, whose levels have these headers.
     Part(std::string file, int subimage, std::vector<OIIO::ImageSpec> levels, ReadOptions how);
     /// Pixels that a command made, a level each. Without a format the file they are written to
-    /// follows the image that was read last.
+    /// is as wide as those that were read.
     Part(std::vector<OIIO::ImageBuf> levels, std::optional<DataFormat> format,
          bool integer_encoded);
 
@@ -70,7 +70,12 @@ public:
     /// if its pixels are still to come.
     OIIO::ImageBuf color_source();
 
+    /// As color_view(), but of a file whose pixels are still to come only the channels from `begin`
+    /// to before `end`, which the caller owns.
+    OIIO::ImageBuf color_view(int begin, int end);
+
 private:
+    void tag_encoding(OIIO::ImageSpec& spec) const;
     void read(int level);
     void share(int level);
     void check_unchanged() const;
@@ -106,15 +111,17 @@ public:
     static ImagePtr derived(const Image& from, OIIO::ImageBuf pixels);
     /// Several subimages (of one or more MIP levels) that a command made of those of `from`.
     static ImagePtr derived(const Image& from, std::vector<std::vector<OIIO::ImageBuf>> subimages);
-    /// What a command made of nothing, written in the format of the image that was read last.
+    /// What a command made of nothing, written in the widest format that was read.
     static ImagePtr created(std::string name, OIIO::ImageBuf pixels,
                             std::optional<DataFormat> format = {});
     /// What a command measured: float, and not display-encoded unless its header says so.
     static ImagePtr computed(std::string name, OIIO::ImageBuf pixels);
 
-    /// Whether some command has taken the image from the stack.
-    bool used = false;
+    /// Whether some command has taken the image from the stack, or has written it.
+    bool used = false, written = false;
+    bool noted = false; ///< its data type has gone into Session::read_format
 
+    void rename(std::string name) { m_name = std::move(name); }
     const std::string& name() const { return m_name; } ///< file, or what it was made from
     Part& part(size_t index = 0) const { return *m_parts.at(index); }
     size_t part_count() const { return m_parts.size(); }

@@ -74,15 +74,6 @@ std::string shown(const Values& values, Show show, const char* between = " ") {
     return join(words, between);
 }
 
-const OIIO::ImageBuf& measured(const Image& image, size_t subimage, int level) {
-    const OIIO::ImageBuf& pixels = image.part(subimage).pixels(level);
-    if (pixels.deep()) {
-        throw CommandError("\"" + image.name() +
-                           "\" is deep (valid: images without depth samples)");
-    }
-    return pixels;
-}
-
 std::string constant_lines(const OIIO::ImageBuf& pixels, const Scale& scale,
                            const std::string& indent) {
     std::vector<float> color(static_cast<size_t>(pixels.nchannels()));
@@ -127,8 +118,11 @@ std::string pixel_text(const std::vector<float>& values, OIIO::TypeDesc type, bo
 }
 
 std::string dump_text(const Image& image, const Listing& what, size_t subimage) {
-    const OIIO::ImageBuf& pixels = measured(image, subimage, 0);
+    const OIIO::ImageBuf& pixels = image.part(subimage).pixels();
     const OIIO::ImageSpec& spec = pixels.spec();
+    if (spec.deep) {
+        return deep_dump_text(pixels, what.dump_black);
+    }
     OIIO::TypeDesc type = image.part(subimage).format().value_or(DataFormat{}).type;
     std::string text = what.dump->empty() ? ""
                                           : format("{} {}[{}][{}][{}] =\n{{\n", type, *what.dump,
@@ -209,7 +203,7 @@ std::string header_text(const Image& image, size_t subimage, bool detailed, bool
 
 std::string stats_text(const Image& image, const std::string& indent, size_t subimage, int level,
                        OIIO::ROI roi) {
-    const OIIO::ImageBuf& pixels = measured(image, subimage, level);
+    const OIIO::ImageBuf& pixels = image.part(subimage).pixels(level);
     auto stats = OIIO::ImageBufAlgo::computePixelStats(pixels, roi);
     if (stats.min.empty()) {
         throw CommandError("cannot measure \"" + image.name() + "\": " + pixels.geterror());
@@ -231,7 +225,8 @@ std::string stats_text(const Image& image, const std::string& indent, size_t sub
     for (const auto& [name, value] : lines) {
         text += indent + "Stats " + name + ": " + value + "\n";
     }
-    return text + constant_lines(pixels, scale, indent);
+    return text + (pixels.deep() ? deep_stats_text(pixels, indent)
+                                 : constant_lines(pixels, scale, indent));
 }
 
 std::string listing_text(const Image& image, const Listing& what) {
@@ -250,7 +245,7 @@ std::string listing_text(const Image& image, const Listing& what) {
     text += what.verbose && count > 1 ? subimages_line(image) : "";
     for (size_t subimage = 0; subimage < (each ? count : 1); ++subimage) {
         text += each ? format(" subimage {:2}: ", subimage) + brief(subimage) +
-                           (subimage + 1 == count ? more : "") + "\n"
+                           (subimage > 0 ? more : "") + "\n"
                      : "";
         text += subimage_text(image, what, subimage);
     }

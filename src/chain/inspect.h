@@ -14,6 +14,11 @@ std::string header_text(const Image& image, size_t subimage, bool detailed, bool
 std::string stats_text(const Image& image, const std::string& indent, size_t subimage = 0,
                        int level = 0, OIIO::ROI roi = {});
 
+/// The same of the depth samples of a deep image.
+std::string deep_stats_text(const OIIO::ImageBuf& image, const std::string& indent);
+/// All samples of all pixels, and the pixels without samples.
+std::string deep_dump_text(const OIIO::ImageBuf& image, bool empty_ones);
+
 /// Prints what --info, --stats, ... ask for of a file that was just read.
 void inspect_if_asked(Session& session, const Image& image);
 

@@ -35,6 +35,7 @@ int Loop::run() {
 
 void Loop::finished(size_t index, const Ran& ran, double seconds) {
     m_status = worse(m_status, ran.status);
+    m_aborted |= ran.aborted;
     m_progress.done(m_plan.runs[index], ran.status, ran.words, seconds);
 }
 
@@ -52,7 +53,7 @@ void Loop::work() {
         std::ostringstream out, err;
         const Ran ran = m_run(index, out, err);
         std::lock_guard<std::mutex> lock(m_mutex);
-        m_status = worse(m_status, ran.status);
+        m_aborted |= ran.aborted;
         m_done[index] = {out.str(), err.str(), ran, time()};
         for (auto done = m_done.find(m_printed); done != m_done.end();
              done = m_done.find(++m_printed)) {

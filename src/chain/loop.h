@@ -17,13 +17,14 @@ int worse(int a, int b);
 /// What came of one run.
 struct Ran {
     int status = 0;
-    std::string words; ///< for a person: "failed (hdrflip: p99 0.2 > 0.1)"
+    std::string words;    ///< for a person: "failed (hdrflip: p99 0.2 > 0.1)"
+    bool aborted = false; ///< by an error that ends the loop, too
 };
 
 class Loop {
 public:
     using Run = std::function<Ran(size_t index, std::ostream& out, std::ostream& err)>;
-    /// `goes_on`: also after an error.
+    /// `goes_on`: also after a run that was aborted.
     Loop(const FramePlan& plan, std::ostream& out, std::ostream& err, Run run, bool goes_on)
         : m_plan(plan),
           m_out(out),
@@ -36,7 +37,7 @@ public:
     int run();
 
 private:
-    bool ends() const { return m_status == 1 && !m_goes_on; }
+    bool ends() const { return m_aborted && !m_goes_on; }
     void work();
     void finished(size_t index, const Ran& ran, double seconds);
 
@@ -47,6 +48,7 @@ private:
     bool m_goes_on;
     Progress m_progress;
     int m_status = 0;
+    bool m_aborted = false;
     std::mutex m_mutex;
     size_t m_next = 0, m_printed = 0;
     struct Done {

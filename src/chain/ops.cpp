@@ -11,9 +11,6 @@ namespace tonetool::chain {
 
 namespace {
 
-constexpr Range any_number_at_all{-3.4e38, 3.4e38};
-constexpr Range any_integer{-2147483648.0, 2147483647.0};
-
 bool listed(const Strings& list, const Image& image, size_t subimage) {
     const std::string name =
         image.part(subimage).header().get_string_attribute("oiio:subimagename");
@@ -67,38 +64,6 @@ std::vector<Modifier> modifiers_of(const std::string& lines, bool of_subimages) 
 
 } // namespace
 
-float Op::number(size_t argument) const {
-    return parsed(call.row().args.at(argument), call.argument(argument));
-}
-
-float Op::number(const std::string& key, float otherwise) const {
-    auto value = call.text(key);
-    return value ? parsed(key, *value) : otherwise;
-}
-
-float Op::parsed(const std::string& what, const std::string& value) const {
-    return session.compat ? OIIO::Strutil::stof(value)
-                          : float(checked_number(what, value, any_number_at_all));
-}
-
-int Op::integer(size_t argument) const {
-    const std::string& value = call.argument(argument);
-    return session.compat ? OIIO::Strutil::stoi(value)
-                          : checked_integer(call.row().args.at(argument), value, any_integer);
-}
-
-int Op::integer(const std::string& key, int otherwise) const {
-    auto value = call.text(key);
-    if (!value) {
-        return otherwise;
-    }
-    return session.compat ? OIIO::Strutil::stoi(*value) : checked_integer(key, *value, any_integer);
-}
-
-bool Op::flag(const std::string& key, bool otherwise) const {
-    return session.compat ? integer(key, int(otherwise)) != 0 : call.flag(key, otherwise);
-}
-
 std::string Op::text(const std::string& key, const std::string& otherwise) const {
     return call.text(key).value_or(otherwise);
 }
@@ -106,7 +71,7 @@ std::string Op::text(const std::string& key, const std::string& otherwise) const
 Floats Op::list(const std::string& what, const std::string& words) const {
     Floats values;
     for (const std::string& word : split(words, ',')) {
-        values.push_back(parsed(what, OIIO::Strutil::strip(word)));
+        values.push_back(float(call.parsed(what, OIIO::Strutil::strip(word), any_number_at_all)));
     }
     return values;
 }
@@ -118,6 +83,10 @@ Floats Op::per_channel(const std::string& what, const std::string& words, float 
         throw CommandError(what + " \"" + words + "\" has " + std::to_string(values.size()) +
                            " numbers (valid: one, or up to one for each of the " +
                            std::to_string(channels) + " channels)");
+    }
+    if (session.compat) { // where it is empty, the rest too
+        values.assign(channels, rest);
+        OIIO::Strutil::extract_from_list_string(values, words);
     }
     values.resize(channels, values.size() == 1 ? values.front() : rest);
     return values;
@@ -169,7 +138,11 @@ void run_kernel(Session& session, const Call& call, const Kernel& kernel, Scope 
     if (chosen.count == 1 && !session.compat) {
         warn_of_other_parts(session, call, first);
     }
-    session.push(Image::derived(first, std::move(subimages)));
+    ImagePtr result = Image::derived(first, std::move(subimages));
+    if (session.compat && !call.operation().empty()) {
+        result->rename(call.operation());
+    }
+    session.push(std::move(result));
 }
 
 ImagePtr with_headers(const Image& image, const Chosen& chosen,
@@ -191,6 +164,7 @@ std::vector<Command> op_rows(Group group, const std::vector<OpRow>& rows) {
         };
         all.push_back({shape_of(row.usage, row.images, 1, group), modifiers_of(row.modifiers, true),
                        row.help, run});
+        all.back().operation = true;
     }
     return all;
 }
@@ -216,6 +190,7 @@ Command free_row(Group group, const std::string& usage, int pops, int pushes,
 }
 
 std::vector<ImagePtr> take_images(Session& session, size_t count) {
+    const bool some = count > 0;
     count = count == 0 ? std::max(session.stack.size(), size_t(1)) : count;
     if (session.stack.size() < count) {
         throw CommandError("needs " + std::to_string(count) + " image(s), the stack has " +
@@ -225,6 +200,9 @@ std::vector<ImagePtr> take_images(Session& session, size_t count) {
     session.stack.resize(session.stack.size() - count);
     for (const ImagePtr& image : images) {
         image->used = true;
+        if (some || !session.compat) { // oiiotool does not look at the types of "all"
+            session.note_format(*image);
+        }
     }
     return images;
 }

@@ -12,6 +12,8 @@ namespace tonetool::chain {
 
 namespace IBA = OIIO::ImageBufAlgo;
 using Floats = std::vector<float>;
+inline constexpr Range any_number_at_all{-3.4e38, 3.4e38};
+inline constexpr Range any_integer{-2147483648.0, 2147483647.0};
 
 /// What a kernel works on: one MIP level of one subimage of the images that were popped, with the
 /// arguments and modifiers as it needs them.
@@ -27,14 +29,20 @@ struct Op {
     const OIIO::ImageBuf& b() const { return *src.at(1); }
     const OIIO::ImageBuf& c() const { return *src.at(2); }
 
-    // A CommandError for what is no number; with --compat what oiiotool makes of it.
-    float number(size_t argument) const;
-    float number(const std::string& key, float otherwise) const;
-    int integer(size_t argument) const;
-    int integer(const std::string& key, int otherwise) const;
-    bool flag(const std::string& key, bool otherwise = false) const;
+    float number(size_t argument) const {
+        return float(call.number_argument(argument, any_number_at_all));
+    }
+    float number(const std::string& key, float otherwise) const {
+        return float(call.number(key, any_number_at_all).value_or(double(otherwise)));
+    }
+    int integer(size_t argument) const { return call.integer_argument(argument, any_integer); }
+    int integer(const std::string& key, int otherwise) const {
+        return call.integer(key, any_integer).value_or(otherwise);
+    }
+    bool flag(const std::string& key, bool otherwise = false) const {
+        return call.flag(key, otherwise);
+    }
     std::string text(const std::string& key, const std::string& otherwise = "") const;
-    float parsed(const std::string& what, const std::string& value) const;
     /// "V" for all channels, or "V,V,...", the rest of them `rest`.
     Floats per_channel(const std::string& what, const std::string& list, float rest) const;
     Floats constants(float rest) const { return per_channel("VALUES", call.argument(0), rest); }
@@ -52,7 +60,7 @@ enum class Scope { Largest, Levels };
 struct OpRow {
     const char* usage; ///< "resize GEOM"
     int images;
-    const char* help;
+    std::string help;
     Kernel kernel;
     std::string modifiers = {};   ///< lines of "key=hint: help"
     Scope scope = Scope::Largest; ///< Levels: with -a MIP levels stay

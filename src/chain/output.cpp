@@ -7,11 +7,10 @@
 #include <algorithm>
 #include <ctime>
 #include <deque>
-#include <regex>
 
 #include "chain/channels.h"
 #include "chain/error.h"
-#include "chain/oiio_compat.h"
+#include "imagebuf/oiio_compat.h"
 #include "include/tonetool/tonetool.h"
 
 namespace tonetool::chain {
@@ -29,10 +28,11 @@ struct TypeRow {
 const TypeRow type_rows[] = {
     {"uint8", OIIO::TypeDesc::UINT8, 0},    {"sint8", OIIO::TypeDesc::INT8, 0},
     {"uint10", OIIO::TypeDesc::UINT16, 10}, {"uint12", OIIO::TypeDesc::UINT16, 12},
-    {"uint16", OIIO::TypeDesc::UINT16, 0},  {"sint16", OIIO::TypeDesc::INT16, 0},
-    {"uint32", OIIO::TypeDesc::UINT32, 0},  {"sint32", OIIO::TypeDesc::INT32, 0},
-    {"half", OIIO::TypeDesc::HALF, 0},      {"float", OIIO::TypeDesc::FLOAT, 0},
-    {"double", OIIO::TypeDesc::DOUBLE, 0},
+    {"int8", OIIO::TypeDesc::INT8, 0},      {"int16", OIIO::TypeDesc::INT16, 0},
+    {"int32", OIIO::TypeDesc::INT32, 0},    {"uint16", OIIO::TypeDesc::UINT16, 0},
+    {"sint16", OIIO::TypeDesc::INT16, 0},   {"uint32", OIIO::TypeDesc::UINT32, 0},
+    {"sint32", OIIO::TypeDesc::INT32, 0},   {"half", OIIO::TypeDesc::HALF, 0},
+    {"float", OIIO::TypeDesc::FLOAT, 0},    {"double", OIIO::TypeDesc::DOUBLE, 0},
 };
 
 // One subimage on its way to the file: pixels (owned here where they had to change), data types.
@@ -56,8 +56,8 @@ std::unique_ptr<OIIO::ImageOutput> find_writer(const std::string& filename,
 // part of it that they can hold.
 void fit_windows(Outgoing& image, const OIIO::ImageOutput& writer) {
     OIIO::ROI wanted = image.pixels->roi_full();
-    bool windows = format_supports(writer, "displaywindow");
-    bool negative = format_supports(writer, "negativeorigin");
+    bool windows = oiio::format_supports(writer, "displaywindow");
+    bool negative = oiio::format_supports(writer, "negativeorigin");
     const OIIO::ImageSpec& spec = image.pixels->spec();
     bool below_zero = std::min({spec.x, spec.y, spec.full_x, spec.full_y}) < 0;
     if (wanted == image.pixels->roi() || spec.deep || (windows && (negative || !below_zero))) {
@@ -81,9 +81,9 @@ void fit_windows(Outgoing& image, const OIIO::ImageOutput& writer) {
 void fit_channels(Session& session, const std::string& where, Outgoing& image,
                   const OIIO::ImageOutput& writer) {
     const OIIO::ImageSpec& spec = image.pixels->spec();
-    bool alpha = format_supports(writer, "alpha");
+    bool alpha = oiio::format_supports(writer, "alpha");
     bool fits = spec.nchannels <= 3 || (spec.nchannels == 4 && alpha) ||
-                (spec.nchannels > 4 && format_supports(writer, "nchannels"));
+                (spec.nchannels > 4 && oiio::format_supports(writer, "nchannels"));
     if (fits) {
         return;
     }
@@ -111,11 +111,6 @@ void fit_channels(Session& session, const std::string& where, Outgoing& image,
     image.format.of_channel.clear();
 }
 
-DataFormat usual_format(const Session& session, const Part& part) {
-    return part.format() ? *part.format()
-                         : session.read_format.value_or(DataFormat{part.header().format, {}, 0});
-}
-
 void choose_format(DataFormat& format, const OIIO::ImageSpec& spec, const OutputSettings& asked,
                    OutputSettings& memory) {
     if (asked.type) {
@@ -138,18 +133,8 @@ void choose_format(DataFormat& format, const OIIO::ImageSpec& spec, const Output
     }
 }
 
-// The command line, without the values that only a file's owner is to see.
-std::string noted_command_line(const Session& session) {
-    if (session.output.arguments_in_history) {
-        return session.command_line;
-    }
-    const std::regex attributes("-?-s?attrib(:\\S*)? (\"[^\"]*\"|'[^']*'|\\S+) "
-                                "(\"[^\"]*\"|'[^']*'|\\S+) ?");
-    return std::regex_replace(session.command_line, attributes, "");
-}
-
 void note_history(OIIO::ImageSpec& spec, const Session& session) {
-    const std::string line = noted_command_line(session);
+    const std::string& line = session.command_line;
     spec.attribute("Software", "tonetool " TONETOOL_VERSION " : " + line);
     std::string history = spec.get_string_attribute("Exif:ImageHistory");
     if (!history.empty() && history.back() != '\n') {
@@ -159,13 +144,15 @@ void note_history(OIIO::ImageSpec& spec, const Session& session) {
 }
 
 void set_layout(OIIO::ImageSpec& spec, const OutputSettings& settings,
-                const OIIO::ImageOutput& writer) {
-    if (settings.scanline || !format_supports(writer, "tiles")) {
+                const OIIO::ImageOutput& writer, bool compat) {
+    if (settings.scanline || !oiio::format_supports(writer, "tiles")) {
         spec.tile_width = spec.tile_height = spec.tile_depth = 0;
     } else if (settings.tile_width > 0) {
         spec.tile_width = settings.tile_width;
         spec.tile_height = settings.tile_height;
         spec.tile_depth = 1;
+    } else if (compat) {
+        spec.tile_width = spec.tile_height = spec.tile_depth = 0;
     }
     if (!settings.planarconfig.empty() && settings.planarconfig != "default") {
         spec.attribute("planarconfig", settings.planarconfig);
@@ -176,6 +163,9 @@ OIIO::ImageSpec output_spec(const Outgoing& image, const Session& session,
                             const OutputSettings& settings, const std::string& filename,
                             const OIIO::ImageOutput& writer) {
     OIIO::ImageSpec spec = image.pixels->spec();
+    for (const char* hint : {"oiio:ConstantColor", "oiio:AverageColor", "oiio:SHA-1"}) {
+        spec.erase_attribute(hint); // of the pixels that some texture had
+    }
     if (settings.history) {
         note_history(spec, session);
     }
@@ -189,15 +179,13 @@ OIIO::ImageSpec output_spec(const Outgoing& image, const Session& session,
         int seed = int(OIIO::Strutil::strhash(filename));
         spec.attribute("oiio:dither", seed != 0 ? seed : 1);
     }
-    set_layout(spec, settings, writer);
+    set_layout(spec, settings, writer, session.compat);
     spec.erase_attribute("oiio:BitsPerSample");
     if (image.format.bits > 0) {
         spec.attribute("oiio:BitsPerSample", image.format.bits);
     }
-    if (!spec.deep) {
-        spec.set_format(image.format.type);
-        spec.channelformats = image.format.of_channel;
-    }
+    spec.set_format(image.format.type);
+    spec.channelformats = image.format.of_channel;
     return spec;
 }
 
@@ -213,7 +201,7 @@ void warn_of_encoding(Session& session, const std::string& where, const OIIO::Im
 
 size_t parts_to_write(Session& session, const std::string& where, const Image& image,
                       const OIIO::ImageOutput& writer) {
-    if (image.part_count() > 1 && !format_supports(writer, "multiimage")) {
+    if (image.part_count() > 1 && !oiio::format_supports(writer, "multiimage")) {
         session.warning(where, std::string(writer.format_name()) +
                                    " holds one image: only the "
                                    "first of " +
@@ -224,6 +212,20 @@ size_t parts_to_write(Session& session, const std::string& where, const Image& i
 }
 
 } // namespace
+
+DataFormat format_of(const Session& session, const Part& part) {
+    if (part.format() && session.compat) { // oiiotool writes channels in their widest type
+        return {part.format()->type, {}, part.format()->bits};
+    }
+    if (part.format()) {
+        return *part.format();
+    }
+    const std::string name = part.header().get_string_attribute("oiio:subimagename");
+    auto known = session.type_of_subimage.find(name);
+    return !name.empty() && known != session.type_of_subimage.end()
+               ? DataFormat{known->second, {}, 0}
+               : session.read_format.value_or(DataFormat{part.header().format, {}, 0});
+}
 
 const Strings& data_type_names() {
     static const Strings names = [] {
@@ -236,14 +238,14 @@ const Strings& data_type_names() {
     return names;
 }
 
-NamedType parse_data_type(const std::string& what, const std::string& name) {
+NamedType parse_data_type(const Session& session, const std::string& name) {
     for (const TypeRow& row : type_rows) {
-        if (name == row.name) {
+        if (name == row.name && (!session.compat || name.front() != 's')) {
             return {row.type, row.bits};
         }
     }
-    throw CommandError("Unknown " + what + " \"" + name +
-                       "\" (valid: " + join(data_type_names(), ", ") + ")");
+    const std::string valid = " (valid: " + join(data_type_names(), ", ") + ")";
+    throw CommandError("Unknown data format \"" + name + "\"" + (session.compat ? "" : valid));
 }
 
 void check_compression(const std::string& compression) {
@@ -262,7 +264,7 @@ void check_compression(const std::string& compression) {
 }
 
 OIIO::TypeDesc output_type(Session& session, const Part& part) {
-    DataFormat format = usual_format(session, part);
+    DataFormat format = format_of(session, part);
     choose_format(format, part.header(), session.output, session.output);
     for (const OIIO::TypeDesc& type : format.of_channel) {
         format.type = OIIO::TypeDesc(OIIO::TypeDesc::basetype_merge(format.type, type));
@@ -274,15 +276,16 @@ void write_output(Session& session, const std::string& where, const Image& image
                   const std::string& filename, const OutputSettings& settings) {
     auto writer = find_writer(filename, settings.format_name);
     const size_t count = parts_to_write(session, where, image, *writer);
-    const bool mipmap = format_supports(*writer, "mipmap");
+    const bool mipmap = oiio::format_supports(*writer, "mipmap");
     std::deque<Outgoing> outgoing; // addresses stay
     std::vector<OutputImage> ready;
     for (size_t i = 0; i < count; ++i) {
         Part& part = image.part(i);
-        for (int level = 0; level < (mipmap ? part.mip_levels() : 1); ++level) {
+        const int levels = mipmap ? part.mip_levels() : 1;
+        for (int level = 0; level < levels; ++level) {
             Outgoing& next = outgoing.emplace_back();
             next.pixels = &part.pixels(level);
-            next.format = usual_format(session, part);
+            next.format = format_of(session, part);
             if (settings.autocrop) {
                 fit_windows(next, *writer);
             }
@@ -290,6 +293,9 @@ void write_output(Session& session, const std::string& where, const Image& image
             choose_format(next.format, next.pixels->spec(), settings, session.output);
             ready.push_back({next.pixels, output_spec(next, session, settings, filename, *writer),
                              level > 0, settings.format_name});
+            if (levels == 1) { // OpenEXR would wait for more
+                ready.back().spec.erase_attribute("textureformat");
+            }
             warn_of_encoding(session, where, ready.back().spec, *writer);
         }
         if (part.mip_levels() > 1 && !mipmap && !session.compat) {
@@ -300,7 +306,11 @@ void write_output(Session& session, const std::string& where, const Image& image
     session.keep_pixels_of(filename);
     std::string why;
     if (!write_images(ready, filename, why)) {
-        throw CommandError(why);
+        const std::string folder = OIIO::Filesystem::parent_path(filename);
+        const bool lost = !folder.empty() && !OIIO::Filesystem::is_directory(folder);
+        throw CommandError(session.compat && lost
+                               ? "Could not open \"" + filename + "\" (No such file or directory)"
+                               : why);
     }
     if (settings.adjust_time) {
         std::tm taken{};
@@ -310,7 +320,7 @@ void write_output(Session& session, const std::string& where, const Image& image
             OIIO::Filesystem::last_write_time(filename, std::mktime(&taken));
         }
     }
-    session.produced = true;
+    session.wrote = true;
 }
 
 } // namespace tonetool::chain

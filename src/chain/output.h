@@ -11,11 +11,13 @@ namespace tonetool::chain {
 /// Names of the data types of -d.
 const Strings& data_type_names();
 /// The type of that name; a CommandError that lists the valid ones otherwise.
-NamedType parse_data_type(const std::string& what, const std::string& name);
+NamedType parse_data_type(const Session& session, const std::string& name);
 
 /// Check a compression, "name" or "name:quality"; a CommandError if it cannot be one.
 void check_compression(const std::string& compression);
 
+/// The data types of a part in a file, if nothing else is asked for.
+DataFormat format_of(const Session& session, const Part& part);
 /// The data type that a subimage would be written with, where the file format has it.
 OIIO::TypeDesc output_type(Session& session, const Part& part);
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <set>
 
 #include "imagebuf/names.h"
 
@@ -9,8 +10,15 @@ namespace tonetool::chain {
 
 namespace {
 
+std::vector<Command>& added_commands() {
+    static std::vector<Command> rows;
+    return rows;
+}
+
 std::vector<Command> collect() {
-    std::vector<Command> all;
+    std::vector<Command> all = std::move(added_commands());
+    const std::set<std::vector<Command> (*)()> own = {
+        compare_commands, color_commands, tone_commands, cgtmo_commands, light_commands};
     for (auto family :
          {general_commands,   control_commands,    io_commands,       inspect_commands,
           compare_commands,   diff_commands,       check_commands,    color_commands,
@@ -18,6 +26,10 @@ std::vector<Command> collect() {
           create_commands,    arithmetic_commands, geometry_commands, filter_commands,
           composite_commands, ocio_commands,       channel_commands,  stack_commands}) {
         std::vector<Command> rows = family();
+        for (Command& row : rows) {
+            row.own =
+                own.count(family) > 0 && row.label() != "colormap" && row.label() != "colorconfig";
+        }
         std::move(rows.begin(), rows.end(), std::back_inserter(all));
     }
     return all;
@@ -73,6 +85,10 @@ Command setting(Group group, Strings names, Strings args, std::string help, Run 
     return {std::move(shape), std::move(modifiers), std::move(help), std::move(run)};
 }
 
+void add_commands(std::vector<Command> rows) {
+    std::move(rows.begin(), rows.end(), std::back_inserter(added_commands()));
+}
+
 const std::vector<Command>& all_commands() {
     static const std::vector<Command> all = collect();
     return all;
@@ -87,19 +103,30 @@ const Command* find_command(const std::string& name) {
     return nullptr;
 }
 
-std::string suggest_command(const std::string& name) {
+namespace {
+
+Strings near_commands(const std::string& name, size_t most) {
     Strings names;
     for (const Command& row : all_commands()) {
         names.insert(names.end(), row.names.begin(), row.names.end());
     }
-    Strings near = nearest_names(name, names);
-    if (near.empty()) {
-        return "--help lists all commands";
-    }
+    Strings near = nearest_names(name, names, most);
     for (std::string& word : near) {
         word.insert(0, word.size() == 1 ? "-" : "--");
     }
-    return "did you mean " + join(near, " or ") + "? (--help lists all commands)";
+    return near;
+}
+
+} // namespace
+
+std::string nearest_command(const std::string& name) {
+    return join(near_commands(name, 1), "");
+}
+
+std::string suggest_command(const std::string& name) {
+    const std::string near = join(near_commands(name, 3), " or ");
+    return near.empty() ? "--help lists all commands"
+                        : "did you mean " + near + "? (--help lists all commands)";
 }
 
 } // namespace tonetool::chain

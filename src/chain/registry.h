@@ -68,6 +68,8 @@ struct Command : Shape {
     int (*pushes_of)(const Call&) = nullptr;
     /// --if and the like: seen also where commands are skipped.
     bool control = false;
+    bool operation = false; ///< one of oiiotool's on pixels: see Call::operation
+    bool own = false;       ///< not one of oiiotool's: strict with --compat, too
     /// What it sets is the process's and not the chain's.
     bool of_process = false;
 
@@ -90,11 +92,17 @@ Command of_process(Command row);
 Command setting(Group group, Strings names, Strings args, std::string help, Run run,
                 std::vector<Modifier> modifiers = {});
 
+/// Rows of the rooms above, to be told before the first use of any other function here.
+void add_commands(std::vector<Command> rows);
+
 /// All rows.
 const std::vector<Command>& all_commands();
 
 /// The row of that name, or nullptr.
 const Command* find_command(const std::string& name);
+
+/// "--x" for a name like that one, or "".
+std::string nearest_command(const std::string& name);
 
 /// "did you mean --x, --y?" or "see --help".
 std::string suggest_command(const std::string& name);

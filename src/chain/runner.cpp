@@ -1,13 +1,13 @@
 #include "chain/runner.h"
 
 #include <OpenImageIO/filesystem.h>
+#include <OpenImageIO/imagecache.h>
 #include <OpenImageIO/imageio.h>
 #include <OpenImageIO/strutil.h>
 #include <OpenImageIO/sysutil.h>
 #include <cstring>
 #include <new>
 #include <ostream>
-#include <set>
 
 #include "chain/error.h"
 #include "chain/expression.h"
@@ -25,6 +25,9 @@ void execute(Session& session, Call& call) {
     stack.erase(first, stack.end());
     for (const ImagePtr& image : call.images) {
         image->used = true;
+        if (call.row().group != Group::Stack) {
+            session.note_format(*image);
+        }
     }
     size_t expected = stack.size() + static_cast<size_t>(call.pushes());
     call.row().run(session, call);
@@ -51,19 +54,9 @@ void locate_files(Session& session, const Command& row, Token& token, Strings& a
     }
 }
 
-// What messages call a command; oiiotool calls those that work on pixels "-name".
+// What messages call a command.
 std::string name_in_messages(const Call& call, bool compat) {
-    static const std::set<std::string> as_typed = {"crop",  "croptofull", "cut",    "trim",
-                                                   "paste", "pastemeta",  "mosaic", "fixnan"};
-    const Command& row = call.row();
-    const Group group = row.group;
-    const bool pixels = group == Group::Arithmetic || group == Group::Filter ||
-                        group == Group::Geometry || group == Group::Composite ||
-                        row.label() == "kernel";
-    if (!compat) {
-        return row.label();
-    }
-    return pixels && as_typed.count(row.label()) == 0 ? "-" + row.label() : call.text();
+    return !compat ? call.row().label() : call.operation().empty() ? call.text() : call.operation();
 }
 
 } // namespace
@@ -80,13 +73,13 @@ void run_command(Session& session, const std::string& word, Strings arguments) {
 
 void Runner::run_all() {
     Flow& flow = m_session.flow;
-    while (flow.next < m_words.size() && !m_ended && !(m_failed && m_session.error_exit)) {
+    const bool stops = m_session.compat || m_session.error_exit;
+    while (flow.next < m_words.size() && !m_ended && !(m_session.aborted && stops)) {
         m_where.clear();
         guarded(&Runner::run_word);
-        m_failed = m_session.errors > 0;
     }
     m_where.clear();
-    if (!m_failed && !m_ended) {
+    if (!m_session.aborted && !m_ended) {
         guarded(&Runner::finish);
     }
     if (m_session.runstats) {
@@ -106,9 +99,16 @@ void Runner::guarded(void (Runner::*step)()) {
         m_ended = true;
     } catch (const UsageError& problem) {
         ++m_session.errors;
+        m_session.aborted = true;
         m_session.out << help_text();
         m_session.err << problem.what() << "\n\nFull command line was:\n> "
                       << m_session.command_line << std::endl;
+    } catch (const CommandError& problem) {
+        const bool renamed = m_session.compat && !problem.place.empty();
+        m_session.error(renamed ? problem.place : m_where, problem.what());
+        if (m_session.compat && problem.again) {
+            m_session.error(m_where, "");
+        }
     } catch (const std::exception& problem) {
         m_session.error(m_where, problem.what());
     } catch (...) {
@@ -129,6 +129,7 @@ void Runner::run_word() {
         return;
     }
     const Command& row = find(token);
+    token = row.own ? parse_token(word) : token;
     m_where = m_session.compat ? word : row.label();
     check_policy(Call(row, token, {}, m_session.compat));
     Strings arguments = take_arguments(row, token);
@@ -168,8 +169,9 @@ void Runner::run_file(const std::string& word) {
     if (m_session.flow.running()) {
         m_where = "read";
         OIIO::Timer time;
+        double& seconds = m_session.seconds["-i"];
         push_file_or_label(m_session, word);
-        m_session.seconds["-i"] += time();
+        seconds += time();
         run_postponed();
     }
 }
@@ -181,6 +183,11 @@ const Command& Runner::find(const Token& token) {
     if (row && !token.value.empty() && !takes_value && !m_session.compat) {
         m_where = row->label();
         throw CommandError("takes no \"=" + token.value[0] + "\" (modifiers follow a colon)");
+    }
+    if (!row && m_session.compat) {
+        const std::string near = nearest_command(token.name);
+        throw UsageError("Invalid option \"" + token.text + "\"" +
+                         (near.empty() ? "" : " (did you mean " + near + "?)"));
     }
     if (!row) {
         m_where.clear();
@@ -197,7 +204,8 @@ Strings Runner::take_arguments(const Command& row, const Token& token) {
     for (size_t i = arguments.size(); i < row.args.size(); ++i) {
         const std::string& name = row.args[i];
         bool optional = name.front() == '[';
-        if (name.front() == '=' || (optional && next >= m_words.size())) {
+        const bool other = m_session.compat && next < m_words.size() && m_words[next][0] == '-';
+        if (name.front() == '=' || (optional && (next >= m_words.size() || other))) {
             break;
         }
         if (next >= m_words.size()) {
@@ -240,6 +248,9 @@ void Runner::run_or_postpone(Call call) {
         throw CommandError("needs " + std::to_string(call.pops()) + " image(s), the stack has " +
                            std::to_string(m_session.stack.size()));
     }
+    if (m_session.compat) { // as oiiotool, which has room for one
+        m_postponed.clear();
+    }
     m_postponed.push_back(std::move(call));
     m_session.waiting = m_postponed.front().row().label();
 }
@@ -249,11 +260,13 @@ void Runner::run_call(Call& call) {
     const bool told = m_session.debug && call.pops() > 0;
     if (told) {
         m_session.print("Performing '-" + call.row().names.front() +
-                        "' with args:  " + call.quoted_words());
+                        (call.has_argument(0) ? "' with args:  " : "' ") + call.quoted_words());
     }
     OIIO::Timer time;
     execute(m_session, call);
-    m_session.seconds["-" + call.row().names.front()] += time();
+    if (call.row().group != Group::General && call.row().group != Group::Control) {
+        m_session.seconds["-" + call.row().names.front()] += time();
+    }
     if (told) {
         m_session.print(OIIO::Strutil::fmt::format(
             "    -{} took {:.2f}s  (total time {:.2f}s, mem {})", call.row().names.front(), time(),
@@ -271,9 +284,11 @@ void Runner::print_statistics() {
         rest -= seconds;
     }
     text += OIIO::Strutil::fmt::format("      {:<12} : {:5.2f}\n", "unaccounted", rest);
-    m_session.out << text
-                  << "  Peak memory:    " << OIIO::Strutil::memformat(OIIO::Sysutil::memory_used())
-                  << "\n";
+    m_session.out << text << "  Peak memory:    "
+                  << OIIO::Strutil::memformat(OIIO::Sysutil::memory_used(true))
+                  << "\n  Current memory: "
+                  << OIIO::Strutil::memformat(OIIO::Sysutil::memory_used()) << "\n\n"
+                  << OIIO::ImageCache::create()->getstats(2) << "\n";
 }
 
 void Runner::run_postponed() {
@@ -312,7 +327,7 @@ void Runner::finish() {
     }
     check_outputs(m_session);
     warn_of_unused();
-    if (!m_session.produced && !m_session.for_images) {
+    if (!m_session.produced && !m_session.wrote && !m_session.for_images) {
         throw CommandError("produced no output. Did you forget -o?");
     }
 }
@@ -327,9 +342,12 @@ void Runner::finish_leniently() {
     }
     if (!m_session.produced && !m_session.listing() && !m_session.dry_run &&
         !m_session.for_images) {
-        bool made = !m_session.stack.empty() && !m_session.stack.back()->part().from_file();
-        m_session.warning("", made ? "modified images without outputting them. Did you forget -o?"
-                                   : no_output);
+        const Image* top = m_session.stack.empty() ? nullptr : m_session.stack.back().get();
+        if (top && !top->written && !top->part().from_file()) {
+            m_session.warning("", "modified images without outputting them. Did you forget -o?");
+        } else if (!m_session.wrote) {
+            m_session.warning("", no_output);
+        }
     }
 }
 

@@ -42,7 +42,7 @@ private:
     const Strings& m_words;
     std::string m_where; ///< the command that an error belongs to
     std::deque<Call> m_postponed;
-    bool m_failed = false, m_ended = false;
+    bool m_ended = false;
     size_t m_count = 0; ///< of words that were run
     OIIO::Timer m_time;
 };

@@ -4,8 +4,6 @@
 #include <filesystem>
 #include <ostream>
 
-#include "chain/registry.h"
-
 namespace tonetool::chain {
 
 namespace {
@@ -24,13 +22,15 @@ std::string of_frame(const Session& session) {
 
 } // namespace
 
-void Session::error(const std::string& where, const std::string& what) {
+void Session::error(const std::string& where, const std::string& what, bool ends) {
     ++errors;
+    aborted |= ends;
     if (first_error.empty()) {
         first_error = (where.empty() ? "" : where + " : ") + what;
     }
     out.flush();
-    err << prefix("ERROR", where, compat) << what << of_frame(*this)
+    err << (what.empty() ? "tonetool ERROR: " + where + " (unknown error)"
+                         : prefix("ERROR", where, compat) + what + of_frame(*this))
         << "\nFull command line was:\n> " << command_line << std::endl;
 }
 
@@ -38,9 +38,7 @@ void Session::warning(const std::string& where, const std::string& what) {
     ++warnings;
     warning_texts.push_back((where.empty() ? "" : where + " : ") + what);
     out.flush();
-    const bool command = compat && find_command(where) != nullptr;
-    err << prefix("WARNING", command ? "--" + where : where, compat) << what << of_frame(*this)
-        << std::endl;
+    err << prefix("WARNING", where, compat) << what << of_frame(*this) << std::endl;
 }
 
 void Session::report(const std::string& line) {
@@ -51,6 +49,26 @@ void Session::report(const std::string& line) {
 
 void Session::print(const std::string& line) {
     out << line << '\n';
+}
+
+void Session::note_format(Image& image) {
+    const DataFormat of_first = image.part().format().value_or(DataFormat{});
+    if (image.noted || !image.part().from_file()) {
+        return;
+    }
+    image.noted = true;
+    DataFormat widest = read_format.value_or(DataFormat{of_first.type, {}, of_first.bits});
+    for (const PartPtr& part : image.parts()) {
+        const OIIO::TypeDesc type = part->format()->type;
+        widest.type = OIIO::TypeDesc(OIIO::TypeDesc::basetype_merge(widest.type, type));
+        type_of_subimage.emplace(part->header().get_string_attribute("oiio:subimagename"), type);
+    }
+    read_format = widest;
+    const OIIO::ImageSpec& spec = image.part().header();
+    if (compat && output.tile_width == 0 && !output.scanline) { // oiiotool goes on in its tiles
+        output.tile_width = spec.tile_width;
+        output.tile_height = spec.tile_height;
+    }
 }
 
 std::string Session::file(const std::string& name) {

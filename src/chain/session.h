@@ -16,6 +16,7 @@
 #include "chain/text.h"
 
 namespace tonetool::sequence {
+struct FramePainter;
 struct FrameResult;
 struct ShotExposures;
 struct ExposureSample;
@@ -37,8 +38,8 @@ struct OutputSettings {
     std::string compression, planarconfig, format_name;
     int tile_width = 0, tile_height = 0;
     bool scanline = false, dither = false, adjust_time = false, autocrop = true, autotrim = false;
-    bool history = true, arguments_in_history = true; ///< --nosoftwareattrib, --sansattrib
-    int quality = 0;                                  ///< 0: the format's own
+    bool history = true; ///< not --nosoftwareattrib
+    int quality = 0;     ///< 0: the format's own
 };
 
 /// What the frame loop has put in place of wildcards.
@@ -95,7 +96,6 @@ struct Session {
 
     std::vector<ImagePtr> stack; ///< the top is the last
     std::map<std::string, ImagePtr> labels;
-    Strings label_order;            ///< of their first use
     OIIO::ParamValueList variables; ///< of --set and --for
     bool evaluate = true;           ///< {expressions} are replaced by their values
     Frame frame;
@@ -113,9 +113,10 @@ struct Session {
     ReadOptions input;
     std::string missing_file = "error"; ///< or what stands in for it: "black", "checker"
     bool autocc = false, autocc_unpremult = false, autoorient = false;
-    bool metamerge = false;                      ///< results have the metadata of all inputs
-    std::optional<DataFormat> read_format;       ///< of the image read last: of what is computed
-    std::optional<OIIO::ImageSpec> first_header; ///< of the image read first
+    bool metamerge = false;                ///< results have the metadata of all inputs
+    std::optional<DataFormat> read_format; ///< the widest of those read: of what is computed
+    std::map<std::string, OIIO::TypeDesc> type_of_subimage; ///< by its name: as it was read
+    std::optional<OIIO::ImageSpec> first_header;            ///< of the image read first
     std::time_t newest_input = 0;
     OutputSettings output;
 
@@ -132,10 +133,13 @@ struct Session {
     // What the exit status is made from.
     bool produced = false;         ///< something was written, printed or measured
     bool produced_by_name = false; ///< --echo and the like: also of images that no command used
+    bool wrote = false;            ///< -o has
+    bool aborted = false;          ///< by an error
     int errors = 0, warnings = 0, failures = 0;
     std::string first_error;
     Strings warning_texts;
     sequence::FrameResult* result = nullptr; ///< of a check: gathers what commands measure
+    sequence::FramePainter* painter = nullptr; ///< of a check with a report: what it shows
     /// The range of exposures=shot or of a file; while that is still measured, where to.
     const sequence::ShotExposures* shot = nullptr;
     sequence::ExposureSample* sample = nullptr;
@@ -152,9 +156,13 @@ struct Session {
     /// Files are described when they are read.
     bool listing() const { return list.info || list.stats || list.hash || list.dump; }
 
+    /// What is computed is written in the widest type of all images that were read for it.
+    void note_format(Image& image);
+
     void push(ImagePtr image) { stack.push_back(std::move(image)); }
 
-    void error(const std::string& where, const std::string& what);
+    /// `ends`: unless --no-error-exit, the command line ends with it.
+    void error(const std::string& where, const std::string& what, bool ends = true);
     void warning(const std::string& where, const std::string& what);
     /// A line of a measurement: not under -q.
     void report(const std::string& line);

@@ -38,7 +38,7 @@ std::string take_value(const std::string& word, size_t& at) {
     return value;
 }
 
-void take_modifier(Token& token, size_t& at) {
+void take_modifier(Token& token, size_t& at, bool lenient) {
     const std::string& word = token.text;
     size_t colon = std::min(word.find(':', at), word.size());
     const std::string text = word.substr(at, colon - at);
@@ -54,10 +54,11 @@ void take_modifier(Token& token, size_t& at) {
     if (value.empty()) {
         throw CommandError("modifier \"" + key + "\" has no value");
     }
-    for (const auto& [known, unused] : token.modifiers) {
-        if (known == key) {
+    for (auto& [known, given] : token.modifiers) {
+        if (known == key && !lenient) {
             throw CommandError("modifier \"" + key + "\" is given twice");
         }
+        given = known == key ? value : given;
     }
     token.modifiers.emplace_back(key, value);
 }
@@ -81,7 +82,7 @@ Token parse_token(const std::string& word, bool lenient) {
     while (at < word.size()) {
         size_t begins = ++at; // behind the ':'
         try {
-            take_modifier(token, at);
+            take_modifier(token, at, lenient);
         } catch (const CommandError&) {
             if (!lenient) {
                 throw;

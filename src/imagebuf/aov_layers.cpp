@@ -43,6 +43,9 @@ void place(AovLayer& layer, const std::string& component, int channel) {
     }
     if (component == "t" && layer.t < 0)
         layer.t = channel;
+    if ((component == "a" || component == "alpha") && layer.alpha < 0)
+        layer.alpha = channel;
+    layer.channels.push_back(channel);
     if (layer.count++ == 0)
         layer.first = channel;
 }

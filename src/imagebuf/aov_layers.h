@@ -20,6 +20,8 @@ struct AovLayer {
     int t = -1;     ///< Mitsuba's component of a distance
     int first = -1; ///< its first channel
     int count = 0;
+    int alpha = -1;
+    std::vector<int> channels; ///< all, in the order of the file
 
     bool has_rgb() const { return rgb[0] >= 0 && rgb[1] >= 0 && rgb[2] >= 0; }
     bool has_xyz() const { return xyz[0] >= 0 && xyz[1] >= 0 && xyz[2] >= 0; }

@@ -1,6 +1,5 @@
 #include "imagebuf/cgtmo_guides.h"
 
-#include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/strutil.h>
 #include <algorithm>
 #include <cmath>
@@ -35,12 +34,6 @@ GuideOptions only(const Slot& slot, const std::string& layer) {
     GuideOptions out{"none", "none", "none", "none", ""};
     out.*slot.asked = layer;
     return out;
-}
-
-// "P.exr" where a layer could be named.
-bool is_file(const std::string& name) {
-    return !name.empty() && name != "none" && !OIIO::Filesystem::extension(name).empty() &&
-           OIIO::Filesystem::is_regular(name);
 }
 
 void append(std::vector<std::string>& to, const std::vector<std::string>& from) {

@@ -1,6 +1,7 @@
 // Options that are numbers or names, checked at the border.
 #pragma once
 
+#include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/strutil.h>
 #include <algorithm>
 #include <optional>
@@ -25,6 +26,12 @@ inline bool one_of(const char* what, const std::string& value,
         return true;
     error = unknown_name(what, value, valid);
     return false;
+}
+
+/// "P.exr" where a layer could be named.
+inline bool is_file(const std::string& name) {
+    return !name.empty() && name != "none" && !OIIO::Filesystem::extension(name).empty() &&
+           OIIO::Filesystem::is_regular(name);
 }
 
 /// A number where a name could be; nullopt for a name.

@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "imagebuf/guard.h"
+#include "imagebuf/oiio_compat.h"
 #include "include/tonetool/display.h"
 #include "include/tonetool/flip.h"
 
@@ -107,7 +108,7 @@ ImageBuf thumbnail(const ImageBuf& image, int width, int height, int nthreads) {
     shown.set_roi_full(full);
     ROI target(0, width, 0, height, 0, 1, 0, shown.nchannels());
     ImageBuf out;
-    if (!IBA::resize(out, shown, "", 0.0f, target, nthreads))
+    if (!oiio::resize(out, shown, "", target, nthreads))
         throw std::runtime_error(out.geterror());
     return out;
 }

@@ -29,16 +29,18 @@ bool is_index(const AovLayer& layer) {
                                          plain_word(layer.token)) != std::end(names);
 }
 
-// Integers come as 0..1 where their type is known no more: 32 bits make whole numbers of less than
-// a million values below 0.001, which no index has.
+// Integers come as 0..1. Where their type is known no more the header may still tell their bits;
+// and 32 bits make whole numbers of less than a million values below 0.001, which no index has.
 double index_scale(const ImageBuf& image, int channel, double largest) {
     const ImageSpec& native = image.nativespec();
     OIIO::TypeDesc type = OIIO::TypeFloat;
     if (native.nchannels == image.nchannels())
         type = native.channelformat(channel);
-    if (type == OIIO::TypeDesc::UINT8)
+    const bool fraction = type == OIIO::TypeDesc::FLOAT && largest > 0 && largest <= 1;
+    const int bits = fraction ? native.get_int_attribute("oiio:BitsPerSample") : 0;
+    if (type == OIIO::TypeDesc::UINT8 || bits == 8)
         return 255;
-    if (type == OIIO::TypeDesc::UINT16)
+    if (type == OIIO::TypeDesc::UINT16 || bits == 16)
         return 65535;
     if (type == OIIO::TypeDesc::INT32)
         return 2147483647.0;

@@ -3,10 +3,17 @@
 #include <OpenImageIO/strutil.h>
 #include <algorithm>
 
+#include "imagebuf/checks.h"
+
 namespace tonetool {
 namespace {
 
+using OIIO::ImageBuf;
 using OIIO::Strutil::fmt::format;
+
+bool same_window(const OIIO::ROI& a, const OIIO::ROI& b) {
+    return a.xbegin == b.xbegin && a.xend == b.xend && a.ybegin == b.ybegin && a.yend == b.yend;
+}
 
 // Takes the light if it is brighter.
 void take(LightMaximum::Found& found, double luminance, const std::string& light, bool measured) {
@@ -23,12 +30,44 @@ bool LightMaximum::read_table(std::string& error) {
     return m_options.table.empty() || m_table.read(m_options.table, m_options.unit, error);
 }
 
+bool LightMaximum::open_index(std::optional<IndexLayer>& layer, std::string& error) {
+    const std::string& asked = m_options.layer;
+    if (!is_file(asked)) {
+        ColorChoice choice;
+        return ToneAlgo::find_color(deciding_spec(m_image), m_beauty, choice, error) &&
+               find_index_layer(m_image.spec(), asked, choice.layer, layer, error);
+    }
+    ImageBuf file(asked);
+    if (!file.init_spec(asked, 0, 0)) {
+        error = format("light index file \"{}\": {}", asked, file.geterror());
+        return false;
+    }
+    const OIIO::ImageSpec& spec = file.spec();
+    if (!same_window(spec.roi_full(), m_image.roi_full())) {
+        error =
+            format("light index file \"{}\" is {}x{}, the image is {}x{}", asked, spec.full_width,
+                   spec.full_height, m_image.spec().full_width, m_image.spec().full_height);
+        return false;
+    }
+    if (!find_index_layer(spec, "", "", layer, error))
+        return false;
+    // A file of one channel needs no name for it.
+    if (!layer && spec.nchannels == 1)
+        layer = IndexLayer{"", 0};
+    if (!layer) {
+        error = format("light index file \"{}\" has no layer that is called so (valid: "
+                       "lightindex, M, light_id, or one channel)",
+                       asked);
+        return false;
+    }
+    layer->layer = asked;
+    m_index_file = std::move(file);
+    return true;
+}
+
 bool LightMaximum::by_table(std::optional<Found>& out, std::string& why, std::string& error) {
     std::optional<IndexLayer> layer;
-    ColorChoice choice;
-    if (!ToneAlgo::find_color(deciding_spec(m_image), m_beauty, choice, error) ||
-        (m_options.layer != "groups" &&
-         !find_index_layer(m_image.spec(), m_options.layer, choice.layer, layer, error)))
+    if (m_options.layer != "groups" && !open_index(layer, error))
         return false;
     return layer ? by_layer(*layer, out, why, error) : by_named_groups(out, why, error);
 }
@@ -36,7 +75,7 @@ bool LightMaximum::by_table(std::optional<Found>& out, std::string& why, std::st
 // By the names that light_index() left, where there are some.
 const Light* LightMaximum::light_at(int index) const {
     std::vector<std::string> names;
-    const std::string all = m_image.spec().get_string_attribute("lightindex:names");
+    const std::string all = index_image().spec().get_string_attribute("lightindex:names");
     if (!all.empty())
         OIIO::Strutil::split(all, names, ",");
     const Light* light =
@@ -47,7 +86,7 @@ const Light* LightMaximum::light_at(int index) const {
 bool LightMaximum::by_layer(const IndexLayer& layer, std::optional<Found>& out, std::string& why,
                             std::string& error) {
     IndexCounts counts;
-    if (!count_indices(m_image, layer, counts, error))
+    if (!count_indices(index_image(), layer, counts, error))
         return false;
     Found found;
     found.index = layer.layer;

@@ -37,9 +37,13 @@ public:
     bool by_groups(std::optional<Found>& out, std::string& why, std::string& error);
 
 private:
+    const OIIO::ImageBuf& index_image() const {
+        return m_index_file.initialized() ? m_index_file : m_image;
+    }
     const LightTable* table() const { return m_options.table.empty() ? nullptr : &m_table; }
     bool by_layer(const IndexLayer& layer, std::optional<Found>& out, std::string& why,
                   std::string& error);
+    bool open_index(std::optional<IndexLayer>& layer, std::string& error);
     const Light* light_at(int index) const;
     bool by_named_groups(std::optional<Found>& out, std::string& why, std::string& error);
     bool take_group(size_t group, const Light* light, Found& found, std::string& error);
@@ -53,6 +57,7 @@ private:
     double m_percentile;
     int m_nthreads;
     LightTable m_table;
+    OIIO::ImageBuf m_index_file; ///< of the index, where it is not in the image
     std::optional<LightScan> m_scan;
 };
 

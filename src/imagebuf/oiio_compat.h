@@ -1,22 +1,31 @@
-// All that differs between OpenImageIO 2.4, 2.5 and 3.x for this project.
+// All that differs between OpenImageIO 2.4, 2.5 and 3.x for this project, for every room.
 //
-// 2.4 and 2.5: paropt and parallel_for_chunked as used here exist; 3.x keeps both spellings.
-// TypeDesc constants are named TypeFloat, TypeInt, TypeString in all three.
+//   ImageCache      3.0 hands it out as a shared_ptr, and ImageBuf takes that; 2.x as a pointer to
+//                   be destroyed.
+//   resize, fit     3.0 takes their parameters as KWArgs; the lists of parameters of 2.x are on
+//                   their way out.
+//   thread pool     2.4 does not look at the number of threads for chunks of one.
+//   ociodisplay     2.4 drops `looks` without a word.
+//   supports()      of readers and writers: an int in all of them, a string_view goes in.
+//   plugins         OIIO_PLUGIN_VERSION is 25 in 2.4 and 2.5, 27 in 3.x; the macros name it. The
+//                   folders are in OIIO_LIBRARY_PATH, for 3.x in OPENIMAGEIO_PLUGIN_PATH.
+//   names           TypeFloat, TypeInt, TypeString, paropt, parallel_for_chunked, Strutil::fmt and
+//                   string_view are spelt the same in all of them.
 #pragma once
 
 #include <OpenImageIO/imagebuf.h>
+#include <OpenImageIO/imagebufalgo.h>
+#include <OpenImageIO/imagecache.h>
+#include <OpenImageIO/imageio.h>
 #include <OpenImageIO/oiioversion.h>
 #include <OpenImageIO/parallel.h>
 #include <OpenImageIO/sysutil.h>
 #include <OpenImageIO/thread.h>
 #include <algorithm>
-#include <atomic>
-#include <exception>
+#include <cstdint>
 #include <functional>
-#include <mutex>
-#include <system_error>
-#include <thread>
-#include <vector>
+#include <memory>
+#include <string>
 
 #if OIIO_VERSION < 20400
 #error "tonetool needs OpenImageIO 2.4 or newer"
@@ -24,9 +33,85 @@
 
 namespace tonetool::oiio {
 
+/// Whether ociodisplay heeds looks.
+inline constexpr bool display_takes_looks = OIIO_VERSION >= 20500;
+
 /// Whether an image only knows its file so far: its header is read, its pixels are not.
 inline bool is_unread_file(const OIIO::ImageBuf& image) {
     return image.storage() == OIIO::ImageBuf::IMAGECACHE;
+}
+
+/// An ImageBuf over pixels that `pixels` owns, with another header of the same geometry and
+/// data type. It is valid as long as `pixels` is.
+inline OIIO::ImageBuf view_with_spec(const OIIO::ImageBuf& pixels, const OIIO::ImageSpec& spec) {
+    return OIIO::ImageBuf(spec, const_cast<void*>(pixels.localpixels()));
+}
+
+/// A cache for one file: it holds the file's header, and not the one that some other cache has kept
+/// of an older file of that name.
+using HeaderCache = std::shared_ptr<OIIO::ImageCache>;
+
+inline HeaderCache make_header_cache() {
+#if OIIO_VERSION >= 30000 // shares its caches itself
+    return OIIO::ImageCache::create(false);
+#else
+    return {OIIO::ImageCache::create(false),
+            [](OIIO::ImageCache* cache) { OIIO::ImageCache::destroy(cache); }};
+#endif
+}
+
+/// An ImageBuf that knows the header of a subimage and reads no pixel. It is valid as long as the
+/// cache is.
+inline OIIO::ImageBuf unread_file(const std::string& file, int subimage, const HeaderCache& cache) {
+#if OIIO_VERSION >= 30000
+    OIIO::ImageBuf buffer(file, subimage, 0, cache);
+#else
+    OIIO::ImageBuf buffer(file, subimage, 0, cache.get());
+#endif
+    cache->close_all();
+    return buffer;
+}
+
+/// Read one subimage in the data type of `spec` into `buffer`.
+inline bool read_flat_pixels(OIIO::ImageInput& input, int subimage, int level,
+                             const OIIO::ImageSpec& spec, void* buffer) {
+    return input.read_image(subimage, level, 0, spec.nchannels, spec.format, buffer);
+}
+
+/// Read the channels from `begin` to before `end` of one subimage as floats into `buffer`.
+inline bool read_channels(OIIO::ImageInput& input, int subimage, int begin, int end, void* buffer) {
+    return input.read_image(subimage, 0, begin, end, OIIO::TypeFloat, buffer);
+}
+
+inline bool read_deep_pixels(OIIO::ImageInput& input, int subimage, int level,
+                             OIIO::DeepData& data) {
+    return input.read_native_deep_image(subimage, level, data);
+}
+
+/// What a format can hold ("alpha", "nchannels", "displaywindow", ...).
+inline bool format_supports(const OIIO::ImageOutput& output, const std::string& feature) {
+    return output.supports(feature) != 0;
+}
+
+/// ImageBufAlgo::resize with the filter's own width.
+inline bool resize(OIIO::ImageBuf& dst, const OIIO::ImageBuf& src, const std::string& filter,
+                   OIIO::ROI roi, int nthreads = 0) {
+#if OIIO_VERSION >= 30000
+    return OIIO::ImageBufAlgo::resize(dst, src, {{"filtername", filter}}, roi, nthreads);
+#else
+    return OIIO::ImageBufAlgo::resize(dst, src, filter, 0.0f, roi, nthreads);
+#endif
+}
+
+/// ImageBufAlgo::fit with the filter's own width.
+inline bool fit(OIIO::ImageBuf& dst, const OIIO::ImageBuf& src, const std::string& filter,
+                const std::string& fillmode, bool exact, OIIO::ROI roi) {
+#if OIIO_VERSION >= 30000
+    return OIIO::ImageBufAlgo::fit(
+        dst, src, {{"filtername", filter}, {"fillmode", fillmode}, {"exact", int(exact)}}, roi);
+#else
+    return OIIO::ImageBufAlgo::fit(dst, src, filter, 0.0f, fillmode, exact, roi);
+#endif
 }
 
 /// Threads that OpenEXR decodes with.
@@ -36,73 +121,17 @@ inline int exr_threads() {
     return threads > 0 ? threads : int(OIIO::Sysutil::hardware_concurrency());
 }
 
-/// Hands the numbers below `count` out to whoever calls, and keeps what a task threw.
-class Tasks {
-public:
-    Tasks(int64_t count, const std::function<void(int64_t)>& task) : m_count(count), m_task(task) {}
-
-    void work() {
-        for (int64_t i = m_next++; i < m_count; i = m_next++) {
-            try {
-                m_task(i);
-            } catch (...) {
-                const std::lock_guard<std::mutex> hold(m_lock);
-                m_failure = std::current_exception();
-            }
-        }
-    }
-    void rethrow() const {
-        if (m_failure)
-            std::rethrow_exception(m_failure);
-    }
-
-private:
-    int64_t m_count;
-    const std::function<void(int64_t)>& m_task;
-    std::atomic<int64_t> m_next{0};
-    std::exception_ptr m_failure;
-    std::mutex m_lock;
-};
-
-/// Runs task(i) for every i below count on up to `most` threads, this one among them, that are not
-/// those of the pool. An exception of a task is thrown here, once all have ended.
-inline void on_own_threads(int64_t count, int most, const std::function<void(int64_t)>& task) {
-    Tasks tasks(count, task);
-    std::vector<std::thread> threads;
-    threads.reserve(size_t(std::max(most, 1)));
-    try {
-        for (int64_t t = 1; t < std::min<int64_t>(most, count); ++t)
-            threads.emplace_back([&tasks] { tasks.work(); });
-    } catch (const std::system_error&) {
-        // No more threads to be had: those there are do it all.
-    }
-    tasks.work();
-    for (std::thread& thread : threads)
-        thread.join();
-    tasks.rethrow();
-}
-
 /// Threads that 0 or a number of them stands for.
 inline int threads_of(int nthreads) {
     return nthreads > 0 ? nthreads : OIIO::default_thread_pool()->size() + 1;
 }
 
-/// Runs task(i) for every i below count, each on whichever of `nthreads` threads (0: those of the
-/// pool) is free: tasks are coarse. An exception of a task is thrown here, once all have ended.
-inline void parallel_tasks(int64_t count, int nthreads, const std::function<void(int64_t)>& task) {
-    const int wanted = threads_of(nthreads);
-#if defined(__SANITIZE_THREAD__)
-    // The sanitizer cannot see into the library's pool and takes its hand-over of work for races.
-    on_own_threads(count, wanted, task);
-#else
-    const int64_t workers = std::min<int64_t>(wanted, count);
-    Tasks tasks(count, task);
-    // As many tasks as threads: 2.4 does not look at the number of threads for chunks of one.
+/// Runs work() `workers` times at once, on this thread and those of the pool.
+inline void on_pool(int64_t workers, const std::function<void()>& work) {
+    // As many chunks as threads, see above.
     OIIO::parallel_for_chunked(
-        0, workers, 1, [&tasks](int64_t, int64_t) { tasks.work(); },
+        0, workers, 1, [&work](int64_t, int64_t) { work(); },
         OIIO::paropt(int(std::max<int64_t>(workers, 1))));
-    tasks.rethrow();
-#endif
 }
 
 } // namespace tonetool::oiio

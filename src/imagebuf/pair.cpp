@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "imagebuf/bands.h"
+#include "imagebuf/oiio_compat.h"
 
 namespace tonetool {
 namespace {
@@ -175,7 +176,7 @@ bool FittedTest::fill_window(const ColorPlanes& planes, ROI window, int nthreads
     ImageBuf holes;
     // Mending looks at pixels that it has mended: one thread, or the bits depend on the order.
     if ((holey && !IBA::fixNonFinite(color, with_holes, IBA::NONFINITE_BOX3, nullptr, {}, 1)) ||
-        !IBA::resize(m_resized, color, "", 0.0f, window, nthreads) ||
+        !oiio::resize(m_resized, color, "", window, nthreads) ||
         (holey && !IBA::resample(holes, with_holes, false, window, nthreads))) {
         error = "resizing the test image: " + color.geterror() + m_resized.geterror() +
                 holes.geterror();

@@ -4,7 +4,7 @@
 #include <functional>
 #include <vector>
 
-#include "imagebuf/oiio_compat.h"
+#include "imagebuf/tasks.h"
 #include "kernels/views.h"
 
 namespace tonetool {
@@ -12,15 +12,15 @@ namespace tonetool {
 /// 0 threads: OpenImageIO's "threads" attribute. Inside a pool thread everything runs serially.
 inline kernels::ParallelFor make_parallel(int nthreads) {
     return [nthreads](int64_t count, const std::function<void(int64_t)>& task) {
-        oiio::parallel_tasks(count, nthreads, task);
+        parallel_tasks(count, nthreads, task);
     };
 }
 
 /// Runs the tasks at the same time on threads of their own, from which the pool can be used; one
 /// after the other where only one thread is wanted.
 inline void run_beside(const std::vector<std::function<void()>>& tasks, int nthreads) {
-    oiio::on_own_threads(int64_t(tasks.size()), nthreads == 1 ? 1 : 4,
-                         [&](int64_t i) { tasks[size_t(i)](); });
+    on_own_threads(int64_t(tasks.size()), nthreads == 1 ? 1 : 4,
+                   [&](int64_t i) { tasks[size_t(i)](); });
 }
 
 } // namespace tonetool

@@ -107,10 +107,8 @@ std::shared_ptr<Picture> make_picture(const Source& source, const chain::Strings
                       chain::join(found.warnings, "; ")};
     auto picture = std::make_shared<Picture>();
     std::reverse(found.stack.begin(), found.stack.end());
-    for (std::vector<chain::Left>* images : {&found.stack, &found.named}) {
-        for (chain::Left& image : *images) {
-            add_subimages(*picture, image, notes);
-        }
+    for (chain::Left& image : found.stack) {
+        add_subimages(*picture, image, notes);
     }
     return picture;
 }

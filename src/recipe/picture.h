@@ -22,8 +22,8 @@ struct Source {
 Source parse_source(const std::string& name, const OIIO::ImageSpec& config);
 
 struct Picture {
-    /// The top of the stack with its subimages, those below it from the top down, then labelled
-    /// ones that are not on the stack; in the data types that they would be written with.
+    /// Those of the top of the stack, then of the images below it from the top down, in the data
+    /// types that they would be written with.
     std::vector<OIIO::ImageBuf> subimages;
     Stamps inputs; ///< the recipe and all that was read for it
     size_t bytes = 0;

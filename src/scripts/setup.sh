@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# Installs the missing packages of packages.txt, then configures and builds build/release.
+# Installs the missing packages of packages.txt (and of lists like it that are given), then configures
+# and builds build/release.
 # Does nothing over again, so that a second run is quick and needs no network.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
@@ -11,7 +12,7 @@ die() {
 
 missing_packages() {
     local wanted
-    mapfile -t wanted < <(sed 's/#.*//; s/[[:space:]]//g; /^$/d' src/scripts/packages.txt)
+    mapfile -t wanted < <(sed 's/#.*//; s/[[:space:]]//g; /^$/d' "$@")
     # dpkg-query complains about, and fails on, names it has never seen; comm lists them as missing.
     comm -23 <(printf '%s\n' "${wanted[@]}" | sort) \
         <(dpkg-query --show --showformat '${db:Status-Status} ${Package}\n' "${wanted[@]}" \
@@ -32,7 +33,7 @@ install_packages() {
 }
 
 command -v dpkg-query >/dev/null || die "this is written for Debian 12; dpkg-query is not here"
-mapfile -t missing < <(missing_packages)
+mapfile -t missing < <(missing_packages src/scripts/packages.txt "$@")
 if [[ ${#missing[@]} -gt 0 ]]; then
     install_packages "${missing[@]}"
 fi

@@ -34,13 +34,14 @@ void check_places(const CheckFiles& files) {
             continue;
         }
         const std::string start = "--" + command + ": ";
+        const bool is_folder = command == "state" || command == "pictures";
         const fs::path folder = fs::path(file).parent_path();
         std::error_code none;
-        if (!folder.empty() && command != "state" && !fs::is_directory(folder, none)) {
+        if (!folder.empty() && !is_folder && !fs::is_directory(folder, none)) {
             throw std::runtime_error(start + "there is no folder \"" + folder.string() +
                                      "\" to write \"" + file + "\" into");
         }
-        if (command != "state" && fs::is_directory(file, none)) {
+        if (!is_folder && fs::is_directory(file, none)) {
             throw std::runtime_error(start + "\"" + file + "\" is a folder");
         }
         if (!seen.insert(fs::path(file).lexically_normal().string()).second) {

@@ -7,6 +7,7 @@
 #include "chain/chain.h"
 #include "include/tonetool/write.h"
 #include "tone.imageio/tone_input.h"
+#include "tonetool/doctor.h"
 
 namespace {
 
@@ -36,6 +37,7 @@ int main(int argc, char** argv) {
     try {
         install_signal_handlers();
         tonetool::register_tone_format();
+        tonetool::chain::add_commands(tonetool::doctor_commands());
         tonetool::chain::Strings words(argv + (argc > 0 ? 1 : 0), argv + argc);
         return tonetool::chain::run(words, std::cout, std::cerr);
     } catch (const std::exception& problem) {

@@ -30,8 +30,9 @@ class Ran:
 
 def call(program, words, cwd, **options):
     options.setdefault("stdout", subprocess.PIPE)
+    options.setdefault("timeout", 120)
     done = subprocess.run([program, *map(str, words)], cwd=cwd, stderr=subprocess.PIPE,
-                          text=True, timeout=120, check=False, **options)
+                          text=True, check=False, **options)
     return Ran(done)
 
 

@@ -219,6 +219,37 @@ def test_an_index_of_whole_numbers(tonetool, tmp_path, write):
     assert maximum(tonetool("u.exr", "--cgtmo:lights=t.csv", "-o", "o.exr")) == (9, "lights 2")
 
 
+@pytest.mark.parametrize("bits", (8, 16))
+def test_an_index_of_whole_numbers_that_a_command_touched(tonetool, tmp_path, write, bits):
+    """Its type is gone then, but the header tells its bits."""
+    largest = 2**bits - 1
+    pixels = np.full((4, 4, 4), 0.5, np.float32)
+    pixels[..., 3] = np.array([0, 1, 2, 2]) / largest
+    image = oiio.ImageBuf(oiio.ImageSpec(4, 4, 4, f"uint{bits}"))
+    image.set_pixels(oiio.ROI(), pixels)
+    assert image.write(str(tmp_path / "i.tif"))
+    write("t.csv", "0,1\n1,4\n2,9\n")
+    ran = tonetool("i.tif", "--chnames", "R,G,B,M", "--cgtmo:lights=t.csv", "-o", "o.png")
+    assert maximum(ran) == (9, "lights 2")
+
+
+def test_an_index_in_a_file_of_its_own(tonetool, two_lights, make_image, write):
+    tonetool(two_lights, "--lightindex", "-o", "m.exr")
+    write("t.csv", "lamp,6\nkey,5\n")
+    plain = make_image("plain.exr", 16, 4, ("R", "G", "B"), pixels=np.full((4, 16, 3), 0.5))
+    ran = tonetool(plain, "--cgtmo:lights=t.csv:lightindex=m.exr", "-o", "o.exr")
+    assert maximum(ran) == (6, "lights lamp") and ran.fact("light-index") == "m.exr"
+    make_image("one.exr", 16, 4, ("Y",), pixels=np.ones((4, 16, 1)))
+    write("u.csv", "0,3\n1,7\n")
+    ran = tonetool(plain, "--cgtmo:lights=u.csv:lightindex=one.exr", "-o", "o.exr")
+    assert maximum(ran) == (7, "lights 1")
+    for name, size, channels, words in (("small.exr", (8, 4), ("M",), ("8x4", "16x4")),
+                                        ("two.exr", (16, 4), ("a", "b"), ("two.exr", "lightindex"))):
+        make_image(name, *size, channels, pixels=np.ones((size[1], size[0], len(channels))))
+        ran = tonetool(plain, f"--cgtmo:lights=u.csv:lightindex={name}", "-o", "x.exr", status=1)
+        assert all(word in ran.err for word in words)
+
+
 def test_the_names_an_index_was_made_with(tonetool, two_lights, make_image, read, write):
     tonetool(two_lights, "--lightindex", "-o", "m.exr")
     pixels, spec = read("m.exr")

@@ -23,7 +23,8 @@ struct LightOptions {
     /// "power": plain values are powers, which rank lights and are a luminance only with an area.
     std::string unit = "luminance";
     /// Layer that holds the index of a light in each pixel; "groups": made of the light groups
-    /// instead; empty: one that is called so (lightindex, M, light_id), else the light groups.
+    /// instead; a file that has it alone or under such a name; empty: one that is called so
+    /// (lightindex, M, light_id), else the light groups.
     std::string layer;
     /// Of the light groups a pixel has that of the largest "contribution"; or "power": among those
     /// with more than 1 % of the pixel's light that of the largest value in the table.

@@ -11,6 +11,7 @@
 #include "tonetool/luminance.h"
 #include "tonetool/lut.h"
 #include "tonetool/pixels.h"
+#include "tonetool/qc.h"
 #include "tonetool/tmqi.h"
 #include "tonetool/tonemap.h"
 #include "tonetool/write.h"

@@ -1,7 +1,7 @@
 """Errors: one of every command at least, together with those of the other tables."""
 
 from case import table
-from cases_printing import RUNSTATS
+from cases_printing import NOT_COMPARED, RUNSTATS, VERSION
 
 TAKE_ARGUMENTS = """metamatch no-metamatch threads cache autotile oiioattrib set if while for
     frames framepadding views i iconfig missingfile o d tile compression
@@ -128,5 +128,9 @@ flag-no-error-exit!: --no-error-exit nosuch.exr in/rgb.exr -o out.exr
 
 CAPTURE = {"without": r"^\[ WARN", "reason": "the camera library tells the time in its warnings"}
 
+UNKNOWN_TYPE = {"within": 1e9, "reason": "oiiotool writes memory that it never set as the channel"}
+
 CASES = table("error", "\n".join(MISSING + DEEP_ONE + DEEP_TWO + CUT) + ERRORS,
-              capture=CAPTURE, capture_camera=CAPTURE, flag_runstats=RUNSTATS)
+              capture=CAPTURE, capture_camera=CAPTURE, flag_runstats=RUNSTATS,
+              version_then=VERSION, diff_deep_flat=NOT_COMPARED,
+              type_of_channel_unknown=UNKNOWN_TYPE)

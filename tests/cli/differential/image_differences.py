@@ -3,8 +3,9 @@
 import numpy as np
 import OpenImageIO as oiio
 
-# The program's name and the time stand in these; that both have them or both lack them counts.
-NAMES_THE_PROGRAM = ("Software", "DateTime", "Exif:ImageHistory", "ImageHistory",
+# The program's name and the time stand in these (FITS cuts names short); that both have them or both lack them counts.
+NAMES_THE_PROGRAM = ("Software", "DateTime", "Exif:ImageHistory", "Exif:ima",
+                     "ImageHistory",
                      "IPTC:OriginatingProgram")
 FACTS = ("width", "height", "depth", "x", "y", "z", "full_x", "full_y", "full_z", "full_width",
          "full_height", "full_depth", "tile_width", "tile_height", "tile_depth", "nchannels",

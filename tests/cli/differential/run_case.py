@@ -86,7 +86,8 @@ def normalised(text, without=""):
     passed, memory, names of unfinished files, the usage text after an unknown option."""
     text = re.sub(r"(?ms)^(oiiotool|tonetool) -- .*", "", text)
     text = re.sub(r"\b(oiiotool|tonetool)\b", "PROGRAM", text).replace(" --compat", "")
-    text = re.sub(r"\.[0-9a-f]{8}\.temp\.", ".TEMP.", text)
+    text = re.sub(r"\.[0-9a-f]{8}\.temp\.", ".", text)
+    text = re.sub(r"\.(\w+\.\w+)\.\d+-\d+\.\w+", r"\1", text)
     text = re.sub(r"\b\d+(\.\d+)? ?[KMG]?B(?![\w=])", "SIZE", text)
     text = re.sub(r"\b\d+\.\d+ ?s\b|(?<=: )\s*\d+\.\d\d$", "TIME", text, flags=re.M)
     lines = [line.rstrip() for line in text.strip().splitlines()]

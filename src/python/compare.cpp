@@ -1,0 +1,45 @@
+#include "python/compare.h"
+
+#include "python/families.h"
+
+namespace tonetool::python {
+
+namespace {
+
+void add_pool(Module& module) {
+    using S = FlipPool;
+    ResultClass<S> result(module, "FlipPool", "Pooled values of an error map.");
+    result.field("mean", &S::mean, "Mean of the pixels.")
+        .field("weighted_q1", &S::weighted_q1, "A quarter of the error mass lies below it.")
+        .field("weighted_median", &S::weighted_median, "Half of the error mass lies below it.")
+        .field("weighted_q3", &S::weighted_q3, "Three quarters of the error mass lie below it.")
+        .field("p50", &S::p50, "Nearest-rank percentile of the pixels.")
+        .field("p95", &S::p95, "Nearest-rank percentile of the pixels.")
+        .field("p99", &S::p99, "Nearest-rank percentile of the pixels.")
+        .field("p999", &S::p999, "Percentile 99.9 of the pixels.")
+        .field("min", &S::min, "Smallest value.")
+        .field("max", &S::max, "Largest value.")
+        .field("min_x", &S::min_x, "Column of the first smallest value.")
+        .field("min_y", &S::min_y, "Row of the first smallest value.")
+        .field("max_x", &S::max_x, "Column of the first largest value.")
+        .field("max_y", &S::max_y, "Row of the first largest value.")
+        .field("histogram", &S::histogram, "Pixels in 100 equal buckets over 0 to 1.")
+        .field("pixels", &S::pixels, "Number of pixels.")
+        .finish();
+}
+
+} // namespace
+
+void add_compare(Module& module) {
+    add_pool(module);
+    using S = FlipSide;
+    ResultClass<S> result(module, "FlipSide", "How one image was read and what was found in it.");
+    result.field("layer", &S::layer, "\"\" for the plain R, G, B.")
+        .field("space", &S::space, "Colour space the stored values were read in.")
+        .field("nonfinite", &S::nonfinite, "Pixels with NaN or Inf.")
+        .field("negative", &S::negative, "Pixels with a negative component, which counts as 0.")
+        .field("uncovered", &S::uncovered, "Compared pixels outside the data window: black.")
+        .finish();
+}
+
+} // namespace tonetool::python

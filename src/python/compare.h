@@ -1,0 +1,73 @@
+// What the comparisons of two images have in common.
+#pragma once
+
+#include <string>
+
+#include "python/results.h"
+#include "tonetool/compare.h"
+
+namespace tonetool::python {
+
+template <>
+struct Python<FlipPool> : Nested<FlipPool> {
+    static std::string given() { return "FlipPool"; }
+};
+template <>
+struct Python<FlipSide> : Nested<FlipSide> {
+    static std::string given() { return "FlipSide"; }
+};
+
+template <class O>
+Fields<O> pair_fields() {
+    return {
+        field<O>("pixels", &O::pixels, "Layer and colour space, for both images."),
+        field<O>("size", &O::size,
+                 "Different display windows are an error (\"match\"), the test is resized to the "
+                 "reference's, or only where they meet is compared (\"crop\")."),
+        field<O>("alpha", &O::alpha,
+                 "\"error\": the difference of alpha joins the map; \"ignore\": it is not looked "
+                 "at."),
+        field<O>("memory", &O::memory,
+                 "Bytes that a process without other work needs at most; larger images are read "
+                 "from their files in bands. 0: bands where half of the physical memory is not "
+                 "enough."),
+    };
+}
+
+template <class S>
+void add_pair_summary(ResultClass<S>& result) {
+    result.field("pool", &S::pool, "Pooled values of the map.")
+        .field("reference", &S::reference, "How the reference was read.")
+        .field("test", &S::test, "How the test was read.")
+        .field("nonfinite_both", &S::nonfinite_both,
+               "Pixels that are NaN or Inf in both images: error 0.")
+        .field("region", &S::region, "Pixels compared.")
+        .field("alpha_compared", &S::alpha_compared, "Alpha is part of the map.")
+        .field("alpha_mean", &S::alpha_mean, "Mean of the difference of alpha.")
+        .field("alpha_max", &S::alpha_max, "Its maximum,")
+        .field("alpha_max_x", &S::alpha_max_x, "its column,")
+        .field("alpha_max_y", &S::alpha_max_y, "and its row.")
+        .field("warnings", &S::warnings, "What a user must know, one sentence each.");
+}
+
+inline Parameter reference_parameter() {
+    return image_parameter("reference", "Needs R, G, B; other channels are ignored.");
+}
+inline Parameter test_parameter() {
+    return image_parameter("test", "The image that is judged; of any type of image.");
+}
+
+/// Notes that the documentation of every comparison has.
+inline std::string pair_notes(const std::string& first) {
+    return first +
+           "\nShapes: float32 arrays of height x width x channels (R, G, B first) or ImageBufs; "
+           "the map is of one channel, height x width, of the union of the data windows.\n"
+           "Colour: brought to linear Rec.709 by matrix; arrays are taken for linear Rec.709 "
+           "unless pixels={\"from\": ...} says otherwise.\n"
+           "Alpha: ignored unless alpha=\"error\".\n"
+           "The map is an array if the reference is one, else an ImageBuf. Identical images give "
+           "exactly 0; the number of threads changes no bit. Images must not be written to by "
+           "another thread meanwhile.";
+}
+
+} // namespace tonetool::python

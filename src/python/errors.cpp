@@ -1,0 +1,96 @@
+// The measures that rendering papers report.
+#include "tonetool/errors.h"
+
+#include "python/compare.h"
+#include "python/families.h"
+
+namespace tonetool::python {
+
+template <>
+struct Python<ErrorSummary> : Nested<ErrorSummary> {
+    static std::string given() { return "ErrorSummary"; }
+};
+
+namespace {
+
+const std::string source =
+    "relmse: Rousselle, Knaus, Zwicker, \"Adaptive Sampling and Reconstruction using Greedy Error "
+    "Minimization\", 2011. smape: Vogels et al., \"Denoising with Kernel Prediction and Asymmetric "
+    "Loss Functions\", 2018. mpsnr: Munkberg, Clarberg, Hasselgren, Akenine-Moller, \"High Dynamic "
+    "Range Texture Compression for Graphics Hardware\", 2006. rmae: as the viewer tev.";
+
+using Options = On<ErrorOptions>;
+using ErrorObject = Imaged<ErrorSummary>;
+
+Fields<Options> fields() {
+    return joined<Options>(
+        {{field<Options>("metric", &Options::metric, "One of error_metrics(); must be given."),
+          field<Options>("eps", &Options::eps, "Of rmae, relmse and smape, 1e-12 to 1e12."),
+          field<Options>("peak", &Options::peak, "Of psnr: linear light, 1e-12 to 1e12."),
+          field<Options>("start_exposure", &Options::start_exposure,
+                         "Of mpsnr: stops; None: as hdr_flip."),
+          field<Options>("stop_exposure", &Options::stop_exposure,
+                         "Of mpsnr: stops; None: as hdr_flip."),
+          field<Options>("num_exposures", &Options::num_exposures,
+                         "Of mpsnr: 1 to 1024; None: as hdr_flip.")},
+         pair_fields<Options>(),
+         {roi_field<Options>(), threads_field<Options>()}});
+}
+
+py::object run(std::vector<py::object>& images, const Options& options) {
+    const InputImage reference(images[0], "error_map: reference"),
+        test(images[1], "error_map: test");
+    ErrorSummary summary;
+    OIIO::ImageBuf map = computed([&](OIIO::ImageBuf& dst) {
+        return ToneAlgo::error_map(dst, reference.buf(), test.buf(), options, &summary, options.roi,
+                                   options.nthreads);
+    });
+    return py::cast(ErrorObject{to_python(std::move(map), OutputKind::map(reference)), summary});
+}
+
+void add_results(Module& module) {
+    using S = ErrorSummary;
+    ResultClass<S> result(module, "ErrorSummary", "A measure of the error, and how it was made.");
+    result.field("metric", &S::metric, "Which.")
+        .field("value", &S::value, "The measure.")
+        .field("decibels", &S::decibels, "It is in dB, higher is better; else 0 is best.")
+        .field("eps", &S::eps, "0: the metric has none.")
+        .field("peak", &S::peak, "0: the metric has none.")
+        .field("exposures", &S::exposures, "Of mpsnr: stops, ascending.")
+        .field("max_luminance", &S::max_luminance, "That gave the exposures; 0: not used.")
+        .field("median_luminance", &S::median_luminance, "That gave the exposures; 0: not used.")
+        .field("median_of_lit", &S::median_of_lit,
+               "More than half of the reference is black: the median is that of the rest.");
+    add_pair_summary(result);
+    result.finish();
+    ResultClass<ErrorObject>(module, "ErrorResult", "The map of an error and its summary.")
+        .object("map", &ErrorObject::image, "Image", "Error of each pixel, one channel.")
+        .field("summary", &ErrorObject::summary, "The measure and what it was made with.")
+        .finish();
+}
+
+} // namespace
+
+void add_errors(Module& module) {
+    add_results(module);
+    define(
+        module,
+        Description{
+            "error_map",
+            "The map of SMAPE, RMAE, relMSE, MSE, MAE, PSNR or mPSNR, and the measure of it.",
+            {reference_parameter(), test_parameter()},
+            "ErrorResult",
+            "The map, and in `summary` the measure.",
+            pair_notes("Units: those of the metric, the mean over R, G, B of each pixel; psnr and "
+                       "mpsnr are in dB, higher is better.\nNegative components count as 0.\n"
+                       "NaN, Inf: a pixel that has them in one image counts as the largest "
+                       "error, in both as 0. Counted, and in summary.warnings."),
+            "An unknown metric, no R, G, B, deep images, different display windows, a value out "
+            "of range, an unreadable file, no finite pixel.",
+            source},
+        fields(), run);
+    define_names(module, "error_metrics", "Names of the metrics of error_map().", source,
+                 ToneAlgo::error_metrics);
+}
+
+} // namespace tonetool::python

@@ -1,0 +1,58 @@
+// Images of Python: OpenImageIO.ImageBuf, and float32 arrays of numpy, without a copy.
+#pragma once
+
+#include <OpenImageIO/imagebuf.h>
+#include <memory>
+#include <pybind11/numpy.h>
+#include <pybind11/pybind11.h>
+#include <string>
+#include <vector>
+
+namespace tonetool::python {
+
+namespace py = pybind11;
+
+/// What a function was given as an image. Nothing but construction and destruction needs the GIL.
+class InputImage {
+public:
+    /// `where` names the function and the parameter.
+    InputImage(const py::object& object, const std::string& where);
+
+    const OIIO::ImageBuf& buf() const { return m_view.initialized() ? m_view : *m_image; }
+    bool is_array() const { return m_dimensions > 0; }
+    /// Of the array; 0 for an ImageBuf.
+    int dimensions() const { return m_dimensions; }
+
+private:
+    void look_at(const py::array& array, const std::string& where);
+
+    py::object m_object; ///< keeps the pixels
+    const OIIO::ImageBuf* m_image = nullptr;
+    OIIO::ImageBuf m_view; ///< of the array's pixels
+    int m_dimensions = 0;
+};
+
+/// Checks the version of the OpenImageIO module and that its types are those of this module.
+void check_openimageio(const py::module_& module);
+
+/// How a result is handed back: as what was given.
+struct OutputKind {
+    bool array = false;
+    bool keep_channel_axis = false; ///< height x width x 1, not height x width
+
+    /// Maps: one channel has no axis.
+    static OutputKind map(const InputImage& like) { return {like.is_array(), false}; }
+    /// Pictures have the axes of the image they were made of.
+    static OutputKind picture(const InputImage& like) {
+        return {like.is_array(), like.dimensions() == 3};
+    }
+};
+
+/// The pixels change hands without a copy.
+py::object to_python(OIIO::ImageBuf&& image, OutputKind kind);
+
+/// A copy of an array (or of the ImageBuf's pixels) as an ImageBuf with names of channels.
+OIIO::ImageBuf named_image(const InputImage& image, const std::vector<std::string>& channels,
+                           const std::string& where);
+
+} // namespace tonetool::python

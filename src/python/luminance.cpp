@@ -1,0 +1,97 @@
+// Luminance statistics and exposure.
+#include "tonetool/luminance.h"
+
+#include "python/families.h"
+#include "python/results.h"
+
+namespace tonetool::python {
+
+namespace {
+
+const std::string source = "Luminance of Rec.709 (ITU-R BT.709): 0.2126 R + 0.7152 G + 0.0722 B.";
+
+struct Pixels {
+    PixelOptions pixels;
+};
+using Options = On<Pixels>;
+
+Fields<Options> fields() {
+    return {field<Options>("pixels", &Options::pixels, "Layer and colour space."),
+            roi_field<Options>(), threads_field<Options>()};
+}
+
+py::object stats(std::vector<py::object>& images, const Options& options) {
+    const InputImage image(images[0], "luminance_stats: image");
+    LuminanceStats found;
+    run_or_raise("luminance_stats", [&](std::string& error) {
+        return ToneAlgo::luminance_stats(found, image.buf(), error, options.pixels, options.roi,
+                                         options.nthreads);
+    });
+    return py::cast(found);
+}
+
+py::object exposure(std::vector<py::object>& arguments, const Options& options) {
+    const InputImage image(arguments[0], "exposure: image");
+    const double stops = to_double(arguments[1], "exposure: stops");
+    OIIO::ImageBuf result = computed([&](OIIO::ImageBuf& dst) {
+        return ToneAlgo::exposure(dst, image.buf(), stops, options.pixels, options.roi,
+                                  options.nthreads);
+    });
+    return to_python(std::move(result), OutputKind::picture(image));
+}
+
+void add_stats(Module& module) {
+    using S = LuminanceStats;
+    ResultClass<S>(module, "LuminanceStats", "Luminance over the finite pixels of an image.")
+        .field("pixels", &S::pixels, "In the data window or the region.")
+        .field("nonfinite", &S::nonfinite, "With NaN or Inf: not in any figure below.")
+        .field("negative", &S::negative, "Finite, with a negative component, which counts as 0.")
+        .field("black", &S::black, "Luminance exactly 0.")
+        .field("min", &S::min, "Smallest.")
+        .field("max", &S::max, "Largest.")
+        .field("mean", &S::mean, "Arithmetic mean.")
+        .field("median", &S::median, "The upper median, as HDR-FLIP takes it.")
+        .field("median_lit", &S::median_lit, "The same over luminance above 0.")
+        .field("log_average", &S::log_average, "Geometric mean over luminance above 0.")
+        .field("p1", &S::p1, "Nearest-rank percentile.")
+        .field("p99", &S::p99, "Nearest-rank percentile.")
+        .field("p999", &S::p999, "Percentile 99.9.")
+        .field("layer", &S::layer, "\"\" for the plain R, G, B.")
+        .field("space", &S::space, "Colour space the stored values were read in.")
+        .finish();
+}
+
+} // namespace
+
+void add_luminance(Module& module) {
+    add_stats(module);
+    const Parameter image =
+        image_parameter("image", "Needs R, G, B; others are ignored or carried.");
+    define(
+        module,
+        Description{"luminance_stats",
+                    "Measure the luminance of an image.",
+                    {image},
+                    "LuminanceStats",
+                    "The figures.",
+                    "Shapes: height x width x channels, R, G, B first, or an ImageBuf. Units: that "
+                    "of the image, in linear Rec.709. Alpha: ignored.\nNaN, Inf: such pixels are "
+                    "counted and left out.",
+                    "No colour, deep images, no finite pixel, an unreadable file.",
+                    source},
+        fields(), stats);
+    define(
+        module,
+        Description{"exposure",
+                    "Multiply the colour of an image by 2^stops.",
+                    {image, {"stops", "float", "-126 to 126.", ""}},
+                    "Image",
+                    "The picture; an array if the image is one.",
+                    "Shapes: those of the image. Units: stops. Alpha and other channels: carried.\n"
+                    "NaN, Inf: such pixels stay as they are.",
+                    "No colour, a display-encoded image, deep images, stops out of range.",
+                    source},
+        fields(), exposure);
+}
+
+} // namespace tonetool::python

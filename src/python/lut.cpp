@@ -1,0 +1,79 @@
+// Tone curves and views as look-up tables.
+#include "tonetool/lut.h"
+
+#include "python/families.h"
+#include "python/results.h"
+
+namespace tonetool::python {
+
+namespace {
+
+const std::string source =
+    "The formats: Adobe's Cube LUT Specification 1.0, Sony Imageworks' .spi1d "
+    "and .spi3d, S-2014-006 (CLF); OpenColorIO 2 (CTF).";
+
+using O = LutOptions;
+
+Fields<O> fields() {
+    return {
+        field<O>("curve", &O::curve, "Tone curve; None: aces."),
+        field<O>("view", &O::view, "A view of an OpenColorIO configuration instead of the curve."),
+        field<O>(
+            "from_", &O::from,
+            "Colour space of the configuration that a view starts from; \"\": linear Rec.709."),
+        field<O>("encode", &O::encode, "Of the result of a curve, one of display_encodings()."),
+        field<O>("shaper", &O::shaper, "One of lut_shapers()."),
+        field<O>("min", &O::min, "Stops, of the shaper log2; -24 to 0."),
+        field<O>("max", &O::max, "Stops, of the shaper log2; 1 to 16."),
+        field<O>("size", &O::size,
+                 "Entries, 2 to 65536, or nodes along an edge of a cube, 2 to 129; 0: 4096 or 33."),
+    };
+}
+
+py::object run(std::vector<py::object>& arguments, const O& options) {
+    const std::string filename = to_text(arguments[0], "export_lut: filename");
+    LutSummary summary;
+    run_or_raise("export_lut", [&](std::string& error) {
+        return ToneAlgo::export_lut(filename, options, &summary, error);
+    });
+    return py::cast(summary);
+}
+
+} // namespace
+
+void add_lut(Module& module) {
+    using S = LutSummary;
+    ResultClass<S>(module, "LutSummary",
+                   "What was written, and how far from the exact curve it is.")
+        .field("format", &S::format, "\"cube\", \"spi1d\", \"spi3d\", \"clf\", \"ctf\".")
+        .field("structure", &S::structure, "As \"1D 4096\" or \"3D 33\".")
+        .field("input", &S::input, "What the file expects: space and shaper.")
+        .field("low", &S::low, "Scene light that the table begins at.")
+        .field("high", &S::high, "Scene light that the table ends at.")
+        .field("max_error", &S::max_error, "Largest difference to the exact result, code values.")
+        .field("mean_error", &S::mean_error, "Mean difference.")
+        .field("grey_max_error", &S::grey_max_error, "Largest difference of greys.")
+        .field("samples", &S::samples, "That were compared.")
+        .finish();
+    define(module,
+           Description{
+               "export_lut",
+               "Write a tone curve or a view as a look-up table; the format is that of the "
+               "extension.",
+               {{"filename", "str | os.PathLike[str]", ".cube, .spi1d, .spi3d, .clf or .ctf.", ""}},
+               "LutSummary",
+               "What was written, with its measured error.",
+               "Shapes: a table per channel, or a cube. Units: input is scene light in linear "
+               "Rec.709, shaped to 0 to 1 for .cube, .spi1d and .spi3d; the result is the "
+               "display's. NaN does not occur.\nWritten beside the target and renamed.",
+               "An unknown name, a value out of range, a format that cannot hold the curve, a "
+               "file that cannot be written.",
+               source},
+           fields(), run);
+    define_names(module, "lut_shapers", "Names of the shapers of export_lut().", source,
+                 ToneAlgo::lut_shapers);
+    define_names(module, "lut_formats", "Names of the formats of export_lut().", source,
+                 ToneAlgo::lut_formats);
+}
+
+} // namespace tonetool::python

@@ -1,0 +1,80 @@
+// Tables of the structs of options that several functions take.
+#include "python/options.h"
+
+namespace tonetool::python {
+
+template <>
+const Table<PixelOptions>& table_of<PixelOptions>() {
+    using O = PixelOptions;
+    static const Table<O> table = {
+        "PixelOptions",
+        "layer",
+        "Which pixels are looked at",
+        {field<O>("layer", &O::layer,
+                  "Layer whose R, G, B are used, the part before \".R\"; \"\": the plain R, G, B, "
+                  "else the one obvious beauty layer."),
+         field<O>("from", &O::from,
+                  "Colour space of the stored values, one of color_spaces(); \"\": by the header, "
+                  "else linear Rec.709 for floats and sRGB for integers.")}};
+    return table;
+}
+
+template <>
+const Table<CurveOptions>& table_of<CurveOptions>() {
+    using O = CurveOptions;
+    static const Table<O> table = {
+        "CurveOptions",
+        "name",
+        "A tone curve",
+        {field<O>("name", &O::name, "One of tone_curve_names()."),
+         field<O>("parameters", &O::parameters, "Parameters of the curve by name."),
+         field<O>("coeffs", &O::coeffs,
+                  "Six coefficients instead of the name: y = (k0 x^2 + k1 x + k2) / (k3 x^2 + "
+                  "k4 x + k5)."),
+         field<O>("on", &O::on, "\"rgb\", \"luminance\", or \"\": as the curve is meant."),
+         field<O>("saturation", &O::saturation, "Of curves on luminance, 0 to 4.")}};
+    return table;
+}
+
+template <>
+const Table<ViewOptions>& table_of<ViewOptions>() {
+    using O = ViewOptions;
+    static const Table<O> table = {
+        "ViewOptions",
+        "view",
+        "A display and view of an OpenColorIO configuration",
+        {field<O>("config", &O::config, "File of the configuration; \"\": $OCIO."),
+         field<O>("display", &O::display, "\"\": the configuration's default."),
+         field<O>("view", &O::view, "\"\": the display's default."),
+         field<O>("looks", &O::looks, "Instead of the view's own."),
+         field<O>("context", &O::context, "Context variables and their values.")}};
+    return table;
+}
+
+template <>
+const Table<CalibrationOptions>& table_of<CalibrationOptions>() {
+    using O = CalibrationOptions;
+    static const Table<O> table = {
+        "CalibrationOptions",
+        "method",
+        "How the exposure is found",
+        {field<O>(
+             "method", &O::method,
+             "\"manual\": 2^stops; \"mean\": key / geometric mean; \"auto\": the same with the "
+             "key by the mean (Krawczyk et al. 2005)."),
+         field<O>("stops", &O::stops, "Stops of exposure, -126 to 126."),
+         field<O>("key", &O::key, "What the mean becomes, with \"mean\"; 1e-4 to 100."),
+         field<O>("level", &O::level,
+                  "Local means over 2^level x 2^level cells; 0: one mean for the image."),
+         field<O>("epsilon", &O::epsilon, "Added to each luminance before its logarithm, above 0."),
+         field<O>("skip_black", &O::skip_black,
+                  "Leave pixels of luminance 0 out of the statistics."),
+         field<O>("skip_transparent", &O::skip_transparent,
+                  "Leave pixels of alpha 0 out of the statistics."),
+         field<O>("white_percentile", &O::white_percentile,
+                  "The curve's parameter `white` from this percentile of the calibrated "
+                  "luminance; 100: the maximum.")}};
+    return table;
+}
+
+} // namespace tonetool::python

@@ -1,0 +1,158 @@
+// Tone mapping and calibration.
+#include "tonetool/tonemap.h"
+
+#include "python/families.h"
+#include "python/results.h"
+
+namespace tonetool::python {
+
+template <>
+struct Python<CalibrationSummary> : Nested<CalibrationSummary> {
+    static std::string given() { return "CalibrationSummary"; }
+};
+template <>
+struct Python<TonemapSummary> : Nested<TonemapSummary> {
+    static std::string given() { return "TonemapSummary"; }
+};
+
+namespace {
+
+const std::string source = "M. Pettineo, \"A Closer Look at Tone Mapping\", 2010; the sources that "
+                           "tone_curves() names for each curve; OpenColorIO 2.";
+
+using MapOptions = On<TonemapOptions>;
+struct Calibration : CalibrationOptions {
+    PixelOptions pixels;
+};
+using CalibrateOptions = On<Calibration>;
+using TonemapObject = Imaged<TonemapSummary>;
+using CalibrateObject = Imaged<CalibrationSummary>;
+
+Fields<MapOptions> map_fields() {
+    using O = MapOptions;
+    return {
+        field<O>("curve", &O::curve, "Tone curve; None: aces."),
+        field<O>("view", &O::view, "A view of an OpenColorIO configuration instead of the curve."),
+        field<O>("calibration", &O::calibration, "How the exposure is found; None: as it is."),
+        field<O>("pixels", &O::pixels, "Layer and colour space."),
+        field<O>("primaries", &O::primaries,
+                 "\"rec709\" or \"image\": what a curve works in and the result has."),
+        field<O>("encode", &O::encode, "Of the result of a curve, one of display_encodings()."),
+        field<O>("clamp", &O::clamp, "The result of a curve to 0 to 1."),
+        field<O>("unpremult", &O::unpremult, "Divide colour by alpha before, multiply after."),
+        roi_field<O>(),
+        threads_field<O>(),
+    };
+}
+
+Fields<CalibrateOptions> calibrate_fields() {
+    using O = CalibrateOptions;
+    Fields<O> fields;
+    for (const Field<CalibrationOptions>& row : table_of<CalibrationOptions>().fields)
+        fields.push_back({row.name, row.type, row.initial, row.text, row.set});
+    return joined<O>({fields,
+                      {field<O>("pixels", &O::pixels, "Layer and colour space."), roi_field<O>(),
+                       threads_field<O>()}});
+}
+
+py::object tonemap(std::vector<py::object>& images, const MapOptions& options) {
+    const InputImage image(images[0], "tonemap: image");
+    TonemapSummary summary;
+    OIIO::ImageBuf result = computed([&](OIIO::ImageBuf& dst) {
+        return ToneAlgo::tonemap(dst, image.buf(), options, &summary, options.roi,
+                                 options.nthreads);
+    });
+    return py::cast(
+        TonemapObject{to_python(std::move(result), OutputKind::picture(image)), summary});
+}
+
+py::object calibrate(std::vector<py::object>& images, const CalibrateOptions& options) {
+    const InputImage image(images[0], "calibrate: image");
+    CalibrationSummary summary;
+    OIIO::ImageBuf result = computed([&](OIIO::ImageBuf& dst) {
+        return ToneAlgo::calibrate(dst, image.buf(), options, options.pixels, &summary, options.roi,
+                                   options.nthreads);
+    });
+    return py::cast(
+        CalibrateObject{to_python(std::move(result), OutputKind::picture(image)), summary});
+}
+
+void add_results(Module& module) {
+    using C = CalibrationSummary;
+    ResultClass<C>(module, "CalibrationSummary", "The exposure that was found.")
+        .field("mean", &C::mean, "Geometric mean of the luminance; 0: none was needed.")
+        .field("key", &C::key, "That was used; 0: none was.")
+        .field("exposure", &C::exposure, "Stops, of the whole image.")
+        .field("white", &C::white, "0: none was asked for.")
+        .field("pixels", &C::pixels, "That the statistics are of.")
+        .finish();
+    using S = TonemapSummary;
+    ResultClass<S>(module, "TonemapSummary", "What a picture was tone mapped with.")
+        .field("layer", &S::layer, "\"\" for the plain R, G, B.")
+        .field("space", &S::space, "Colour space the stored values were read in.")
+        .field("curve", &S::curve, "Curve, \"coeffs\", or \"display/view\".")
+        .field("parameters", &S::parameters, "Of the curve.")
+        .field("on", &S::on, "\"rgb\", \"luminance\" or \"color\".")
+        .field("calibration", &S::calibration, "The exposure that was found.")
+        .field("nonfinite", &S::nonfinite, "Pixels with NaN or Inf.")
+        .field("negative", &S::negative, "Pixels with a negative component.")
+        .field("warnings", &S::warnings, "What a user must know, one sentence each.")
+        .finish();
+    ResultClass<TonemapObject>(module, "TonemapResult", "A tone-mapped picture and its summary.")
+        .object("image", &TonemapObject::image, "Image", "The picture, with all its channels.")
+        .field("summary", &TonemapObject::summary, "What it was made with.")
+        .finish();
+    ResultClass<CalibrateObject>(module, "CalibrateResult", "An exposed picture and its summary.")
+        .object("image", &CalibrateObject::image, "Image", "The picture, linear.")
+        .field("summary", &CalibrateObject::summary, "The exposure that was found.")
+        .finish();
+}
+
+void add_functions(Module& module) {
+    const std::string errors = "No colour, deep images, an unknown name, a value out of range, a "
+                               "configuration or file that cannot be read";
+    define(
+        module,
+        Description{"tonemap",
+                    "Tone map the colour of an image, by a curve or by a view.",
+                    {image_parameter("image", "Needs R, G, B; other channels are carried.")},
+                    "TonemapResult",
+                    "The picture, float, with the channels of the image.",
+                    "Shapes: height x width x channels, R, G, B first, or an ImageBuf; the result "
+                    "is what the image is.\n"
+                    "Units, colour: scene light; an array is taken for linear Rec.709 unless "
+                    "pixels={\"from\": ...} says otherwise. The result is encoded as `encode` says "
+                    "(\"none\": linear).\n"
+                    "Alpha: carried; colour is mapped as stored, associated, unless unpremult.\n"
+                    "NaN and -Inf become 0, +Inf the largest value, negative components 0; all "
+                    "are counted.",
+                    errors + ".",
+                    source},
+        map_fields(), tonemap);
+    define(module,
+           Description{
+               "calibrate",
+               "Multiply the colour of an image by the exposure that brings its mean to a key.",
+               {image_parameter("image", "Needs R, G, B, linear.")},
+               "CalibrateResult",
+               "The picture, linear, and the exposure.",
+               "Shapes, alpha: as tonemap. Units: stops.\n"
+               "NaN, Inf: such pixels stay as they are and are not in the statistics.",
+               errors + ", a display-encoded image.",
+               source},
+           calibrate_fields(), calibrate);
+}
+
+} // namespace
+
+void add_tonemap(Module& module) {
+    module.add_mapping(table_of<CurveOptions>());
+    module.add_mapping(table_of<ViewOptions>());
+    module.add_mapping(table_of<CalibrationOptions>());
+    add_results(module);
+    add_functions(module);
+    define_names(module, "display_encodings", "Names of the encodings of tonemap(encode=...).",
+                 source, ToneAlgo::display_encodings);
+}
+
+} // namespace tonetool::python

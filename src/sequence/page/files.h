@@ -1,0 +1,16 @@
+// What the build puts into the program: the parts of the report's page.
+#pragma once
+
+namespace tonetool::sequence::page {
+
+extern const char* const html;  ///< with {{names}} of what is filled in
+extern const char* const style; ///< CSS
+extern const char* const script;
+extern const char* const chart; ///< Chart.js
+
+// SHA-256 in hexadecimal digits.
+extern const char* const style_hash;
+extern const char* const script_hash;
+extern const char* const chart_hash;
+
+} // namespace tonetool::sequence::page

@@ -1,0 +1,141 @@
+"use strict";
+// What is in this file, and the words for it. Texts become nodes, never markup.
+
+function read(id) {
+  const node = document.getElementById(id);
+  return node ? JSON.parse(node.textContent) : null;
+}
+
+function withPosition(fault) {
+  const at = fault.position;
+  return { ...fault, sentence: fault.sentence || "", position: at ? { x: at[0], y: at[1] } : null };
+}
+
+const data = read("result");
+// What is empty is left out of the file.
+const frames = data.shot.frames.map((frame) => ({ ...frame, view: frame.view || "",
+  message: frame.message || "", reference: frame.reference || "", test: frame.test || "",
+  faults: (frame.faults || []).map(withPosition),
+  measurements: (frame.measurements || []).map((one) => ({ ...one, warnings: one.warnings || [],
+    worst: one.worst ? { x: one.worst[0], y: one.worst[1] } : null })) }));
+const pictures = new Map();
+
+/** The pictures of a frame: "full" or "small"; null where none were kept. */
+function picturesOf(index, size) {
+  const id = `${size}-${index}`;
+  if (!pictures.has(id)) {
+    if (pictures.size > 60) pictures.clear();
+    pictures.set(id, read(id));
+  }
+  return pictures.get(id);
+}
+
+const byId = (id) => document.getElementById(id);
+
+/** An element with properties and children; a string is a text. */
+function make(tag, properties = {}, ...children) {
+  const node = document.createElement(tag);
+  for (const [name, value] of Object.entries(properties)) {
+    if (value === undefined || value === null || value === false) continue;
+    if (name in node && !name.startsWith("aria")) node[name] = value;
+    else node.setAttribute(name, value === true ? "" : value);
+  }
+  node.append(...children.filter((child) => child !== null && child !== undefined));
+  return node;
+}
+
+const SIGNS = { passed: "passed", measured: "measured", warning: "warning", failed: "failed",
+  "size mismatch": "error", missing: "missing", unreadable: "error", error: "error", info: "info" };
+const CLASSES = { passed: "passed", measured: "measured", warning: "warning", failed: "failed",
+  info: "info" };
+const classOf = (status) => CLASSES[status] || "error";
+
+/** The status as a shape and a word. */
+function badge(status) {
+  const space = "http://www.w3.org/2000/svg";
+  const sign = document.createElementNS(space, "svg");
+  const use = document.createElementNS(space, "use");
+  use.setAttribute("href", `#sign-${SIGNS[status] || "error"}`);
+  sign.setAttribute("class", "sign");
+  sign.setAttribute("aria-hidden", "true");
+  sign.append(use);
+  return make("span", { className: `status ${classOf(status)}` }, sign, ` ${status}`);
+}
+
+const name = (text) => make("span", { className: "name" }, text);
+const short = (file) => file.replace(/^.*[\\/]/, "");
+
+/** Four digits are what a person reads; the JSON file has all of them. */
+function number(value) {
+  if (typeof value !== "number") return String(value);
+  if (Number.isInteger(value) || !Number.isFinite(value)) return String(value);
+  const size = Math.abs(value);
+  return size !== 0 && (size < 1e-3 || size >= 1e5) ? value.toExponential(3)
+    : String(Number(value.toPrecision(4)));
+}
+
+const stops = (value) => (value > 0 ? "+" : value < 0 ? "\u2212" : "") +
+  Math.abs(Math.round(value * 10) / 10).toFixed(1);
+
+const frameName = (frame) => String(frame.frame) + (frame.view ? ` ${frame.view}` : "");
+const entries = (list) => (Array.isArray(list) ? list : Object.entries(list || {}));
+
+/** Every command that measured, in the order of the command line. */
+const measures = [];
+for (const frame of frames) {
+  frame.measurements.forEach((measurement, place) => {
+    if (!measures[place]) measures[place] = measurement.command;
+  });
+}
+const measurementOf = (frame, place) => frame.measurements[place] || null;
+
+function quantitiesOf(place) {
+  const found = new Set();
+  for (const frame of frames) {
+    const measurement = measurementOf(frame, place);
+    if (measurement) entries(measurement.quantities).forEach(([key]) => found.add(key));
+  }
+  return [...found];
+}
+
+function valueOf(frame, place, quantity) {
+  if (place < 0) return frame.faults.length;
+  const measurement = measurementOf(frame, place);
+  if (!measurement) return null;
+  const entry = entries(measurement.quantities).find(([key]) => key === quantity);
+  if (entry && typeof entry[1] === "number") return entry[1];
+  const limit = measurement.threshold;
+  return limit && limit.quantity === quantity && typeof limit.value === "number" ? limit.value : null;
+}
+
+/** Of the measurement that gave the frame its status, else of the first. */
+function thresholdOf(place) {
+  for (const frame of frames) {
+    const measurement = place >= 0 && measurementOf(frame, place);
+    if (measurement && measurement.threshold) return measurement.threshold;
+  }
+  return null;
+}
+
+const mainPlace = Math.max(0, measures.findIndex((_, place) => thresholdOf(place)));
+
+const mainQuantity = (thresholdOf(mainPlace) || {}).quantity || quantitiesOf(mainPlace)[0] || "";
+
+/** "p99 0.4512 > 0.05" */
+function verdictOf(frame) {
+  const measurement = measurementOf(frame, mainPlace) || frame.measurements[0];
+  if (!measurement) return "";
+  const limit = measurement.threshold;
+  if (limit) {
+    const bound = limit.fail ?? limit.warn;
+    if (typeof bound !== "number") return `${limit.quantity} ${number(limit.value)}`;
+    const sign = limit.value > bound ? ">" : limit.value < bound ? "<" : "=";
+    return `${limit.quantity} ${number(limit.value)} ${sign} ${number(bound)}`;
+  }
+  const first = entries(measurement.quantities)[0];
+  return first ? `${first[0]} ${number(first[1])}` : "";
+}
+
+function plural(count, word) {
+  return `${count} ${word}${count === 1 ? "" : "s"}`;
+}

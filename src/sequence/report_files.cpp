@@ -1,0 +1,30 @@
+#include "sequence/report_files.h"
+
+#include <stdexcept>
+
+#include "include/tonetool/write.h"
+#include "sequence/report_page.h"
+#include "sequence/report_sheet.h"
+
+namespace tonetool::sequence {
+
+std::vector<std::string> write_reports(const ShotResult& shot, const PictureStore& pictures,
+                                       const CheckFiles& files) {
+    std::vector<std::string> complaints;
+    const auto page = files.find("report"), sheet = files.find("contactsheet");
+    if (page != files.end()) {
+        write_text(report_page(shot, pictures), page->second);
+    }
+    if (sheet != files.end()) {
+        std::string warning, why;
+        if (!write_image(contact_sheet(shot, pictures, warning), sheet->second, why)) {
+            throw std::runtime_error(why);
+        }
+        if (!warning.empty()) {
+            complaints.push_back(warning);
+        }
+    }
+    return complaints;
+}
+
+} // namespace tonetool::sequence

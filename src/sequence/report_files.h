@@ -1,0 +1,17 @@
+// The report's files, written at the end of a check.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "sequence/check_files.h"
+#include "sequence/report_store.h"
+
+namespace tonetool::sequence {
+
+/// "report" and "contactsheet", each whole or not at all; a runtime_error names the first that
+/// could not be. What a person must know of them otherwise is returned.
+std::vector<std::string> write_reports(const ShotResult& shot, const PictureStore& pictures,
+                                       const CheckFiles& files);
+
+} // namespace tonetool::sequence

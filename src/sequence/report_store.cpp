@@ -1,0 +1,157 @@
+#include "sequence/report_store.h"
+
+#include <OpenImageIO/filesystem.h>
+#include <OpenImageIO/strutil.h>
+#include <cctype>
+#include <stdexcept>
+
+#include "include/tonetool/write.h"
+#include "sequence/results_json.h"
+
+namespace tonetool::sequence {
+
+namespace {
+
+using OIIO::Strutil::fmt::format;
+
+constexpr char full_size[] = "full", small_size[] = "small";
+
+// A view's name is the user's: what could lead out of the folder is written as %2f.
+std::string key_of(int frame, const std::string& view) {
+    std::string key = format("{:04}", frame);
+    if (!view.empty()) {
+        key += ".";
+    }
+    for (const char c : view) {
+        const auto byte = static_cast<unsigned char>(c);
+        const bool plain = std::isalnum(byte) != 0 || c == '_' || c == '-';
+        key += plain ? std::string(1, c) : format("%{:02x}", byte);
+    }
+    return key;
+}
+
+std::string key_of(const FrameResult& frame) {
+    return key_of(frame.frame, frame.view);
+}
+
+// How the text of a frame's pictures begins: with what was measured of it, so that pictures of
+// other files, or of the same before they changed, are not taken for this frame's.
+std::string beginning(const FrameResult& frame) {
+    FrameResult measured;
+    measured.reference = frame.reference;
+    measured.test = frame.test;
+    measured.measurements = frame.measurements;
+    return format("{{\"of\":\"{:016x}\",", OIIO::Strutil::strhash(to_json(measured)));
+}
+
+} // namespace
+
+PictureStore::PictureStore(std::string folder, size_t full_frames)
+    : m_folder(std::move(folder)),
+      m_full_frames(full_frames) {
+    std::string why;
+    if (!m_folder.empty() && !OIIO::Filesystem::is_directory(m_folder) &&
+        !OIIO::Filesystem::create_directory(m_folder, why)) {
+        throw std::runtime_error(format("could not make the folder \"{}\": {}", m_folder, why));
+    }
+}
+
+PictureStore::Rank PictureStore::rank_of(const FrameResult& frame) {
+    return {-int(frame.status), -badness(frame), frame.frame, frame.view};
+}
+
+bool PictureStore::wants_full(const FrameResult& frame) const {
+    const std::lock_guard<std::mutex> lock(m_mutex);
+    return m_worst.size() < m_full_frames || rank_of(frame) < *m_worst.rbegin();
+}
+
+bool PictureStore::insert(const FrameResult& frame) {
+    const Rank rank = rank_of(frame);
+    m_worst.insert(rank);
+    if (m_worst.size() > m_full_frames) {
+        const Rank best = *m_worst.rbegin();
+        m_worst.erase(best);
+        drop(key_of(std::get<2>(best), std::get<3>(best)), full_size);
+        return best != rank;
+    }
+    return true;
+}
+
+void PictureStore::drop(const std::string& key, const char* size) {
+    if (m_folder.empty()) {
+        m_texts.erase(key + size);
+    } else {
+        OIIO::Filesystem::remove(file(key, size));
+    }
+}
+
+void PictureStore::add(const FrameResult& frame, const FramePictures& pictures) {
+    const std::lock_guard<std::mutex> lock(m_mutex);
+    const std::string key = key_of(frame), start = beginning(frame);
+    if (!pictures.exposures.empty() && insert(frame)) {
+        write(key, full_size, start + full_json(pictures).substr(1));
+    } else {
+        drop(key, full_size);
+    }
+    write(key, small_size, start + small_json(pictures).substr(1));
+}
+
+void PictureStore::forget(const FrameResult& frame) {
+    const std::lock_guard<std::mutex> lock(m_mutex);
+    drop(key_of(frame), full_size);
+    drop(key_of(frame), small_size);
+}
+
+std::vector<std::string> PictureStore::files(int frame, const std::string& view) const {
+    if (m_folder.empty()) {
+        return {};
+    }
+    const std::string key = key_of(frame, view);
+    return {file(key, full_size), file(key, small_size)};
+}
+
+bool PictureStore::restore(const FrameResult& frame) {
+    const std::lock_guard<std::mutex> lock(m_mutex);
+    if (m_folder.empty() || read(frame, small_size).empty()) {
+        return false;
+    }
+    if (!read(frame, full_size).empty()) {
+        insert(frame);
+    }
+    return true;
+}
+
+std::string PictureStore::small(const FrameResult& frame) const {
+    return read(frame, small_size);
+}
+
+std::string PictureStore::full(const FrameResult& frame) const {
+    return read(frame, full_size);
+}
+
+std::string PictureStore::file(const std::string& key, const char* size) const {
+    return m_folder + "/" + key + "." + size + ".json";
+}
+
+void PictureStore::write(const std::string& key, const char* size, const std::string& text) {
+    std::string why;
+    if (m_folder.empty()) {
+        m_texts[key + size] = text;
+    } else if (!write_bytes(text, file(key, size), why)) {
+        throw std::runtime_error(why);
+    }
+}
+
+std::string PictureStore::read(const FrameResult& frame, const char* size) const {
+    const std::string key = key_of(frame);
+    std::string text;
+    if (m_folder.empty()) {
+        const auto found = m_texts.find(key + size);
+        text = found == m_texts.end() ? "" : found->second;
+    } else if (const std::string name = file(key, size); OIIO::Filesystem::is_regular(name)) {
+        OIIO::Filesystem::read_text_file(name, text);
+    }
+    return text.rfind(beginning(frame), 0) == 0 ? text : "";
+}
+
+} // namespace tonetool::sequence

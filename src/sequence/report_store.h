@@ -1,0 +1,68 @@
+// The pictures of a shot's frames, while it is checked and until the report is written.
+#pragma once
+
+#include <map>
+#include <mutex>
+#include <optional>
+#include <set>
+#include <string>
+#include <tuple>
+#include <vector>
+
+#include "sequence/report_pictures.h"
+#include "sequence/results.h"
+
+namespace tonetool::sequence {
+
+/// Keeps the full pictures of the worst frames and the thumbnails of all, so that memory and disk
+/// are bounded; which they are does not depend on the order in which frames come. With a folder
+/// they are files there ("0005.full.json", "0005.small.json"), so that a run that is continued, or
+/// a merge of what several machines checked, finds them again. Safe to call from several threads.
+class PictureStore {
+public:
+    /// `folder` is made where it is missing; empty: memory.
+    explicit PictureStore(std::string folder = "", size_t full_frames = most_full_frames);
+
+    /// Whether a frame like this, by its status and measurements so far, would be kept in full.
+    bool wants_full(const FrameResult& frame) const;
+
+    /// In place of what was kept of the frame before. A runtime_error if a file cannot be written.
+    void add(const FrameResult& frame, const FramePictures& pictures);
+    /// A frame without pictures: what an earlier run has kept of it is not this frame's.
+    void forget(const FrameResult& frame);
+
+    /// A frame that an earlier run has finished: false if its pictures are not there.
+    bool restore(const FrameResult& frame);
+
+    /// The names of a frame's files; none in memory.
+    std::vector<std::string> files(int frame, const std::string& view) const;
+
+    /// The texts of small_json() and full_json(); empty where there is none.
+    std::string small(const FrameResult& frame) const;
+    std::string full(const FrameResult& frame) const;
+
+    static constexpr size_t most_full_frames = 24;
+
+private:
+    using Rank = std::tuple<int, double, int, std::string>; ///< the worst first
+    static Rank rank_of(const FrameResult& frame);
+    bool insert(const FrameResult& frame);
+    void drop(const std::string& key, const char* size);
+    std::string file(const std::string& key, const char* size) const;
+    void write(const std::string& key, const char* size, const std::string& text);
+    std::string read(const FrameResult& frame, const char* size) const;
+
+    std::string m_folder;
+    size_t m_full_frames;
+    mutable std::mutex m_mutex;
+    std::set<Rank> m_worst; ///< the frames that are kept in full
+    std::map<std::string, std::string> m_texts;
+};
+
+/// What is drawn of one frame while its commands run, for the store.
+struct FramePainter {
+    const PictureStore& store;
+    std::optional<FramePictures> drawn;
+};
+
+} // namespace tonetool::sequence

@@ -1,0 +1,172 @@
+"""--report, --contactsheet and --pictures, without a browser; test_report_page.py opens the page."""
+
+import json
+import re
+import shutil
+import signal
+import subprocess
+import time
+
+import pytest
+
+FLIP = "--hdrflip:exposures=shot:fail=0.7:quantity=p99"
+
+
+@pytest.fixture
+def anim(tmp_path, testimages):
+    """The eight pairs, the last without its reference."""
+    for file in (testimages / "anim").glob("*.exr"):
+        shutil.copy(file, tmp_path / file.name)
+    (tmp_path / "ref.0008.exr").unlink()
+    return tmp_path
+
+
+def blocks(page):
+    """The data in a page by its id."""
+    found = re.findall(r'<script type="application/json" id="([^"]+)">(.*?)</script>', page, re.S)
+    return {name: json.loads(text) for name, text in found}
+
+
+def frames(first, last):
+    return ["--frames", f"{first}-{last}", "-q", "ref.#.exr", "test.#.exr"]
+
+
+def test_a_page_of_all_frames(tonetool, anim):
+    tonetool(*frames(1, 8), FLIP, "--report", "page.html", status=1)
+    data = blocks((anim / "page.html").read_text(encoding="utf-8"))
+    result = data["result"]["shot"]
+    assert result["verdict"] == "missing"
+    assert [result["frames"][index]["frame"] for index in result["worst"]] == [8, 5]
+    assert {name for name in data if name.startswith("full-")} == {f"full-{i}" for i in range(7)}
+    worst = data["full-4"]
+    assert len(worst["exposures"]) == 5
+    for picture in (worst["error"], worst["stops"], worst["exposures"][0]["reference"],
+                    worst["exposures"][0]["test"], worst["spots"][0]["test"]):
+        assert re.match(r"data:image/(jpeg|png);base64,[A-Za-z0-9+/=]{300,}$", picture)
+    assert [worst["spots"][0]["x"], worst["spots"][0]["y"]] == (
+        result["frames"][4]["measurements"][0]["worst"])
+
+
+def test_the_result_is_the_same_with_and_without_a_report(tonetool, anim):
+    line = [*frames(1, 8), FLIP, "-o", "map.#.exr"]
+    tonetool(*line, "--json", "plain.json", status=1)
+    plain = [(anim / f"map.000{i}.exr").read_bytes() for i in range(1, 8)]
+    tonetool(*line, "--json", "shown.json", "--report", "page.html", status=1)
+    assert (anim / "plain.json").read_bytes() == (anim / "shown.json").read_bytes()
+    hashes = [tonetool("--hash", f"map.000{i}.exr").out for i in range(1, 8)]
+    for i, old in enumerate(plain, 1):
+        (anim / f"map.000{i}.exr").write_bytes(old)
+    assert hashes == [tonetool("--hash", f"map.000{i}.exr").out for i in range(1, 8)]
+
+
+def test_the_page_does_not_depend_on_how_it_was_made(tonetool, anim):
+    tonetool(*frames(1, 8), FLIP, "--report", "one.html", "--json", "one.json", status=1)
+    tonetool("--parallel-frames", "3", *frames(1, 8), FLIP, "--report", "three.html", status=1)
+    assert (anim / "one.html").read_bytes() == (anim / "three.html").read_bytes()
+    fixed = FLIP.replace("=shot", "=one.json")
+    for first, last, status in ((6, 8, 1), (1, 3, 0), (4, 5, 3)):
+        tonetool(*frames(first, last), fixed, "--json", f"{first}.json", "--pictures", "kept",
+                 status=status)
+    tonetool("--merge", "6.json", "1.json", "4.json", "--pictures", "kept", "--report",
+             "merged.html", "--contactsheet", "merged.png", status=1)
+    assert (anim / "one.html").read_bytes() == (anim / "merged.html").read_bytes()
+
+
+def test_a_killed_run_goes_on_and_ends_with_the_same_page(program, tonetool, anim):
+    tonetool(*frames(1, 8), FLIP, "--report", "whole.html", status=1)
+    line = [*frames(1, 8), FLIP, "--state", "state", "--report", "page.html"]
+    for wait in (0.15, 0.3, 0.45, 0.6):
+        with subprocess.Popen([program, *line], cwd=anim, stdout=subprocess.DEVNULL,
+                              stderr=subprocess.DEVNULL) as running:
+            time.sleep(wait)
+            running.send_signal(signal.SIGKILL)
+    tonetool(*line, status=1)
+    assert (anim / "page.html").read_bytes() == (anim / "whole.html").read_bytes()
+    left = {file.name for file in (anim / "state" / "pictures").iterdir()}
+    assert left == {f"000{i}.{size}.json" for i in range(1, 8) for size in ("full", "small")}
+    before = {file: file.stat().st_mtime_ns for file in (anim / "state" / "pictures").iterdir()}
+    tonetool(*line, status=1)
+    assert before == {file: file.stat().st_mtime_ns
+                      for file in (anim / "state" / "pictures").iterdir()}
+
+
+def test_pictures_of_files_that_changed_are_drawn_anew(tonetool, anim):
+    line = [*frames(4, 5), "--hdrflip", "--state", "state"]
+    tonetool(*line, "--report", "page.html")
+    old = blocks((anim / "page.html").read_text())
+    shutil.copy(anim / "test.0006.exr", anim / "test.0005.exr")
+    tonetool(*line)  # without pictures: those in the folder are of the old file
+    tonetool(*line, "--report", "page.html")
+    new = blocks((anim / "page.html").read_text())
+    assert new["small-0"] == old["small-0"]
+    assert new["small-1"]["test"] != old["small-1"]["test"]
+
+
+def test_a_merge_without_pictures_is_a_page_without_pictures(tonetool, anim):
+    tonetool(*frames(5, 5), "--hdrflip", "--json", "a.json")
+    tonetool("--merge", "a.json", "--report", "page.html")
+    page = (anim / "page.html").read_text()
+    assert set(blocks(page)) == {"result"}
+    assert "in full of 0 of 1 frames" in page
+    ran = tonetool("--merge", "a.json", "--pictures", "nowhere", "--report", "b.html", status=1)
+    assert 'there is no folder "nowhere"' in ran.err
+    assert not (anim / "b.html").exists()
+
+
+@pytest.mark.parametrize("command", ["--ldrflip", "--flipdiff", "--flipdiff:hdr=0",
+                                     "--errormap:metric=smape", "--errormap:metric=mse"])
+def test_other_measures_have_pictures_too(tonetool, anim, command):
+    tonetool(*frames(5, 6), command, "--report", "page.html")
+    data = blocks((anim / "page.html").read_text())
+    full = data["full-0"]
+    assert full["exposures"][0]["reference"] and full["exposures"][0]["test"]
+    assert bool(full["error"]) == (command != "--errormap:metric=mse")
+    assert bool(full["stops"]) == (command == "--flipdiff")
+    display = command in ("--ldrflip", "--flipdiff:hdr=0")  # what is compared is what is shown
+    assert (len(full["exposures"]) == 1) == display
+
+
+def test_images_that_do_not_fit_into_the_memory_have_no_pictures(tonetool, anim, make_image):
+    make_image("a.0001.exr", 2000, 2000, seed=1)
+    make_image("b.0001.exr", 2000, 2000, seed=2)
+    line = ["--memory", "220M", "--frames", "1", "a.#.exr", "b.#.exr", "--hdrflip", "--report",
+            "page.html"]
+    ran = tonetool(*line)
+    assert "no pictures for the report: the images do not fit into --memory" in ran.out
+    assert set(blocks((anim / "page.html").read_text())) == {"result"}
+    line[1] = "600M"
+    tonetool(*line)
+    assert "full-0" in blocks((anim / "page.html").read_text())
+
+
+def test_a_contact_sheet_shows_every_frame(tonetool, anim, read):
+    tonetool(*frames(1, 8), FLIP, "--contactsheet", "sheet.png", status=1)
+    pixels, spec = read("sheet.png")
+    assert spec.nchannels == 3 and spec.width > 3 * 160
+    orange = (abs(pixels - [1.0, 0.45, 0.15]) < 0.01).all(axis=2)
+    violet = (abs(pixels - [0.91, 0.60, 0.83]) < 0.01).all(axis=2)
+    for frame_color, row, column in ((orange, 1, 1), (violet, 2, 1)):
+        cell = frame_color[row * spec.height // 3:(row + 1) * spec.height // 3,
+                           column * spec.width // 3:(column + 1) * spec.width // 3]
+        assert cell.sum() > 500
+        assert frame_color.sum() == cell.sum()
+
+
+@pytest.mark.parametrize("word", ["--report", "--contactsheet"])
+def test_a_file_that_cannot_be_written(tonetool, anim, word):
+    ran = tonetool(*frames(5, 6), "--hdrflip", word, "nowhere/out.png", status=1)
+    assert f'{word}: there is no folder "nowhere"' in ran.err
+    assert "mean" not in ran.out  # before the work
+    ran = tonetool(*frames(5, 6), "--hdrflip", word, status=1)
+    assert "missing argument" in ran.err
+    ran = tonetool(*frames(5, 6), "--hdrflip", "--contactsheet", "out.nothing", status=1)
+    assert "out.nothing" in ran.err
+
+
+def test_a_view_or_a_frame_does_not_lead_out_of_the_folder(tonetool, anim):
+    for part in ("ref", "test"):
+        (anim / f"{part}.0001.exr").rename(anim / f"{part}.up_0001.exr")
+    tonetool("--views", "up", "--frames", "1", "-q", "ref.%V_#.exr", "test.%V_#.exr", "--hdrflip",
+             "--pictures", "kept", "--report", "page.html")
+    assert {file.name for file in (anim / "kept").iterdir()} == {
+        "0001.up.full.json", "0001.up.small.json"}

@@ -1,0 +1,149 @@
+"""The installed tree is all that a C++ project needs."""
+
+import os
+import re
+import shutil
+import subprocess
+from pathlib import Path
+
+import pytest
+
+HERE = Path(__file__).resolve().parent
+ROOT = HERE.parents[1]
+PAIR = [str(ROOT / "testimages" / f"cornell_{name}.exr") for name in ("ref", "test")]
+HEADERS = sorted((ROOT / "src" / "include" / "tonetool").glob("*.h"))
+CMAKE = os.environ.get("CMAKE", "cmake")
+CXX = os.environ.get("CXX", "c++")
+
+
+def run(*words, status=0, **options):
+    done = subprocess.run([str(word) for word in words], capture_output=True, text=True,
+                          timeout=300, check=False, **options)
+    assert (done.returncode == 0) == (status == 0), (words, done.stdout, done.stderr)
+    return done.stdout + done.stderr
+
+
+@pytest.fixture(scope="session")
+def tree(tmp_path_factory):
+    """The installed tree, moved after it was installed."""
+    folder = tmp_path_factory.mktemp("install")
+    build = os.environ.get("BUILD_DIR", str(ROOT / "build" / "release"))
+    run(CMAKE, "--install", build, "--prefix", folder / "first")
+    (folder / "first").rename(folder / "moved")
+    return folder / "moved"
+
+
+@pytest.fixture(scope="session")
+def library(tree):
+    (found,) = tree.glob("lib*/**/libtonetool.so")
+    return found
+
+
+@pytest.fixture(scope="session")
+def flags(library):
+    """What pkg-config says of the tree."""
+    environment = {**os.environ, "PKG_CONFIG_PATH": str(library.parent / "pkgconfig")}
+
+    def ask(*words):
+        return run("pkg-config", *words, "tonetool", env=environment).split()
+
+    return ask
+
+
+@pytest.fixture(scope="session")
+def mean(tree):
+    """The mean error of the pair by the installed program."""
+    text = run(tree / "bin" / "tonetool", *PAIR, "--hdrflip")
+    return float(re.search(r"^hdrflip: mean (\S+)$", text, re.M).group(1))
+
+
+def declared_functions():
+    """Names of the functions that the headers export."""
+    names = set()
+    for header in HEADERS:
+        text = re.sub(r"//.*|#.*", "", header.read_text())
+        scope = "tonetool::ToneAlgo::" if "ToneAlgo" in text else "tonetool::"
+        names |= {scope + name for name in re.findall(r"TONETOOL_API[^(;]*?(\w+)\(", text)}
+    return names
+
+
+def test_library_shows_only_public_names(library):
+    lines = run("nm", "-D", "--defined-only", "-C", library).splitlines()
+    shown = {re.sub(r"[\[(].*", "", line.split(maxsplit=2)[2]) for line in lines}
+    assert shown == declared_functions()
+    assert len(shown) > 30
+
+
+def test_library_is_versioned(library):
+    version = re.search(r'TONETOOL_VERSION "(\S+)"', (HEADERS[0].parent / "export.h").read_text())
+    name = re.search(r"SONAME.*\[(\S+)\]", run("readelf", "-d", library)).group(1)
+    assert library.resolve().name == f"libtonetool.so.{version.group(1)}"
+    assert name == "libtonetool.so." + version.group(1).rpartition(".")[0]
+    assert (library.parent / name).resolve() == library.resolve()
+
+
+def test_only_the_headers_are_installed(tree):
+    installed = {path.relative_to(tree / "include") for path in (tree / "include").rglob("*.*")}
+    assert installed == {Path("tonetool") / path.name for path in HEADERS}
+    assert not list(tree.rglob("*.a"))
+
+
+def test_no_file_names_the_build(tree):
+    for path in tree.rglob("*"):
+        if path.suffix in (".cmake", ".pc", ".h", ".py", ".pyi"):
+            assert str(ROOT) not in path.read_text(), path
+
+
+@pytest.mark.parametrize("header", [path.name for path in HEADERS])
+def test_header_compiles_alone(header, flags, tmp_path):
+    source = tmp_path / "alone.cpp"
+    source.write_text(f"#include <tonetool/{header}>\n#include <tonetool/{header}>\n")
+    run(CXX, "-std=c++17", "-fsyntax-only", "-Wall", "-Wextra", "-Werror", *flags("--cflags"),
+        source)
+
+
+def test_find_package(tree, mean, tmp_path):
+    run(CMAKE, "-S", HERE / "example", "-B", tmp_path, f"-DCMAKE_PREFIX_PATH={tree}",
+        f"-DCMAKE_CXX_COMPILER={CXX}", "-DCMAKE_CXX_STANDARD=17")
+    run(CMAKE, "--build", tmp_path)
+    assert float(run(tmp_path / "example", *PAIR)) == pytest.approx(mean, abs=1e-6)
+
+
+def test_example_fails_with_the_reason(tree, tmp_path):
+    run(CMAKE, "-S", HERE / "example", "-B", tmp_path, f"-DCMAKE_PREFIX_PATH={tree}")
+    run(CMAKE, "--build", tmp_path)
+    text = run(tmp_path / "example", PAIR[0], tmp_path / "none.exr", status=1)
+    assert "hdr_flip" in text and "none.exr" in text
+
+
+def test_pkg_config(library, flags, mean, tmp_path):
+    program = tmp_path / "example"
+    run(CXX, "-std=c++17", HERE / "example" / "example.cpp", "-o", program,
+        *flags("--cflags", "--libs"), f"-Wl,-rpath,{library.parent}")
+    assert float(run(program, *PAIR)) == pytest.approx(mean, abs=1e-6)
+
+
+def test_readme_shows_the_example():
+    shown = re.search(r"```cpp\n(.*?)```", (ROOT / "README.md").read_text(encoding="utf-8"), re.S)
+    assert shown.group(1) == (HERE / "example" / "example.cpp").read_text()
+
+
+def test_installed_python_module(tree):
+    found = list(tree.glob("lib/python3*/dist-packages/tonetool/__init__.py"))
+    if not found and os.environ.get("PYTHON_MODULE") == "OFF":
+        pytest.skip("built without the Python module")
+    (package,) = found
+    code = ("import tonetool, OpenImageIO as o; print(tonetool.__file__); "
+            f"print(tonetool.hdr_flip(*(o.ImageBuf(p) for p in {PAIR!r})).summary.pool.mean)")
+    text = run("/usr/bin/python3", "-B", "-c", code, env={"PYTHONPATH": str(package.parents[1])})
+    assert text.splitlines()[0] == str(package) and float(text.splitlines()[1]) > 0
+    assert (package.parent / "py.typed").exists() and (package.parent / "__init__.pyi").exists()
+
+
+def test_other_version_is_refused(tree, tmp_path):
+    shutil.copytree(HERE / "example", tmp_path / "source")
+    lists = tmp_path / "source" / "CMakeLists.txt"
+    lists.write_text(lists.read_text().replace("tonetool 0.1", "tonetool 0.9"))
+    text = run(CMAKE, "-S", tmp_path / "source", "-B", tmp_path / "build",
+               f"-DCMAKE_PREFIX_PATH={tree}", status=1)
+    assert 'compatible with requested version "0.9"' in text
