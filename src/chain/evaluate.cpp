@@ -63,6 +63,10 @@ void evaluate_one(Session& session, std::vector<OIIO::ImageBuf>& images, FramePl
         throw CommandError("wildcards fit " + std::to_string(plan.runs.size()) +
                            " frames, not one (--frames N chooses one)");
     }
+    if (!plan.check.words.empty()) {
+        throw CommandError("--" + plan.check.words.begin()->first +
+                           " is for the frames of the program's command line");
+    }
     for (size_t i = 0; i < images.size(); ++i) {
         push_given(session, images[i], i);
     }
