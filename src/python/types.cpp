@@ -11,7 +11,7 @@ void wrong_type(const std::string& where, py::handle value, const std::string& w
     std::string shown =
         OIIO::Strutil::join(OIIO::Strutil::splits(std::string(py::repr(value))), " ");
     if (shown.size() > 60)
-        shown = shown.substr(0, 57) + "...";
+        shown.replace(57, std::string::npos, "...");
     const std::string type = py::str(py::type::handle_of(value).attr("__name__"));
     throw py::type_error(where + " is " + shown + " (" + type + "): must be " + wanted);
 }
