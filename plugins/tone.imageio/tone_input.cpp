@@ -5,9 +5,11 @@
 #include <cstring>
 #include <exception>
 #include <mutex>
+#include <optional>
 
 #include "include/tonetool/export.h"
 #include "recipe/picture.h"
+#include "recipe/plan.h"
 
 namespace tonetool {
 
@@ -34,17 +36,23 @@ void say(const std::string& text) {
     }
 }
 
+// oiiotool opens what it could not read once more to learn why; that must not be planned only.
+thread_local recipe::Source failed_last;
+
 class ToneInput final : public OIIO::ImageInput {
 public:
     const char* format_name() const override { return "tone"; }
     int supports(OIIO::string_view feature) const override;
     bool valid_file(const std::string& name) const override;
+    /// Reads headers only, where they tell the size; what else the header says comes with spec().
     bool open(const std::string& name, OIIO::ImageSpec& spec) override {
-        return open(name, spec, OIIO::ImageSpec());
+        return begin(name, OIIO::ImageSpec()) && (plan() || make_at_open(name)) && told(spec);
     }
     bool open(const std::string& name, OIIO::ImageSpec& spec,
               const OIIO::ImageSpec& config) override;
     bool close() override;
+    const OIIO::ImageSpec& spec() const override;
+    OIIO::ImageSpec spec(int subimage, int miplevel) override;
     int current_subimage() const override { return m_subimage; }
     bool seek_subimage(int subimage, int miplevel) override;
     bool read_native_scanline(int subimage, int miplevel, int y, int z, void* data) override {
@@ -55,7 +63,15 @@ public:
 
 private:
     bool guarded(bool (ToneInput::*step)());
+    bool begin(const std::string& name, const OIIO::ImageSpec& config);
+    bool plan();
+    bool make_at_open(const std::string& name);
+    bool told(OIIO::ImageSpec& spec) const {
+        spec = m_spec;
+        return true;
+    }
     bool make();
+    bool make_as_planned();
     bool renew();
     bool fail(const std::string& why) {
         errorfmt("{}", why);
@@ -63,7 +79,7 @@ private:
     }
 
     recipe::Source m_source;
-    PicturePtr m_picture;
+    PicturePtr m_picture; ///< nullptr: only planned so far
     int m_subimage = 0;
 };
 
@@ -98,8 +114,7 @@ bool ToneInput::make() {
     return true;
 }
 
-bool ToneInput::open(const std::string& name, OIIO::ImageSpec& spec,
-                     const OIIO::ImageSpec& config) {
+bool ToneInput::begin(const std::string& name, const OIIO::ImageSpec& config) {
     close();
     // Every format is being tried, under a lock that reading any other image would wait for.
     if (config.get_int_attribute("nowait") != 0) {
@@ -113,10 +128,22 @@ bool ToneInput::open(const std::string& name, OIIO::ImageSpec& spec,
     } catch (const std::exception& problem) {
         return fail(problem.what());
     }
-    if (!is_named_so(m_source.file)) {
-        return fail(misnamed_text(m_source.file));
+    return is_named_so(m_source.file) || fail(misnamed_text(m_source.file));
+}
+
+bool ToneInput::plan() {
+    if (m_source.file == failed_last.file && m_source.parameters == failed_last.parameters) {
+        return false;
     }
+    const std::optional<OIIO::ImageSpec> header = recipe::planned_header(m_source);
+    m_spec = header.value_or(m_spec);
+    return header.has_value();
+}
+
+bool ToneInput::make_at_open(const std::string& name) {
+    failed_last = {};
     if (!guarded(&ToneInput::make)) {
+        failed_last = m_source;
         // oiiotool then looks for a file of the whole name, and says that there is none.
         if (!m_source.parameters.empty() && name != m_source.file) {
             say(geterror(false));
@@ -124,8 +151,43 @@ bool ToneInput::open(const std::string& name, OIIO::ImageSpec& spec,
         return false;
     }
     m_spec = m_picture->subimages.front().spec();
-    spec = m_spec;
     return true;
+}
+
+// Who hands over a configuration, as the image cache does, takes the header as it is now for good.
+bool ToneInput::open(const std::string& name, OIIO::ImageSpec& spec,
+                     const OIIO::ImageSpec& config) {
+    return begin(name, config) && make_at_open(name) && told(spec);
+}
+
+bool ToneInput::make_as_planned() {
+    if (m_picture) {
+        return true;
+    }
+    const PicturePtr picture = recipe::picture_of(m_source);
+    const OIIO::ImageSpec& made = picture->subimages.front().spec();
+    if (made.roi() != m_spec.roi() || made.format != m_spec.format) {
+        return fail("recipe \"" + m_source.file +
+                    "\": an input has changed, and with it the size (valid: open it again)");
+    }
+    m_picture = picture;
+    m_spec = made;
+    return true;
+}
+
+// Where the chain fails, this is the header as planned, and reading tells why.
+const OIIO::ImageSpec& ToneInput::spec() const {
+    lock_guard lock(*this);
+    auto* self = const_cast<ToneInput*>(this);
+    if (m_spec.width > 0) {
+        (void)self->guarded(&ToneInput::make_as_planned);
+    }
+    return m_spec;
+}
+
+OIIO::ImageSpec ToneInput::spec(int subimage, int miplevel) {
+    (void)spec();
+    return ImageInput::spec(subimage, miplevel);
 }
 
 bool ToneInput::close() {
@@ -136,8 +198,11 @@ bool ToneInput::close() {
 }
 
 bool ToneInput::seek_subimage(int subimage, int miplevel) {
-    const bool there = m_picture && subimage >= 0 && miplevel == 0 &&
-                       size_t(subimage) < m_picture->subimages.size();
+    if (!m_picture && subimage == 0 && miplevel == 0) {
+        return m_spec.width > 0;
+    }
+    const bool there = m_spec.width > 0 && guarded(&ToneInput::make_as_planned) && subimage >= 0 &&
+                       miplevel == 0 && size_t(subimage) < m_picture->subimages.size();
     if (there && subimage != m_subimage) {
         m_subimage = subimage;
         m_spec = m_picture->subimages[size_t(subimage)].spec();
@@ -170,6 +235,9 @@ bool ToneInput::renew() {
 bool ToneInput::read_native_scanlines(int subimage, int miplevel, int begin, int end, int z,
                                       void* data) {
     lock_guard lock(*this);
+    if (!guarded(&ToneInput::make_as_planned)) {
+        return false;
+    }
     if (!seek_subimage(subimage, miplevel)) {
         return fail("recipe \"" + m_source.file + "\" has no subimage " + std::to_string(subimage) +
                     " of MIP level " + std::to_string(miplevel));
