@@ -1,3 +1,4 @@
+#include <OpenImageIO/filesystem.h>
 #include <fcntl.h>
 #include <filesystem>
 #include <fstream>
@@ -16,7 +17,8 @@ namespace fs = std::filesystem;
 
 class Abandoned : public testing::Test {
 protected:
-    Abandoned() : m_folder(fs::path(testing::TempDir()) / "abandoned_test") {
+    Abandoned()
+        : m_folder(OIIO::Filesystem::unique_path(testing::TempDir() + "abandoned_test-%%%%%%%%")) {
         fs::remove_all(m_folder);
         fs::create_directories(m_folder);
     }

@@ -1,5 +1,6 @@
 #include "include/tonetool/qc.h"
 
+#include <OpenImageIO/filesystem.h>
 #include <filesystem>
 #include <gmock/gmock.h>
 #include <limits>
@@ -78,7 +79,7 @@ TEST(QcFacts, A_colour_alone_is_constant_and_black_is_not_lit) {
 
 TEST(QcFacts, Do_not_depend_on_threads_nor_on_where_the_pixels_are) {
     const std::string file =
-        (std::filesystem::temp_directory_path() / "tonetool_qc_facts.exr").string();
+        OIIO::Filesystem::unique_path(testing::TempDir() + "tonetool-qc-%%%%%%%%.exr");
     const ImageBuf image =
         noise(make_spec(301, 207, {"R", "G", "B", "C_key.R", "C_key.G", "C_key.B"}), 3);
     ASSERT_TRUE(image.write(file));

@@ -1,5 +1,6 @@
 #include "sequence/state.h"
 
+#include <OpenImageIO/filesystem.h>
 #include <chrono>
 #include <filesystem>
 #include <fstream>
@@ -13,7 +14,8 @@ namespace fs = std::filesystem;
 
 class StateTest : public testing::Test {
 protected:
-    StateTest() : m_folder(fs::path(testing::TempDir()) / "state_test") {
+    StateTest()
+        : m_folder(OIIO::Filesystem::unique_path(testing::TempDir() + "state_test-%%%%%%%%")) {
         fs::remove_all(m_folder);
         fs::create_directories(m_folder);
         write("in.exr", "pixels");
