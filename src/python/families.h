@@ -18,6 +18,7 @@ void add_lights(Module& module);
 void add_luminance(Module& module);
 void add_display(Module& module);
 void add_lut(Module& module);
+void add_qc(Module& module);
 void add_write(Module& module);
 void add_chain(Module& module);
 

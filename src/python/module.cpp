@@ -36,6 +36,7 @@ void add_everything(Module& module) {
     add_luminance(module);
     add_display(module);
     add_lut(module);
+    add_qc(module);
     add_write(module);
     add_chain(module);
 }

@@ -154,6 +154,7 @@ template <>
 struct Python<std::vector<std::pair<std::string, std::string>>> {
     using Pairs = std::vector<std::pair<std::string, std::string>>;
     static std::string wanted() { return "Mapping[str, str]"; }
+    static std::string given() { return "dict[str, str]"; }
     static Pairs from(py::handle v, const std::string& where) {
         Pairs pairs;
         for (const auto& [key, value] : to_pairs(v, where, wanted()))
@@ -161,6 +162,17 @@ struct Python<std::vector<std::pair<std::string, std::string>>> {
         return pairs;
     }
     static py::object to(const Pairs& v) {
+        py::dict dict;
+        for (const auto& [key, value] : v)
+            dict[py::str(key)] = value;
+        return std::move(dict);
+    }
+};
+
+template <>
+struct Python<std::map<std::string, std::string>> {
+    static std::string given() { return "dict[str, str]"; }
+    static py::object to(const std::map<std::string, std::string>& v) {
         py::dict dict;
         for (const auto& [key, value] : v)
             dict[py::str(key)] = value;

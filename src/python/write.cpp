@@ -115,6 +115,20 @@ void add_write(Module& module) {
                        errors,
                        source},
            write_bytes);
+    define(module,
+           Description{"remove_abandoned_outputs",
+                       "Remove what killed processes have left of writes to these files.",
+                       {{"filenames", "Sequence[str]", "Files that were to be written.", ""}},
+                       "None",
+                       "Nothing.",
+                       "What a process still writes stays.",
+                       "Never.",
+                       source},
+           [](std::vector<py::object>& arguments) {
+               tonetool::remove_abandoned_outputs(Python<std::vector<std::string>>::from(
+                   arguments[0], "remove_abandoned_outputs: filenames"));
+               return py::none();
+           });
     define(
         module,
         Description{"remove_unfinished_outputs",

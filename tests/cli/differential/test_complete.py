@@ -10,8 +10,8 @@ from cases import CASES
 
 # Only tonetool has these; tests/cli/test_*.py run them.
 OWN_COMMANDS = set("""hdrflip ldrflip flipdiff exposure calibrate tonemap cgtmo lightindex errormap
-    tmqi luminancestats qc exportlut report json csv junit compat progress parallel-frames memory
-    warnings-exit filmstrip tonecurves""".split())
+    tmqi luminancestats qc exportlut report json csv junit contactsheet pictures state statistics
+    merge doctor compat progress parallel-frames memory warnings-exit filmstrip tonecurves""".split())
 
 # Every command on one image takes these two; some of each family have cases with them.
 SHARED_MODIFIERS = {"allsubimages", "subimages"}

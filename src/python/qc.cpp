@@ -1,0 +1,137 @@
+// What a dailies check must know of a picture.
+#include "tonetool/qc.h"
+
+#include "python/families.h"
+#include "python/results.h"
+
+namespace tonetool::python {
+
+template <>
+struct Python<QcSpot> : Nested<QcSpot> {
+    static std::string given() { return "QcSpot"; }
+};
+template <>
+struct Python<QcCount> : Nested<QcCount> {
+    static std::string given() { return "QcCount"; }
+};
+template <>
+struct Python<QcLayer> : Nested<QcLayer> {
+    static std::string given() { return "QcLayer"; }
+};
+template <>
+struct Python<QcPart> : Nested<QcPart> {
+    static std::string given() { return "QcPart"; }
+};
+template <>
+struct Python<QcPicture> : Nested<QcPicture> {
+    static std::string given() { return "QcPicture"; }
+};
+
+namespace {
+
+struct Options : QcOptions {
+    int nthreads = 0;
+};
+
+py::object facts_of(std::vector<py::object>& images, const Options& options) {
+    const InputImage image(images[0], "qc_facts: image");
+    QcFacts facts;
+    run_or_raise("qc_facts", [&](std::string& error) {
+        return ToneAlgo::qc_facts(facts, {&image.buf()}, error, options, options.nthreads);
+    });
+    return py::cast(facts);
+}
+
+void add_counts(Module& module) {
+    using S = QcSpot;
+    ResultClass<S>(module, "QcSpot", "A pixel, and what it has.")
+        .field("x", &S::x, "Column.")
+        .field("y", &S::y, "Row.")
+        .field("value", &S::value, "Of what is counted where it is finite, else 0.")
+        .field("around", &S::around, "Of a spike: the largest value 3 pixels away.")
+        .finish();
+    using C = QcCount;
+    ResultClass<C>(module, "QcCount", "How many pixels have something.")
+        .field("pixels", &C::pixels, "Their number.")
+        .field("first", &C::first, "The first of them by row, then column; at most 4.")
+        .finish();
+}
+
+void add_layers(Module& module) {
+    using L = QcLayer;
+    ResultClass<L>(module, "QcLayer", "The values of a layer.")
+        .field("name", &L::name, "\"\" for the plain R, G, B.")
+        .field("kind", &L::kind, "\"picture\", \"light\", \"color\", \"depth\" or \"data\".")
+        .field("constant", &L::constant, "Each channel but alpha has one value.")
+        .field("lit", &L::lit, "Pixels that are finite and not 0.")
+        .field("min", &L::min, "Smallest value.")
+        .field("max", &L::max, "Largest value.")
+        .field("mean", &L::mean, "Of the luminance of a colour, else of all values.")
+        .field("nan", &L::nan, "Pixels with NaN.")
+        .field("inf", &L::inf, "Pixels with infinity.")
+        .field("negative", &L::negative, "Pixels with a negative value.")
+        .finish();
+    using P = QcPart;
+    ResultClass<P>(module, "QcPart", "The header of a part of the file.")
+        .field("name", &P::name, "Its name.")
+        .field("data", &P::data, "Data window: x, y, width, height.")
+        .field("display", &P::display, "Display window: x, y, width, height.")
+        .field("compression", &P::compression, "As the header says it.")
+        .field("metadata", &P::metadata, "All the rest; long values by their hash.")
+        .finish();
+}
+
+void add_picture(Module& module) {
+    using P = QcPicture;
+    ResultClass<P>(module, "QcPicture", "The colour that a viewer looks at.")
+        .field("layer", &P::layer, "\"\" for the plain R, G, B.")
+        .field("space", &P::space, "Colour space the stored values were read in.")
+        .field("thumbnail", &P::thumbnail,
+               "Mean luminance of 32 x 18 cells of the display window, in 1/1000 stop.")
+        .field("peaks", &P::peaks, "Largest component of the same cells, in the same unit.")
+        .field("hash", &P::hash, "Of the values of its pixels.")
+        .field("alpha_low", &P::alpha_low, "Alpha below 0, or NaN.")
+        .field("alpha_high", &P::alpha_high, "Alpha above 1.")
+        .field("spike_count", &P::spike_count, "Pixels 8 times as large as all 3 pixels away.")
+        .field("spikes", &P::spikes, "The largest of them, at most 32.")
+        .field("groups", &P::groups, "Number of light groups.")
+        .field("group_sum", &P::group_sum, "Light of all groups over that of the picture.")
+        .field("group_difference", &P::group_difference,
+               "Sum of the pixels' differences, over the same.")
+        .field("group_worst", &P::group_worst, "The pixel that is off most.")
+        .finish();
+    using F = QcFacts;
+    ResultClass<F>(module, "QcFacts", "Facts of a picture's header and pixels.")
+        .field("parts", &F::parts, "One each.")
+        .field("channels", &F::channels, "Data type by name, as in the file.")
+        .field("layers", &F::layers, "One each.")
+        .field("picture", &F::picture, "What a viewer looks at.")
+        .finish();
+}
+
+} // namespace
+
+void add_qc(Module& module) {
+    add_counts(module);
+    add_layers(module);
+    add_picture(module);
+    define(module,
+           Description{"qc_facts",
+                       "Measure what a check of dailies must know of a picture and its layers.",
+                       {image_parameter("image", "One part (subimage) with all its layers.")},
+                       "QcFacts",
+                       "The facts.",
+                       "Shapes: height x width x channels, R, G, B first, or an ImageBuf. Units: "
+                       "those of the image; luminance in linear Rec.709.\nNaN, Inf, negative, "
+                       "alpha out of range: counted, with the first positions.",
+                       "No picture among the layers, deep images, an unreadable file.",
+                       "The checks of chain(\"--qc\"), which judge these facts over a shot."},
+           Fields<Options>{field<Options>("pixels", &Options::pixels, "Layer and colour space."),
+                           field<Options>("groups", &Options::groups,
+                                          "Light groups that are to add up to the picture, by "
+                                          "name or layer; []: found by name."),
+                           threads_field<Options>()},
+           facts_of);
+}
+
+} // namespace tonetool::python
