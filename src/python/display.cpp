@@ -1,5 +1,5 @@
 // Making maps visible.
-#include "tonetool/display.h"
+#include "include/tonetool/display.h"
 
 #include "python/families.h"
 

@@ -1,5 +1,5 @@
 // Luminance statistics and exposure.
-#include "tonetool/luminance.h"
+#include "include/tonetool/luminance.h"
 
 #include "python/families.h"
 #include "python/results.h"

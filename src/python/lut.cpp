@@ -1,5 +1,5 @@
 // Tone curves and views as look-up tables.
-#include "tonetool/lut.h"
+#include "include/tonetool/lut.h"
 
 #include "python/families.h"
 #include "python/results.h"

@@ -12,8 +12,8 @@
 #include <utility>
 #include <vector>
 
-#include "tonetool/pixels.h"
-#include "tonetool/tonemap.h"
+#include "include/tonetool/pixels.h"
+#include "include/tonetool/tonemap.h"
 
 namespace tonetool::python {
 
