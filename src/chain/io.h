@@ -17,4 +17,7 @@ void push_file(Session& session, const std::string& filename);
 /// Settings that no output has used: a -d CHAN=TYPE that fits no channel is an error.
 void check_outputs(const Session& session);
 
+/// Rows of the commands that write textures.
+std::vector<Command> texture_commands();
+
 } // namespace tonetool::chain
