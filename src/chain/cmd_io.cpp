@@ -373,15 +373,8 @@ void run_compression(Session& session, const Call& call) {
     session.output.compression = call.argument(0);
 }
 
-} // namespace
-
-std::vector<Command> io_commands() {
-    const std::string types = join(data_type_names(), "|");
-    const auto set = [](const char* usage, const std::string& help, Run run,
-                        const std::string& modifiers = "") {
-        return free_row(Group::Write, usage, 0, 0, help, std::move(run), modifiers);
-    };
-    std::vector<Command> rows = {
+std::vector<Command> input_rows() {
+    return {
         free_row(Group::Read, "i FILENAME", 0, any_number,
                  "Read an image (as a bare file name does)", run_input,
                  "ch=CHANLIST: keep these channels only, as --ch\n"
@@ -401,21 +394,36 @@ std::vector<Command> io_commands() {
                      }
                      session.missing_file = call.argument(0);
                  }),
-        free_row(Group::Write, "o FILENAME", 0, any_number, "Write the current image", run_output,
-                 "datatype=TYPE: data type of this file (" + types + ")\n" +
-                     "bits=N: of each channel\n"
-                     "compression=NAME: compression of this file, name or name:quality\n"
-                     "all=N: write all images of the stack; the file name has a %d, from N on\n"
-                     "autocc=0|1: convert to the colour space that the name tells\n"
-                     "unpremult=0|1: divide by alpha for that\n"
-                     "autocrop=0|1: to the display window where the format has no other\n"
-                     "autotrim=0|1: cut off a black border\n"
-                     "contig=0|1: channels interleaved\n"
-                     "separate=0|1: each channel by itself\n"
-                     "dither=0|1: add dither to 8 bits\n"
-                     "fileformatname=NAME: instead of the one that the extension tells\n"
-                     "scanline=0|1: not in tiles\n"
-                     "tile=WxH: in tiles of this size"),
+    };
+}
+
+Command output_row() {
+    const std::string types = join(data_type_names(), "|");
+    return free_row(Group::Write, "o FILENAME", 0, any_number, "Write the current image",
+                    run_output,
+                    "datatype=TYPE: data type of this file (" + types + ")\n" +
+                        "bits=N: of each channel\n"
+                        "compression=NAME: compression of this file, name or name:quality\n"
+                        "all=N: write all images of the stack; the file name has a %d, from N on\n"
+                        "autocc=0|1: convert to the colour space that the name tells\n"
+                        "unpremult=0|1: divide by alpha for that\n"
+                        "autocrop=0|1: to the display window where the format has no other\n"
+                        "autotrim=0|1: cut off a black border\n"
+                        "contig=0|1: channels interleaved\n"
+                        "separate=0|1: each channel by itself\n"
+                        "dither=0|1: add dither to 8 bits\n"
+                        "fileformatname=NAME: instead of the one that the extension tells\n"
+                        "scanline=0|1: not in tiles\n"
+                        "tile=WxH: in tiles of this size");
+}
+
+// What holds for the outputs that follow.
+std::vector<Command> output_setting_rows() {
+    const std::string types = join(data_type_names(), "|");
+    const auto set = [](const char* usage, const std::string& help, Run run) {
+        return free_row(Group::Write, usage, 0, 0, help, std::move(run));
+    };
+    return {
         set("d TYPE",
             "Data type of the outputs that follow, or CHAN=TYPE of one channel (" + types + ")",
             run_data_type),
@@ -449,6 +457,14 @@ std::vector<Command> io_commands() {
         set("sansattrib", "Leave --attrib and --sattrib out of the command line that is written",
             [](Session&, const Call&) {}),
     };
+}
+
+} // namespace
+
+std::vector<Command> io_commands() {
+    std::vector<Command> rows = input_rows();
+    rows.push_back(output_row());
+    append(rows, output_setting_rows());
     append(rows, texture_commands());
     return rows;
 }

@@ -79,6 +79,37 @@ py::object write_bytes(std::vector<py::object>& arguments) {
     return py::none();
 }
 
+void add_removals(Module& module) {
+    define(module,
+           Description{"remove_abandoned_outputs",
+                       "Remove what killed processes have left of writes to these files.",
+                       {{"filenames", "Sequence[str]", "Files that were to be written.", ""}},
+                       "None",
+                       "Nothing.",
+                       "What a process still writes stays.",
+                       "Never.",
+                       source},
+           [](std::vector<py::object>& arguments) {
+               tonetool::remove_abandoned_outputs(Python<std::vector<std::string>>::from(
+                   arguments[0], "remove_abandoned_outputs: filenames"));
+               return py::none();
+           });
+    define(
+        module,
+        Description{"remove_unfinished_outputs",
+                    "Remove the temporary files of writes now under way, before the process ends.",
+                    {},
+                    "None",
+                    "Nothing.",
+                    "Other threads' writes fail then.",
+                    "Never.",
+                    source},
+        [](std::vector<py::object>&) {
+            tonetool::remove_unfinished_outputs();
+            return py::none();
+        });
+}
+
 } // namespace
 
 void add_write(Module& module) {
@@ -115,34 +146,7 @@ void add_write(Module& module) {
                        errors,
                        source},
            write_bytes);
-    define(module,
-           Description{"remove_abandoned_outputs",
-                       "Remove what killed processes have left of writes to these files.",
-                       {{"filenames", "Sequence[str]", "Files that were to be written.", ""}},
-                       "None",
-                       "Nothing.",
-                       "What a process still writes stays.",
-                       "Never.",
-                       source},
-           [](std::vector<py::object>& arguments) {
-               tonetool::remove_abandoned_outputs(Python<std::vector<std::string>>::from(
-                   arguments[0], "remove_abandoned_outputs: filenames"));
-               return py::none();
-           });
-    define(
-        module,
-        Description{"remove_unfinished_outputs",
-                    "Remove the temporary files of writes now under way, before the process ends.",
-                    {},
-                    "None",
-                    "Nothing.",
-                    "Other threads' writes fail then.",
-                    "Never.",
-                    source},
-        [](std::vector<py::object>&) {
-            tonetool::remove_unfinished_outputs();
-            return py::none();
-        });
+    add_removals(module);
 }
 
 } // namespace tonetool::python
