@@ -2,19 +2,13 @@
 
 #include <OpenImageIO/strutil.h>
 #include <algorithm>
-#include <map>
 
-#include "chain/error.h"
-#include "imagebuf/names.h"
+#include "text/error.h"
+#include "text/values.h"
 
 namespace tonetool::chain {
 
 namespace {
-
-std::string meant(const std::string& word, const Strings& names) {
-    Strings near = nearest_names(word, names, 1);
-    return near.empty() ? "" : ", did you mean \"" + near.front() + "\"?";
-}
 
 void check_keys(const Command& row, const Token& token) {
     Strings keys;
@@ -30,41 +24,7 @@ void check_keys(const Command& row, const Token& token) {
     }
 }
 
-std::string range_text(Range range) {
-    return format_number(range.low) + " to " + format_number(range.high);
-}
-
 } // namespace
-
-double checked_number(const std::string& what, const std::string& value, Range range) {
-    std::optional<double> number = parse_number(value);
-    if (!number) {
-        throw CommandError(what + " \"" + value +
-                           "\" is not a number (valid: " + range_text(range) + ")");
-    }
-    if (*number < range.low || *number > range.high) {
-        throw CommandError(what + " " + value + " is out of range (valid: " + range_text(range) +
-                           ")");
-    }
-    return *number;
-}
-
-int checked_integer(const std::string& what, const std::string& value, Range range) {
-    std::optional<int> number = parse_integer(value);
-    if (!number) {
-        throw CommandError(what + " \"" + value +
-                           "\" is not a whole number (valid: " + range_text(range) + ")");
-    }
-    checked_number(what, value, range);
-    return *number;
-}
-
-void check_choice(const std::string& what, const std::string& value, const Strings& valid) {
-    if (std::find(valid.begin(), valid.end(), value) == valid.end()) {
-        throw CommandError("unknown " + what + " \"" + value + "\"" + meant(value, valid) +
-                           " (valid: " + join(valid, ", ") + ")");
-    }
-}
 
 Call::Call(const Command& row, Token token, Strings arguments, bool lenient)
     : m_row(&row),
@@ -86,28 +46,6 @@ int Call::pushes() const {
 
 bool Call::has(const std::string& key) const {
     return text(key).has_value();
-}
-
-std::string Call::operation() const {
-    static const std::map<std::string, std::string> others = {{"ch", ""},
-                                                              {"chappend", ""},
-                                                              {"clamp", ""},
-                                                              {"colorconvert", "colorconvert"},
-                                                              {"crop", ""},
-                                                              {"croptofull", ""},
-                                                              {"cut", ""},
-                                                              {"fill", ""},
-                                                              {"fillholes", ""},
-                                                              {"fit", ""},
-                                                              {"fixnan", ""},
-                                                              {"pixelaspect", "resize"},
-                                                              {"reorient", "reorient"},
-                                                              {"resample", "resample"},
-                                                              {"resize", "resize"},
-                                                              {"tocolorspace", "colorconvert"},
-                                                              {"trim", ""}};
-    auto other = others.find(m_row->label());
-    return !m_row->operation ? "" : other == others.end() ? "-" + m_row->label() : other->second;
 }
 
 double Call::parsed(const std::string& what, const std::string& value, Range range) const {

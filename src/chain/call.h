@@ -8,17 +8,13 @@
 #include <vector>
 
 #include "chain/registry.h"
-#include "chain/token.h"
+#include "files/image.h"
+#include "text/token.h"
+#include "text/values.h"
 
 namespace tonetool::chain {
 
-class Image;
-using ImagePtr = std::shared_ptr<Image>;
-
-/// A closed range that a number must lie in.
-struct Range {
-    double low, high;
-};
+using files::ImagePtr;
 
 class Call {
 public:
@@ -30,7 +26,7 @@ public:
     const std::string& text() const { return m_token.text; }
     /// What oiiotool calls an operation, and the image that it makes: "-mulc". Empty where the
     /// image keeps its name and messages say what was typed.
-    std::string operation() const;
+    const std::string& operation() const { return m_row->operation; }
     /// As typed, with the arguments: "--mulc", "2".
     std::string quoted_words() const {
         Strings words = m_arguments;
@@ -66,10 +62,5 @@ private:
     Strings m_arguments;
     bool m_lenient;
 };
-
-/// "what "value": not a number; valid: ..." as a CommandError, for values of any origin.
-double checked_number(const std::string& what, const std::string& value, Range range);
-int checked_integer(const std::string& what, const std::string& value, Range range);
-void check_choice(const std::string& what, const std::string& value, const Strings& valid);
 
 } // namespace tonetool::chain

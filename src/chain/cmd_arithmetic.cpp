@@ -91,8 +91,8 @@ const std::vector<OpRow> value_rows = {
     {"chsum", 1, "Sum of the channels",
      [](Op& op) { return IBA::channel_sum(op.dst, op.a(), op.values("weight", 1)); },
      "weight=VALUES: weight of each channel (1)"},
-    {"clamp", 1, "Clamp the values", clamp, limits + "clampalpha=0|1: alpha to 0..1",
-     Scope::Levels},
+    named("", {"clamp", 1, "Clamp the values", clamp, limits + "clampalpha=0|1: alpha to 0..1",
+               Scope::Levels}),
     {"contrast", 1, "Remap black to min and white to max, with a contrast curve", contrast,
      limits + "black=VALUES: what becomes min (0)\n"
               "white=VALUES: what becomes max (1)\n"

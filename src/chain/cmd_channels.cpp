@@ -2,38 +2,21 @@
 #include <OpenImageIO/strutil.h>
 #include <algorithm>
 
-#include "chain/channels.h"
 #include "chain/ops.h"
+#include "files/channels.h"
 
 namespace tonetool::chain {
 
 namespace {
 
 bool ch(Op& op) {
-    op.dst = select_channels(op.a(), op.call.argument(0), &op.session);
+    const auto warn = [&op](const std::string& text) {
+        op.session.warning("--ch", text); // twice, as oiiotool
+        op.session.warning("--ch", text);
+    };
+    op.dst = files::select_channels(op.a(), op.call.argument(0),
+                                    op.session.compat ? files::Warn(warn) : nullptr);
     return !op.dst.has_error();
-}
-
-size_t subimage_index(const Session& session, const Image& image, const std::string& which) {
-    const size_t count = image.part_count();
-    Strings names;
-    for (size_t i = 0; i < count; ++i) {
-        names.push_back(image.part(i).header().get_string_attribute("oiio:subimagename"));
-        if (names.back() == which) {
-            return i;
-        }
-    }
-    auto index = parse_integer(which);
-    if (index && *index >= 0 && size_t(*index) < count) {
-        return size_t(*index);
-    }
-    if (session.compat) {
-        throw CommandError("Invalid -subimage (" + which + "): " +
-                           (index ? image.name() + " has " + std::to_string(count) + " subimages"
-                                  : "named subimage not found"));
-    }
-    throw CommandError("no subimage \"" + which + "\" in " + image.name() + " (valid: 0 to " +
-                       std::to_string(count - 1) + ", " + join(names, ", ") + ")");
 }
 
 void push_parts(Session& session, const std::string& name, std::vector<PartPtr> parts) {
@@ -42,7 +25,7 @@ void push_parts(Session& session, const std::string& name, std::vector<PartPtr> 
 
 void run_subimage(Session& session, const Call& call) {
     const Image& image = *call.images[0];
-    auto index = std::ptrdiff_t(subimage_index(session, image, call.argument(0)));
+    auto index = std::ptrdiff_t(image.find_part(call.argument(0), session.compat));
     std::vector<PartPtr> parts = image.parts();
     if (call.flag("delete", false)) {
         parts.erase(parts.begin() + index);
@@ -128,17 +111,18 @@ void rangecheck(const Op& op) {
 const char* const count_help = "n=N: so many images instead of two\n";
 
 const std::vector<OpRow> rows = {
-    {"ch CHANLIST", 1, "Select or shuffle channels (\"R,G,B\", \"2,1,0\", \"R,G=0.5,B,A=1.0\")", ch,
-     "", Scope::Levels},
-    {"chappend", 2, "The channels of the last two images (or n=) in one",
-     [](Op& op) {
-         op.dst.copy(op.a());
-         for (size_t i = 1; i < op.src.size(); ++i) {
-             op.dst = IBA::channel_append(op.dst, *op.src[i]);
-         }
-         return !op.dst.has_error();
-     },
-     count_help},
+    named("", {"ch CHANLIST", 1,
+               "Select or shuffle channels (\"R,G,B\", \"2,1,0\", \"R,G=0.5,B,A=1.0\")", ch, "",
+               Scope::Levels}),
+    named("", {"chappend", 2, "The channels of the last two images (or n=) in one",
+               [](Op& op) {
+                   op.dst.copy(op.a());
+                   for (size_t i = 1; i < op.src.size(); ++i) {
+                       op.dst = IBA::channel_append(op.dst, *op.src[i]);
+                   }
+                   return !op.dst.has_error();
+               },
+               count_help}),
 };
 
 std::vector<Command> subimage_commands() {

@@ -3,7 +3,7 @@
 #include <cstdio>
 
 #include "chain/ops.h"
-#include "imagebuf/oiio_compat.h"
+#include "files/sheet.h"
 
 namespace tonetool::chain {
 
@@ -26,123 +26,45 @@ Position asked_position(const Session& session, const std::string& text) {
     return position;
 }
 
-OIIO::ROI in_plane(OIIO::ROI window, const OIIO::ROI& channels) {
-    window.chbegin = channels.chbegin;
-    window.chend = channels.chend;
-    return window;
-}
-
-// The last image is the background, on which the others go, the deepest on top.
-bool paste_all(Op& op, const std::vector<const OIIO::ImageBuf*>& images) {
-    const Position at = asked_position(op.session, op.call.argument(0));
-    const OIIO::ImageBuf& background = *images.back();
-    OIIO::ImageSpec spec = background.spec();
-    if (!op.flag("mergeroi")) {
-        op.dst.copy(background);
-    } else {
-        OIIO::ROI data = background.roi(), display = background.roi_full();
-        for (const OIIO::ImageBuf* image : images) {
-            data = OIIO::roi_union(data, image->roi());
-            display = OIIO::roi_union(display, image->roi_full());
-        }
-        spec.set_roi(in_plane(data, background.roi()));
-        spec.set_roi_full(in_plane(display, background.roi()));
-        op.dst.reset(spec);
-        IBA::zero(op.dst);
-        IBA::paste(op.dst, 0, 0, 0, 0, background);
+std::vector<const OIIO::ImageBuf*> pixels_of(const std::vector<ImagePtr>& images) {
+    std::vector<const OIIO::ImageBuf*> all;
+    for (const ImagePtr& image : images) {
+        all.push_back(&image->part().pixels());
     }
-    bool done = true;
-    for (size_t i = images.size() - 1; done && i-- > 0;) {
-        done = IBA::paste(op.dst, at.x, at.y, 0, 0, *images[i]);
-    }
-    return done;
+    return all;
 }
 
 void run_paste(Session& session, const Call& call) {
-    OIIO::ImageBuf result;
-    Op op{session, call, result, {}};
-    std::vector<ImagePtr> images = take_images(session, op.flag("all") ? 0 : 2);
-    for (const ImagePtr& image : images) {
-        op.src.push_back(&image->part().pixels());
-    }
-    if (!paste_all(op, op.src) || result.has_error()) {
-        throw CommandError(result.geterror());
-    }
+    std::vector<ImagePtr> images = take_images(session, call.flag("all", false) ? 0 : 2);
+    const Position at = asked_position(session, call.argument(0));
+    OIIO::ImageBuf result =
+        files::pasted(pixels_of(images), at.x, at.y, call.flag("mergeroi", false));
     session.push(Image::derived(*images.back(), std::move(result)));
 }
 
 bool paste_metadata(Op& op) {
     bool done = op.dst.copy(op.b());
-    OIIO::ImageSpec& spec = op.dst.specmod();
-    spec.extra_attribs = op.a().spec().extra_attribs;
-    spec.set_roi_full(in_plane(op.a().roi_full(), op.b().roi()));
+    op.dst.specmod().extra_attribs = op.a().spec().extra_attribs;
+    op.dst.set_roi_full(op.a().roi_full());
     return done;
 }
 
-// Images of one size each in rows, with a border of `pad` between them.
-struct Sheet {
-    int columns = 0, rows = 0, pad = 0, width = 0, height = 0, channels = 0;
-
-    OIIO::ImageSpec spec() const {
-        return {columns * width + (columns - 1) * pad, rows * height + (rows - 1) * pad, channels,
-                OIIO::TypeFloat};
-    }
-};
-
-std::vector<OIIO::ImageBuf> fitted(const Session& session, const Call& call,
-                                   const std::vector<ImagePtr>& images) {
-    OIIO::ROI window;
-    auto fit = call.text("fit");
-    auto size = parsed_size(fit.value_or("0x0"));
-    if (fit && !size && !session.compat) {
-        throw CommandError("fit \"" + *fit + "\" is no size (valid: WxH)");
-    }
-    std::vector<OIIO::ImageBuf> all;
-    for (const ImagePtr& image : images) {
-        const OIIO::ImageBuf& pixels = image->part().pixels();
-        const OIIO::ROI cell(0, int(size ? size->width : 0), 0, int(size ? size->height : 0), 0, 1,
-                             0, pixels.nchannels());
-        OIIO::ImageBuf& fitted = all.emplace_back();
-        if (cell.npixels() > 0) {
-            oiio::fit(fitted, pixels, "", "letterbox", false, cell);
-        } else {
-            fitted = pixels.copy(OIIO::TypeUnknown);
-        }
-    }
-    return all;
-}
-
-OIIO::ImageBuf assembled(Sheet sheet, const std::vector<OIIO::ImageBuf>& images) {
-    for (const OIIO::ImageBuf& image : images) {
-        sheet.width = std::max(sheet.width, image.spec().full_width);
-        sheet.height = std::max(sheet.height, image.spec().full_height);
-        sheet.channels = std::max(sheet.channels, image.nchannels());
-    }
-    OIIO::ImageBuf result(sheet.spec());
-    IBA::zero(result);
-    for (size_t i = 0; i < images.size(); ++i) {
-        const int column = int(i) % sheet.columns, row = int(i) / sheet.columns;
-        IBA::paste(result, column * (sheet.width + sheet.pad), row * (sheet.height + sheet.pad), 0,
-                   0, images[i]);
-    }
-    return result;
-}
-
 void run_mosaic(Session& session, const Call& call) {
-    Sheet sheet;
     auto size = parsed_size(call.argument(0));
     if (!size || size->width < 1 || size->height < 1) {
         throw CommandError("Invalid size '" + call.argument(0) + "'" +
                            (session.compat ? "" : " (valid: COLUMNSxROWS)"));
     }
-    sheet.columns = int(size->width);
-    sheet.rows = int(size->height);
-    OIIO::ImageBuf none;
-    sheet.pad = Op{session, call, none, {}}.integer("pad", 0);
+    const auto fit = call.text("fit");
+    files::Sheet sheet{int(size->width), int(size->height)};
+    sheet.pad = call.integer("pad", any_integer).value_or(0);
+    sheet.fit = fit ? parsed_size(*fit) : std::nullopt;
+    if (fit && !sheet.fit && !session.compat) {
+        throw CommandError("fit \"" + *fit + "\" is no size (valid: WxH)");
+    }
     const size_t cells = size_t(sheet.columns) * size_t(sheet.rows);
     std::vector<ImagePtr> images = take_images(session, std::min(cells, session.stack.size()));
-    OIIO::ImageBuf result = assembled(sheet, fitted(session, call, images));
-    session.push(Image::created("mosaic", std::move(result)));
+    session.push(Image::created("mosaic", files::mosaic(sheet, pixels_of(images))));
 }
 
 const std::vector<OpRow> rows = {

@@ -2,9 +2,9 @@
 #include <OpenImageIO/strutil.h>
 
 #include "chain/call.h"
-#include "chain/error.h"
-#include "chain/expression.h"
 #include "chain/session.h"
+#include "text/error.h"
+#include "text/expression.h"
 
 namespace tonetool::chain {
 
@@ -41,12 +41,8 @@ void run_endwhile(Session& session, const Call&) {
     session.flow.next = block.running ? block.begin : session.flow.next;
 }
 
-std::string number_text(double value) {
-    return OIIO::Strutil::fmt::format("{:g}", value);
-}
-
 bool set_loop_variable(Session& session, Block& block, const std::string& name) {
-    session.variables.attribute(name, number_text(block.value));
+    session.variables.attribute(name, expression_number(block.value));
     block.running = block.outside && (block.step < 0 && !session.compat ? block.value > block.end
                                                                         : block.value < block.end);
     return block.running;
@@ -116,8 +112,8 @@ std::vector<Command> control_commands() {
         row("set", {"NAME", "VALUE"}, "Set a variable, the {NAME} of expressions", run_set, false);
     set.modifiers = {{"type", "TYPE", "its data type: int, float, string, ... (as it looks)"}};
     Command parallel =
-        row("parallel-frames", {"N"}, "Work on N frames at a time; --memory is for all of them",
-            nothing, false);
+        of_manner(row("parallel-frames", {"N"},
+                      "Work on N frames at a time; --memory is for all of them", nothing, false));
     parallel.names.push_back("jobs");
     return {
         set,
@@ -138,9 +134,9 @@ std::vector<Command> control_commands() {
         row(
             "evalon", {}, "Replace {expressions} by their values in what follows",
             [](Session& session, const Call&) { session.evaluate = true; }, false),
-        row("frames", {"RANGE"},
-            "Run the command line for each of these frames (1-10, 1,3,5-9, 1-10x2)", nothing,
-            false),
+        of_manner(row("frames", {"RANGE"},
+                      "Run the command line for each of these frames (1-10, 1,3,5-9, 1-10x2)",
+                      nothing, false)),
         row("framepadding", {"DIGITS"}, "Digits of frame numbers in file names, 1 to 9", nothing,
             false),
         row("views", {"NAMES"}, "Views that %V and %v stand for (left,right)", nothing, false),
@@ -148,12 +144,14 @@ std::vector<Command> control_commands() {
             false),
         row("wildcardon", {}, "What follows has wildcards for frames and views again", nothing,
             false),
-        row("skip-bad-frames", {}, "After an error go on with the next frame", nothing, false),
+        of_manner(
+            row("skip-bad-frames", {}, "After an error go on with the next frame", nothing, false)),
         parallel,
-        row("progress", {"=FORMAT"},
-            "Report frames done, rate and time left to the standard error (--progress=json: as "
-            "JSON)",
-            nothing, false),
+        of_manner(
+            row("progress", {"=FORMAT"},
+                "Report frames done, rate and time left to the standard error (--progress=json: as "
+                "JSON)",
+                nothing, false)),
         row("compat", {}, "Be as lenient as oiiotool, with its messages and exit status", nothing,
             false),
     };

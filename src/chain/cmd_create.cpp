@@ -221,7 +221,7 @@ const std::vector<OpRow> drawing_rows = {
     {"point X,Y[,X,Y...]", 1, "Draw points", point, color},
     {"line X,Y,X,Y[,X,Y...]", 1, "Draw a line through these points", line, color},
     {"box X1,Y1,X2,Y2", 1, "Draw a box", box, color + "fill=0|1: filled"},
-    {"fill GEOM", 1, "Fill a window with a colour or a ramp", fill_window, ramps},
+    named("", {"fill GEOM", 1, "Fill a window with a colour or a ramp", fill_window, ramps}),
     {"text TEXT", 1, "Draw text", text,
      color + "x=N: position (the middle)\n"
              "y=N: position (the middle)\n"
@@ -253,7 +253,7 @@ std::vector<Command> create_commands() {
                  "camera=N: which camera (0)"),
     };
     for (Command& row : all) {
-        row.operation = row.label() == "kernel";
+        row.operation = row.label() == "kernel" ? "-kernel" : "";
     }
     append(all, op_rows(Group::Create, drawing_rows));
     return all;

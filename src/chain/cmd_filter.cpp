@@ -78,10 +78,10 @@ const std::vector<OpRow> other_rows = {
      [](Op& op) { return IBA::complex_to_polar(op.dst, op.a()); }},
     {"unpolar", 1, "From amplitude and phase to real and imaginary",
      [](Op& op) { return IBA::polar_to_complex(op.dst, op.a()); }},
-    {"fixnan STRATEGY", 1, "Replace NaN and infinity: none, black, box3 or error", fixnan, "",
-     Scope::Levels},
-    {"fillholes", 1, "Fill where alpha is not 1 from around",
-     [](Op& op) { return IBA::fillholes_pushpull(op.dst, op.a()); }},
+    named("", {"fixnan STRATEGY", 1, "Replace NaN and infinity: none, black, box3 or error", fixnan,
+               "", Scope::Levels}),
+    named("", {"fillholes", 1, "Fill where alpha is not 1 from around",
+               [](Op& op) { return IBA::fillholes_pushpull(op.dst, op.a()); }}),
 };
 
 } // namespace

@@ -1,67 +1,15 @@
 // Commands that set how the rest of the command line runs, and help.
 #include <OpenImageIO/imagecache.h>
 #include <OpenImageIO/imageio.h>
-#include <OpenImageIO/sysutil.h>
-#include <algorithm>
-#ifdef __GLIBC__
-#include <malloc.h>
-#endif
 
 #include "chain/call.h"
-#include "chain/error.h"
-#include "chain/help.h"
 #include "chain/session.h"
 #include "include/tonetool/export.h"
+#include "text/error.h"
 
 namespace tonetool::chain {
 
 namespace {
-
-void run_help(Session& session, const Call& call) {
-    session.produced = true;
-    if (!call.has_argument(0)) {
-        session.out << help_text();
-        return;
-    }
-    if (is_registry_format(call.argument(0))) {
-        session.out << registry_text(call.argument(0));
-        return;
-    }
-    std::string name = call.argument(0);
-    name.erase(0, std::min(name.find_first_not_of('-'), size_t{2}));
-    const Command* row = find_command(name);
-    if (!row) {
-        throw CommandError("unknown command \"" + call.argument(0) + "\", " +
-                           suggest_command(name));
-    }
-    session.out << help_text(*row);
-}
-
-// Per thread OpenEXR's decoder holds blocks of rows of the whole width.
-constexpr int threads_within_memory = 2;
-
-// glibc keeps freed blocks of up to 32 MB for itself, and some for each thread; within a bound they
-// go back to the system.
-void give_memory_back() {
-#ifdef __GLIBC__
-    mallopt(M_MMAP_THRESHOLD, 1 << 20);
-    mallopt(M_TRIM_THRESHOLD, 1 << 20);
-    mallopt(M_ARENA_MAX, 2);
-#endif
-}
-
-void run_memory(Session& session, const Call& call) {
-    auto size = parse_size(call.argument(0));
-    if (!size) {
-        throw CommandError("SIZE \"" + call.argument(0) +
-                           "\": not a size; valid: bytes, or a whole number with K, M or G "
-                           "(powers of 1024), above 0: 268435456, 256M, 1G");
-    }
-    session.memory = *size / uint64_t(session.parallel);
-    int cores = static_cast<int>(OIIO::Sysutil::hardware_concurrency());
-    OIIO::attribute("exr_threads", std::min(cores, threads_within_memory));
-    give_memory_back();
-}
 
 void run_oiioattrib(Session& session, const Call& call) {
     const std::string &name = call.argument(0), &value = call.argument(1);
@@ -93,43 +41,38 @@ std::vector<Command> general_commands() {
         row({"oiioattrib"}, {"NAME", "VALUE"}, "Set an attribute of OpenImageIO", run_oiioattrib);
     oiioattrib.modifiers = {{"type", "TYPE", "its data type (as it looks)"}};
     return {
-        row({"help"}, {"[COMMAND]"},
-            "List all commands, tell more about one, or all as man, bash, zsh (completion) or json",
-            run_help),
         row({"version"}, {}, "Print the version",
             [](Session& session, const Call&) {
                 session.produced = true;
                 session.print(TONETOOL_VERSION);
             }),
-        row({"v"}, {}, "Say what is read and written",
-            [](Session& session, const Call&) {
-                session.verbose = true;
-                session.quiet = false;
-            }),
-        row({"q"}, {}, "Quiet: measurements print only warnings, failures and errors",
-            [](Session& session, const Call&) {
-                session.quiet = true;
-                session.verbose = false;
-            }),
+        of_manner(row({"v"}, {}, "Say what is read and written",
+                      [](Session& session, const Call&) {
+                          session.verbose = true;
+                          session.quiet = false;
+                      })),
+        of_manner(row({"q"}, {}, "Quiet: measurements print only warnings, failures and errors",
+                      [](Session& session, const Call&) {
+                          session.quiet = true;
+                          session.verbose = false;
+                      })),
         row({"n"}, {}, "Dry run: nothing is written",
             [](Session& session, const Call&) { session.dry_run = true; }),
         row({"a"}, {}, "Do operations on all subimages and MIP levels",
             [](Session& session, const Call&) { session.all_subimages = true; }),
-        of_process(row({"threads"}, {"N"}, "Number of threads (0: one per core)",
-                       [](Session&, const Call& call) {
-                           OIIO::attribute("threads", call.integer_argument(0, {0, 4096}));
-                       })),
-        of_process(
-            row({"memory"}, {"SIZE"},
-                "Peak memory of the comparisons that follow, 256M or 1G: larger images are read in "
-                "bands (half of the computer's)",
-                run_memory)),
+        of_manner(of_process(row({"threads"}, {"N"}, "Number of threads (0: one per core)",
+                                 [](Session&, const Call& call) {
+                                     const int threads = call.integer_argument(0, {0, 4096});
+                                     OIIO::attribute("threads", threads);
+                                     files::limit_reader_threads(threads);
+                                 }))),
         row({"no-error-exit"}, {}, "After an error go on with the next command",
             [](Session& session, const Call&) { session.error_exit = false; }),
-        row({"debug"}, {}, "Say what is done",
-            [](Session& session, const Call&) { session.debug = session.verbose = true; }),
-        row({"runstats"}, {}, "Print the time and the memory that the command line took",
-            [](Session& session, const Call&) { session.runstats = true; }),
+        of_manner(
+            row({"debug"}, {}, "Say what is done",
+                [](Session& session, const Call&) { session.debug = session.verbose = true; })),
+        of_manner(row({"runstats"}, {}, "Print the time and the memory that the command line took",
+                      [](Session& session, const Call&) { session.runstats = true; })),
         row({"u"}, {}, "Update: outputs that are newer than all inputs stay as they are",
             [](Session& session, const Call&) { session.update = true; }),
         row({"no-clobber"}, {}, "Outputs that exist stay as they are",
@@ -151,22 +94,23 @@ std::vector<Command> general_commands() {
             [](Session& session, const Call&) { session.autocc = false; }),
         row({"native"}, {}, "Pixels keep the file's data type in memory",
             [](Session& session, const Call&) { session.input.type = OIIO::TypeUnknown; }),
-        of_process(row(
+        of_manner(of_process(row(
             {"cache"}, {"MB"}, "Size of OpenImageIO's image cache",
             [](Session&, const Call& call) {
                 auto* cache = OIIO::ImageCache::create();
                 cache->attribute("max_memory_MB", float(call.integer_argument(0, {0, 1 << 30})));
-            })),
-        of_process(row({"autotile"}, {"SIZE"}, "Tiles of OpenImageIO's image cache (0: none)",
-                       [](Session&, const Call& call) {
-                           auto* cache = OIIO::ImageCache::create();
-                           cache->attribute("autotile", call.integer_argument(0, {0, 1 << 16}));
-                       })),
+            }))),
+        of_manner(
+            of_process(row({"autotile"}, {"SIZE"}, "Tiles of OpenImageIO's image cache (0: none)",
+                           [](Session&, const Call& call) {
+                               auto* cache = OIIO::ImageCache::create();
+                               cache->attribute("autotile", call.integer_argument(0, {0, 1 << 16}));
+                           }))),
         row({"metamerge"}, {}, "Results have the metadata of all images they are made of",
             [](Session& session, const Call&) { session.metamerge = true; }),
         of_process(oiioattrib),
-        row({"warnings-exit"}, {}, "Exit with status 2 when there were warnings",
-            [](Session& session, const Call&) { session.warnings_exit = true; }),
+        of_manner(row({"warnings-exit"}, {}, "Exit with status 2 when there were warnings",
+                      [](Session& session, const Call&) { session.warnings_exit = true; })),
     };
 }
 

@@ -1,6 +1,4 @@
 // Commands that move, cut, turn and resample pixels.
-#include <cmath>
-
 #include "chain/ops.h"
 #include "imagebuf/oiio_compat.h"
 
@@ -57,29 +55,13 @@ bool trim(Op& op) {
     return crop_to(op, window.npixels() > 0 ? window : first);
 }
 
-// The data window keeps its place within the display window.
-OIIO::ImageSpec scaled_spec(const OIIO::ImageBuf& from, const OIIO::ROI& display) {
-    OIIO::ImageSpec spec = from.spec();
-    const float x = float(display.width()) / float(spec.full_width);
-    const float y = float(display.height()) / float(spec.full_height);
-    spec.x = display.xbegin + int(std::floor(float(spec.x - spec.full_x) * x));
-    spec.y = display.ybegin + int(std::floor(float(spec.y - spec.full_y) * y));
-    spec.width = int(std::ceil(float(spec.width) * x));
-    spec.height = int(std::ceil(float(spec.height) * y));
-    spec.full_x = display.xbegin;
-    spec.full_y = display.ybegin;
-    spec.full_width = display.width();
-    spec.full_height = display.height();
-    return spec;
-}
-
 bool scale_to(Op& op, const OIIO::ROI& display, bool resample) {
     const OIIO::ROI now = op.a().roi_full();
     op.unchanged = display.width() == now.width() && display.height() == now.height();
     if (op.unchanged) {
         return true;
     }
-    op.dst.reset(scaled_spec(op.a(), display));
+    op.dst.reset(files::scaled_spec(op.a().spec(), display));
     const OIIO::ROI roi = op.dst.roi();
     return resample ? IBA::resample(op.dst, op.a(), op.flag("interp", true), roi)
                     : filtered(op, [&](const OIIO::ImageBuf& from) {
@@ -187,26 +169,28 @@ bool reorient(Op& op) {
 }
 
 const std::vector<OpRow> window_rows = {
-    {"crop GEOM", 1, "Set the data window, cropping or padding (WxH+X+Y or XMIN,YMIN,XMAX,YMAX)",
-     crop},
-    {"croptofull", 1, "Crop or pad to the display window",
-     [](Op& op) { return crop_to(op, op.a().roi_full()); }},
-    {"trim", 1, "Crop to the smallest window of pixels that are not 0", trim},
-    {"cut GEOM", 1, "Cut out a window and move it to the origin", cut},
+    named("", {"crop GEOM", 1,
+               "Set the data window, cropping or padding (WxH+X+Y or XMIN,YMIN,XMAX,YMAX)", crop}),
+    named("", {"croptofull", 1, "Crop or pad to the display window",
+               [](Op& op) { return crop_to(op, op.a().roi_full()); }}),
+    named("", {"trim", 1, "Crop to the smallest window of pixels that are not 0", trim}),
+    named("", {"cut GEOM", 1, "Cut out a window and move it to the origin", cut}),
     {"cshift +X+Y", 1, "Shift around the edges", cshift},
 };
 
 const std::vector<OpRow> scale_rows = {
-    {"resample GEOM", 1, "Resample (640x480, 640x0, 50%)", resample,
-     "interp=0|1: bilinear (1) or nearest"},
-    {"resize GEOM", 1, "Resize with a filter (640x480, 640x0, 50%)", resize, filters + highlights},
-    {"fit GEOM", 1, "Resize to fit within a window", fit,
-     filters + highlights +
-         "pad=0|1: pad to the window\n"
-         "fillmode=letterbox|width|height: what is made to fit (letterbox)\n"
-         "exact=0|1: to fractions of pixels"},
-    {"pixelaspect ASPECT", 1, "Scale up width or height for another pixel aspect ratio",
-     pixelaspect, filters + highlights},
+    named("resample", {"resample GEOM", 1, "Resample (640x480, 640x0, 50%)", resample,
+                       "interp=0|1: bilinear (1) or nearest"}),
+    named("resize", {"resize GEOM", 1, "Resize with a filter (640x480, 640x0, 50%)", resize,
+                     filters + highlights}),
+    named("", {"fit GEOM", 1, "Resize to fit within a window", fit,
+               filters + highlights +
+                   "pad=0|1: pad to the window\n"
+                   "fillmode=letterbox|width|height: what is made to fit (letterbox)\n"
+                   "exact=0|1: to fractions of pixels"}),
+    named("resize",
+          {"pixelaspect ASPECT", 1, "Scale up width or height for another pixel aspect ratio",
+           pixelaspect, filters + highlights}),
     {"rotate DEGREES", 1, "Rotate clockwise around the middle of the display window", rotate,
      filters + highlights + recompute + "center=X,Y: around this position instead"},
     {"warp MATRIX", 1, "Warp by a 3x3 matrix of 9 numbers with commas between them", warp,
@@ -228,7 +212,7 @@ const std::vector<OpRow> turn_rows = {
     {"flip", 1, "Mirror top and bottom", [](Op& op) { return IBA::flip(op.dst, op.a()); }},
     {"flop", 1, "Mirror left and right", [](Op& op) { return IBA::flop(op.dst, op.a()); }},
     {"transpose", 1, "Swap x and y", [](Op& op) { return IBA::transpose(op.dst, op.a()); }},
-    {"reorient", 1, "Turn the pixels as the Orientation says", reorient},
+    named("reorient", {"reorient", 1, "Turn the pixels as the Orientation says", reorient}),
 };
 
 } // namespace

@@ -1,13 +1,11 @@
 // Commands that print what images are, and other texts.
-#include <OpenImageIO/imageio.h>
 #include <OpenImageIO/strutil.h>
-#include <algorithm>
 #include <ostream>
 
-#include "chain/call.h"
-#include "chain/error.h"
 #include "chain/expression.h"
-#include "chain/inspect.h"
+#include "chain/ops.h"
+#include "files/inspect.h"
+#include "text/error.h"
 
 namespace tonetool::chain {
 
@@ -31,13 +29,13 @@ void print_listing(Session& session, const Call& call, Listing what) {
     what.no_metamatch = session.list.no_metamatch;
     session.push(call.images[0]);
     try {
-        session.out << listing_text(*call.images[0], what);
+        session.out << files::listing_text(*call.images[0], what);
     } catch (const ReadError& problem) {
         if (!session.compat || !what.stats) {
             throw;
         }
         session.error("read", problem.why);
-        session.print(OIIO::Strutil::rstrip(header_text(*call.images[0], 0, false)));
+        session.print(OIIO::Strutil::rstrip(files::header_text(*call.images[0], 0, false)));
         throw CommandError("unable to compute: " + problem.why + "\nError reading from \"" +
                                call.images[0]->name() + "\" (subimg=0, mip=0, tile@0,0,0)",
                            "stats");
@@ -57,16 +55,9 @@ void run_printstats(Session& session, const Call& call) {
     Listing what;
     what.stats = true;
     what.verbose = session.verbose;
-    OIIO::ROI& roi = what.roi;
     if (auto text = call.text("roi"); text && !session.compat) {
-        if (std::sscanf(text->c_str(), "%dx%d%d%d", &roi.xend, &roi.yend, &roi.xbegin,
-                        &roi.ybegin) != 4) {
-            throw CommandError("roi \"" + *text + "\" is not WxH+X+Y");
-        }
-        roi = {roi.xbegin, roi.xbegin + roi.xend,
-               roi.ybegin, roi.ybegin + roi.yend,
-               0,          1,
-               0,          call.images[0]->part().header().nchannels};
+        what.roi = call.images[0]->part().header().roi();
+        adjust_window(session, call, *text, Geometry::Window, what.roi);
     }
     print_listing(session, call, what);
 }
@@ -79,22 +70,7 @@ void run_echo(Session& session, const Call& call) {
 }
 
 void run_list_formats(Session& session, const Call&) {
-    session.print("All OIIO supported formats and their extensions:");
-    // Looking for a format makes OpenImageIO list its own beside the recipes that are ours.
-    (void)OIIO::ImageInput::create("no.format");
-    (void)OIIO::geterror();
-    Strings entries = OIIO::Strutil::splits(OIIO::get_string_attribute("extension_list"), ";");
-    std::sort(entries.begin(), entries.end(), [](const std::string& a, const std::string& b) {
-        return a.substr(0, a.find(':')) < b.substr(0, b.find(':'));
-    });
-    for (const std::string& entry : entries) {
-        const std::vector<std::string> words = OIIO::Strutil::splits(entry, ":");
-        if (session.compat && words[0] == "tone") {
-            continue;
-        }
-        session.print("    " + words[0] + " : " +
-                      OIIO::Strutil::join(OIIO::Strutil::splits(words.back(), ","), ", "));
-    }
+    session.print(files::formats_text(session.compat));
     session.produced = true;
 }
 

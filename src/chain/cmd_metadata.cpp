@@ -2,66 +2,16 @@
 #include <OpenImageIO/strutil.h>
 #include <algorithm>
 #include <array>
-#include <cstdio>
 #include <regex>
 
 #include "chain/ops.h"
+#include "files/attributes.h"
 
 namespace tonetool::chain {
 
 namespace {
 
 using OIIO::ImageSpec;
-
-// "01:02:03:04" as the decimal digits of a time code, "30/1" as a rational number.
-void set_packed(ImageSpec& spec, const std::string& name, const std::string& value,
-                OIIO::TypeDesc type) {
-    unsigned time[4] = {}, packed[2] = {};
-    int ratio[2] = {0, 1};
-    if (type == OIIO::TypeRational) {
-        std::sscanf(value.c_str(), "%d/%d", &ratio[0], &ratio[1]);
-        spec.attribute(name, type, ratio);
-        return;
-    }
-    std::sscanf(value.c_str(), "%u:%u:%u:%u", &time[0], &time[1], &time[2], &time[3]);
-    for (unsigned part : time) {
-        packed[0] = packed[0] << 8U | (part / 10 % 10) << 4U | part % 10;
-    }
-    spec.attribute(name, type, packed);
-}
-
-void set_strings(ImageSpec& spec, const std::string& name, const std::string& value,
-                 OIIO::TypeDesc type) {
-    OIIO::string_view rest = value;
-    std::vector<OIIO::ustring> words;
-    OIIO::string_view word;
-    while (OIIO::Strutil::parse_string(rest, word)) {
-        words.emplace_back(word);
-        OIIO::Strutil::parse_char(rest, ',');
-    }
-    words.resize(type.arraylen > 0 ? size_t(type.arraylen) : words.size());
-    type.arraylen = int(words.size());
-    spec.attribute(name, type, words.data());
-}
-
-void set_attribute(ImageSpec& spec, const std::string& name, const std::string& value,
-                   OIIO::TypeDesc type) {
-    if (value.empty()) {
-        spec.erase_attribute(name);
-    } else if (type == OIIO::TypeTimeCode || type == OIIO::TypeRational) {
-        set_packed(spec, name, value, type);
-    } else if (type.basetype == OIIO::TypeDesc::STRING && type.arraylen != 0) {
-        set_strings(spec, name, value, type);
-    } else if (type != OIIO::TypeUnknown) {
-        spec.attribute(name, type, value);
-    } else if (OIIO::Strutil::string_is_int(value)) {
-        spec.attribute(name, OIIO::Strutil::stoi(value));
-    } else if (OIIO::Strutil::string_is_float(value)) {
-        spec.attribute(name, OIIO::Strutil::stof(value));
-    } else {
-        spec.attribute(name, value);
-    }
-}
 
 void attrib(ImageSpec& spec, const Call& call, Session& session) {
     OIIO::TypeDesc type;
@@ -71,7 +21,7 @@ void attrib(ImageSpec& spec, const Call& call, Session& session) {
                            "\" is no data type (valid: int, float, string, "
                            "float[3], timecode, rational, ...)");
     }
-    set_attribute(spec, call.argument(0), call.argument(1), type);
+    files::set_attribute(spec, call.argument(0), call.argument(1), type);
 }
 
 void erase(ImageSpec& spec, const Call& call, Session& session) {
@@ -87,17 +37,7 @@ void erase(ImageSpec& spec, const Call& call, Session& session) {
 }
 
 void keyword(ImageSpec& spec, const Call& call, Session&) {
-    std::vector<std::string> words =
-        OIIO::Strutil::splits(spec.get_string_attribute("Keywords"), ";");
-    words.push_back(call.argument(0));
-    Strings kept;
-    for (const std::string& word : words) {
-        const std::string bare = OIIO::Strutil::strip(word);
-        if (!bare.empty() && std::find(kept.begin(), kept.end(), bare) == kept.end()) {
-            kept.push_back(bare);
-        }
-    }
-    spec.attribute("Keywords", join(kept, "; "));
+    files::add_keyword(spec, call.argument(0));
 }
 
 void orientation(ImageSpec& spec, const Call& call, Session& session) {
@@ -153,19 +93,19 @@ const std::vector<HeaderRow> attribute_rows = {
      "type=TYPE: its data type (what VALUE looks like)"},
     {"sattrib NAME VALUE", "Set an attribute that is a string",
      [](ImageSpec& spec, const Call& call, Session&) {
-         set_attribute(spec, call.argument(0), call.argument(1), OIIO::TypeString);
+         files::set_attribute(spec, call.argument(0), call.argument(1), OIIO::TypeString);
      }},
     {"eraseattrib REGEX", "Erase the attributes that match", erase},
     {"caption TEXT", "Set the caption (ImageDescription)",
      [](ImageSpec& spec, const Call& call, Session&) {
-         set_attribute(spec, "ImageDescription", call.argument(0), OIIO::TypeString);
+         files::set_attribute(spec, "ImageDescription", call.argument(0), OIIO::TypeString);
      }},
     {"keyword KEYWORD", "Add a keyword", keyword},
     {"clear-keywords", "Erase all keywords",
      [](ImageSpec& spec, const Call&, Session&) { spec.erase_attribute("Keywords"); }},
     {"iscolorspace COLORSPACE", "Say what colour space the image is in",
      [](ImageSpec& spec, const Call& call, Session&) {
-         set_attribute(spec, "oiio:ColorSpace", call.argument(0), OIIO::TypeString);
+         files::set_attribute(spec, "oiio:ColorSpace", call.argument(0), OIIO::TypeString);
      }},
 };
 

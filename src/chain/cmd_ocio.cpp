@@ -1,11 +1,9 @@
 // Colour spaces, looks and views of the OpenColorIO configuration, and ICC profiles.
 #include <OpenImageIO/color.h>
-#include <OpenImageIO/filesystem.h>
-#include <OpenImageIO/strutil.h>
 
 #include "chain/ops.h"
+#include "files/attributes.h"
 #include "imagebuf/oiio_compat.h"
-#include "include/tonetool/write.h"
 
 namespace tonetool::chain {
 
@@ -74,30 +72,12 @@ bool matrix(Op& op) {
 }
 
 void read_profile(OIIO::ImageSpec& spec, const Call& call, Session&) {
-    const std::string& file = call.argument(0);
-    std::string bytes;
-    if (!OIIO::Filesystem::exists(file)) {
-        throw CommandError("ICC profile file " + file + " does not exist");
-    }
-    if (!OIIO::Filesystem::read_text_file(file, bytes) || bytes.empty()) {
-        throw CommandError("ICC profile file " + file + " could not be read");
-    }
-    spec.attribute("ICCProfile", OIIO::TypeDesc(OIIO::TypeDesc::UINT8, int(bytes.size())),
-                   bytes.data());
+    files::read_icc_profile(spec, call.argument(0));
 }
 
 void write_profile(Session& session, const Call& call) {
     session.push(call.images.front());
-    const OIIO::ImageSpec& spec = call.images.front()->part().header();
-    const OIIO::ParamValue* profile = spec.find_attribute("ICCProfile");
-    if (!profile) {
-        throw CommandError("No ICC profile found in image.");
-    }
-    const std::string bytes(static_cast<const char*>(profile->data()), size_t(profile->datasize()));
-    std::string why;
-    if (!write_bytes(bytes, call.argument(0), why)) {
-        throw CommandError(why);
-    }
+    files::write_icc_profile(call.images.front()->part().header(), call.argument(0));
     session.produced = true;
 }
 
@@ -108,11 +88,13 @@ const std::string context = "key=NAME: key of the configuration's context\n"
 const std::string lenient = "strict=0|1: 0: a space that is not there is only a warning";
 
 const std::vector<OpRow> rows = {
-    {"tocolorspace COLORSPACE", 1, "Convert from the image's colour space to another",
-     [](Op& op) { return convert(op, "", op.call.argument(0)); }, context + lenient},
-    {"colorconvert SRC DST", 1, "Convert from one colour space to another",
-     [](Op& op) { return convert(op, op.call.argument(0), op.call.argument(1)); },
-     context + lenient},
+    named("colorconvert",
+          {"tocolorspace COLORSPACE", 1, "Convert from the image's colour space to another",
+           [](Op& op) { return convert(op, "", op.call.argument(0)); }, context + lenient}),
+    named("colorconvert",
+          {"colorconvert SRC DST", 1, "Convert from one colour space to another",
+           [](Op& op) { return convert(op, op.call.argument(0), op.call.argument(1)); },
+           context + lenient}),
     {"ociolook LOOK", 1, "Apply a look", look,
      context + "from=COLORSPACE: of the image (the one that it is in)\n"
                "to=COLORSPACE: of the result (the one that the image is in)\n"

@@ -3,10 +3,8 @@
 #include <map>
 #include <sstream>
 
-#include "chain/error.h"
-#include "chain/io.h"
 #include "chain/ops.h"
-#include "chain/output.h"
+#include "text/error.h"
 
 namespace tonetool::chain {
 
@@ -39,7 +37,7 @@ OIIO::ImageSpec texture_config(const Session& session, const Call& call) {
     config.attribute("maketx:colorconfig", session.color_config);
     const OutputSettings& output = session.output;
     config.set_format(output.type ? output.type->type
-                                  : format_of(session, call.images[0]->part()).type);
+                                  : session.types.of(call.images[0]->part(), session.compat).type);
     config.tile_width = output.tile_width > 0 ? output.tile_width : 64;
     config.tile_height = output.tile_width > 0 ? output.tile_height : 64;
     config.tile_depth = 1;

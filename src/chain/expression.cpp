@@ -1,332 +1,78 @@
 #include "chain/expression.h"
 
 #include <OpenImageIO/filesystem.h>
-#include <OpenImageIO/imagebufalgo.h>
-#include <OpenImageIO/imageio.h>
 #include <OpenImageIO/strutil.h>
-#include <cmath>
-#include <utility>
+#include <algorithm>
 
-#include "chain/error.h"
-#include "chain/inspect.h"
-#include "chain/text.h"
+#include "files/attributes.h"
+#include "text/error.h"
+#include "text/expression.h"
 
 namespace tonetool::chain {
 
 namespace {
 
-namespace Strutil = OIIO::Strutil;
-
-std::string shown(double value) {
-    return Strutil::fmt::format("{:g}", value);
-}
-
-std::string geometry(OIIO::ROI roi) {
-    return Strutil::fmt::format("{}x{}{:+d}{:+d}", roi.width(), roi.height(), roi.xbegin,
-                                roi.ybegin);
-}
-
-bool find_global(const std::string& name, OIIO::ParamValue& value) {
-    if (int number = 0; OIIO::getattribute(name, number)) {
-        value = {name, number};
-    } else if (float real = 0; OIIO::getattribute(name, real)) {
-        value = {name, real};
-    } else if (std::string text; OIIO::getattribute(name, text)) {
-        value = {name, text};
-    } else {
-        return false;
-    }
-    return true;
-}
-
-std::string color_text(const std::vector<float>& color) {
-    return Strutil::join(color, ",");
-}
-
-// Recursive descent; every level returns its value as text, as metadata and variables are text.
-class Evaluator {
+class Names : public ExpressionNames {
 public:
-    Evaluator(Session& session, const std::string& text)
-        : m_session(session),
-          m_text(text),
-          m_rest(m_text) {}
+    explicit Names(Session& session) : m_session(session) {}
 
-    std::string value() {
-        std::string result = binary(0);
-        Strutil::skip_whitespace(m_rest);
-        if (!m_rest.empty()) {
-            fail("syntax error");
+    std::optional<std::string> value(const std::string& name) override {
+        const Frame& frame = m_session.frame;
+        if (name == "FRAME_NUMBER") {
+            return std::to_string(frame.number);
         }
-        return result;
+        if (name == "FRAME_NUMBER_PAD") {
+            return OIIO::Strutil::fmt::format("{:0{}d}", frame.number, frame.padding);
+        }
+        if (!m_session.variables.contains(name)) {
+            return std::nullopt;
+        }
+        const std::string text = m_session.variables.get_string(name);
+        const bool number = OIIO::Strutil::string_is_float(text);
+        return number ? expression_number(double(OIIO::Strutil::stof(text))) : text;
+    }
+    bool select_top() override {
+        m_image = m_session.stack.empty() ? nullptr : m_session.stack.back();
+        return m_image != nullptr;
+    }
+    bool select(const std::string& which) override {
+        m_image = found(which);
+        return m_image != nullptr;
+    }
+    std::optional<std::string> attribute(const std::string& name) override {
+        return files::attribute_text(*m_image, name);
     }
 
 private:
-    using Compute = double (*)(double, double);
-    struct Operator {
-        int level; // binds tighter than the ones below it
-        const char* sign;
-        Compute compute;
-    };
-    static const std::vector<Operator>& operators();
-
-    [[noreturn]] void fail(const std::string& why) const {
-        throw CommandError(Strutil::fmt::format("{} at char {} of '{}'", why,
-                                                m_text.size() - m_rest.size() + 1, m_text));
+    ImagePtr found(const std::string& which) const {
+        const std::vector<ImagePtr>& stack = m_session.stack;
+        auto index = parse_integer(which);
+        if (index && *index >= 0 && size_t(*index) < stack.size()) {
+            return stack[stack.size() - 1 - size_t(*index)];
+        }
+        if (auto labelled = m_session.labels.find(which); labelled != m_session.labels.end()) {
+            return labelled->second;
+        }
+        if (which == "TOP" && !stack.empty()) {
+            return stack.back();
+        }
+        auto named = std::find_if(stack.rbegin(), stack.rend(),
+                                  [&](const ImagePtr& image) { return image->name() == which; });
+        if (named != stack.rend()) {
+            return *named;
+        }
+        const std::string file = m_session.file(which);
+        return OIIO::Filesystem::exists(file) ? Image::open(file) : nullptr;
     }
-
-    std::string binary(int level);
-    std::string combined(const std::string& left, const Operator& with, const std::string& right);
-    std::string atom();
-    std::string function(const std::string& name);
-    std::string named(const std::string& name);
-    std::string image_attribute(const ImagePtr& image);
-    ImagePtr indexed_image();
-    std::string attribute_name();
 
     Session& m_session;
-    const std::string m_text;
-    OIIO::string_view m_rest;
+    ImagePtr m_image;
 };
 
-const std::vector<Evaluator::Operator>& Evaluator::operators() {
-    // Whole numbers for // and %; a sign that begins another comes after it.
-    static const std::vector<Operator> all = {
-        {0, "||", [](double a, double b) -> double { return a != 0 || b != 0; }},
-        {1, "&&", [](double a, double b) -> double { return a != 0 && b != 0; }},
-        {2, "<=>", [](double a, double b) -> double { return a < b ? -1 : (a > b ? 1 : 0); }},
-        {2, "==", [](double a, double b) -> double { return a == b; }},
-        {2, "!=", [](double a, double b) -> double { return a != b; }},
-        {2, "<=", [](double a, double b) -> double { return a <= b; }},
-        {2, ">=", [](double a, double b) -> double { return a >= b; }},
-        {2, "<", [](double a, double b) -> double { return a < b; }},
-        {2, ">", [](double a, double b) -> double { return a > b; }},
-        {3, "+", [](double a, double b) { return a + b; }},
-        {3, "-", [](double a, double b) { return a - b; }},
-        {4, "*", [](double a, double b) { return a * b; }},
-        {4, "//",
-         [](double a, double b) {
-             return std::trunc(b) == 0 ? 0.0 : std::trunc(std::trunc(a) / std::trunc(b));
-         }},
-        {4, "/", [](double a, double b) { return a / b; }},
-        {4, "%",
-         [](double a, double b) {
-             return std::trunc(b) == 0 ? 0.0 : std::fmod(std::trunc(a), std::trunc(b));
-         }},
-    };
-    return all;
-}
-
-std::string Evaluator::combined(const std::string& left, const Operator& with,
-                                const std::string& right) {
-    if (!Strutil::string_is_float(left) || !Strutil::string_is_float(right)) {
-        if (!m_session.compat) {
-            fail(
-                Strutil::fmt::format("\"{}\" {} \"{}\" needs numbers (eq() and neq() compare text)",
-                                     left, with.sign, right));
-        }
-        return left;
-    }
-    double value = with.compute(double(Strutil::stof(left)), double(Strutil::stof(right)));
-    return value == 0 ? "0" : shown(value);
-}
-
-std::string Evaluator::binary(int level) {
-    constexpr int atoms = 5;
-    if (level == atoms) {
-        return atom();
-    }
-    std::string left = binary(level + 1);
-    for (bool found = true; found;) {
-        found = false;
-        for (const Operator& with : operators()) {
-            if (with.level == level && Strutil::parse_prefix(m_rest, with.sign)) {
-                left = combined(left, with, binary(level + 1));
-                found = true;
-                break;
-            }
-            Strutil::skip_whitespace(m_rest);
-        }
-    }
-    return left;
-}
-
-std::string Evaluator::atom() {
-    Strutil::skip_whitespace(m_rest);
-    if (Strutil::parse_char(m_rest, '(')) {
-        std::string inner = binary(0);
-        if (!Strutil::parse_char(m_rest, ')')) {
-            fail("missing `)'");
-        }
-        return inner;
-    }
-    if (!m_rest.empty() && (m_rest.front() == '\'' || m_rest.front() == '"')) {
-        OIIO::string_view text;
-        if (!Strutil::parse_string(m_rest, text)) {
-            fail("unfinished string");
-        }
-        return text;
-    }
-    if (Strutil::parse_char(m_rest, '!')) {
-        return is_true(atom()) ? "0" : "1";
-    }
-    if (float number = 0; Strutil::parse_float(m_rest, number)) {
-        return shown(double(number));
-    }
-    if (Strutil::parse_char(m_rest, '-')) {
-        return shown(-double(Strutil::stof(atom())));
-    }
-    if (Strutil::parse_char(m_rest, '+')) {
-        return atom();
-    }
-    std::string name = Strutil::parse_identifier(m_rest, ":");
-    if (name.empty()) {
-        fail("syntax error");
-    }
-    return Strutil::parse_char(m_rest, '(') ? function(name) : named(name);
-}
-
-std::string Evaluator::function(const std::string& name) {
-    auto argument = [&](char end) {
-        std::string value = binary(0);
-        if (!Strutil::parse_char(m_rest, end)) {
-            fail(name + "() lacks `" + end + "'");
-        }
-        return value;
-    };
-    if (name == "not") {
-        return is_true(argument(')')) ? "0" : "1";
-    }
-    if (name == "eq" || name == "neq") {
-        std::string first = argument(',');
-        return (first == argument(')')) == (name == "eq") ? "1" : "0";
-    }
-    if (name == "getattribute") {
-        std::string key = Strutil::strip(Strutil::parse_until(m_rest, ")"), " '\"");
-        (void)Strutil::parse_char(m_rest, ')');
-        if (OIIO::ParamValue value; find_global(key, value)) {
-            return value.get_string();
-        }
-        return m_session.compat ? m_text : (fail("unknown attribute name '" + key + "'"), "");
-    }
-    fail("unknown function " + name + "() (valid: not, eq, neq, getattribute)");
-}
-
-std::string Evaluator::named(const std::string& name) {
-    if (name == "TOP") {
-        return image_attribute(m_session.stack.empty() ? nullptr : m_session.stack.back());
-    }
-    if (name == "IMG") {
-        return image_attribute(indexed_image());
-    }
-    if (name == "FRAME_NUMBER") {
-        return std::to_string(m_session.frame.number);
-    }
-    if (name == "FRAME_NUMBER_PAD") {
-        return Strutil::fmt::format("{:0{}d}", m_session.frame.number, m_session.frame.padding);
-    }
-    if (m_session.variables.contains(name)) {
-        std::string value = m_session.variables.get_string(name);
-        return Strutil::string_is_float(value) ? shown(double(Strutil::stof(value))) : value;
-    }
-    m_rest = OIIO::string_view(m_text).substr(m_text.size() - m_rest.size() - name.size());
-    fail("syntax error");
-}
-
-ImagePtr Evaluator::indexed_image() {
-    if (!Strutil::parse_char(m_rest, '[')) {
-        fail("expected `[`");
-    }
-    std::string which = Strutil::strip(Strutil::parse_until(m_rest, "]"));
-    if (!Strutil::parse_char(m_rest, ']')) {
-        fail("expected `]`");
-    }
-    which = Strutil::strip(which, "'\"");
-    if (which.find_first_of("+*/% (") != std::string::npos || m_session.variables.contains(which)) {
-        which = Evaluator(m_session, which).value();
-    }
-    const std::vector<ImagePtr>& stack = m_session.stack;
-    if (auto index = parse_integer(which); index && *index >= 0 && size_t(*index) < stack.size()) {
-        return stack[stack.size() - 1 - size_t(*index)];
-    }
-    if (auto labelled = m_session.labels.find(which); labelled != m_session.labels.end()) {
-        return labelled->second;
-    }
-    for (auto image = stack.rbegin(); image != stack.rend(); ++image) {
-        if ((*image)->name() == which || (which == "TOP" && image == stack.rbegin())) {
-            return *image;
-        }
-    }
-    const std::string file = m_session.file(which);
-    return OIIO::Filesystem::exists(file) ? Image::open(file) : nullptr;
-}
-
-std::string Evaluator::attribute_name() {
-    OIIO::string_view name;
-    if (Strutil::parse_char(m_rest, '[')) {
-        const bool quoted = !m_rest.empty() && (m_rest.front() == '\'' || m_rest.front() == '"');
-        std::string key = m_session.compat && !quoted
-                              ? Strutil::parse_identifier(m_rest)
-                              : Strutil::strip(Strutil::parse_until(m_rest, "]"));
-        if (!Strutil::parse_char(m_rest, ']')) {
-            fail("expected `]`");
-        }
-        return Strutil::strip(key, "'\"");
-    }
-    if (!Strutil::parse_char(m_rest, '.')) {
-        fail("expected `.` or `[`");
-    }
-    bool quoted = !m_rest.empty() && (m_rest.front() == '\'' || m_rest.front() == '"');
-    if (quoted ? !Strutil::parse_string(m_rest, name)
-               : (name = Strutil::parse_identifier(m_rest, ":")).empty()) {
-        fail("syntax error");
-    }
-    return name;
-}
-
-std::string Evaluator::image_attribute(const ImagePtr& image) {
-    if (!image) {
-        fail("not a valid image");
-    }
-    const std::string name = attribute_name();
-    Part& part = image->part();
-    const OIIO::ImageSpec& spec = part.header();
-    using Stats = std::vector<float> OIIO::ImageBufAlgo::PixelStats::*;
-    static const std::pair<const char*, Stats> stats[] = {
-        {"MINCOLOR", &OIIO::ImageBufAlgo::PixelStats::min},
-        {"MAXCOLOR", &OIIO::ImageBufAlgo::PixelStats::max},
-        {"AVGCOLOR", &OIIO::ImageBufAlgo::PixelStats::avg}};
-    for (const auto& [key, figures] : stats) {
-        if (name == key) {
-            return color_text(OIIO::ImageBufAlgo::computePixelStats(part.pixels()).*figures);
-        }
-    }
-    if (name == "META" || name == "METABRIEF") {
-        return Strutil::rstrip(header_text(*image, 0, name == "META"));
-    }
-    const std::pair<const char*, std::string> known[] = {
-        {"filename", image->name()},
-        {"file_extension", OIIO::Filesystem::extension(image->name())},
-        {"file_noextension", OIIO::Filesystem::replace_extension(image->name(), "")},
-        {"geom", geometry(spec.roi())},
-        {"full_geom", geometry(spec.roi_full())},
-        {"format", part.from_file() ? "float" : std::string(spec.format.c_str())}};
-    for (const auto& [key, value] : known) {
-        if (name == key) {
-            return value;
-        }
-    }
-    if (name == "STATS") {
-        return Strutil::rstrip(stats_text(*image, ""));
-    }
-    if (OIIO::ParamValue value; const auto* found = spec.find_attribute(name, value)) {
-        return found->get_string();
-    }
-    fail("unknown attribute name '" + name + "'");
-}
-
-std::string evaluated(Session& session, const std::string& text) {
+std::string value_or_text(Session& session, const std::string& text) {
+    Names names(session);
     try {
-        return Evaluator(session, text).value();
+        return evaluated(text, names, session.compat);
     } catch (const CommandError& problem) {
         if (!session.compat) {
             throw CommandError(std::string("expression : ") + problem.what());
@@ -338,25 +84,18 @@ std::string evaluated(Session& session, const std::string& text) {
 
 } // namespace
 
-bool is_true(const std::string& value) {
-    std::string text = Strutil::lower(Strutil::strip(value));
-    bool number = Strutil::string_is_float(text);
-    return number ? Strutil::stof(text) != 0
-                  : !text.empty() && text != "false" && text != "no" && text != "off";
-}
-
 std::string with_values(Session& session, const std::string& word) {
     if (!session.evaluate || word.find('{') == std::string::npos) {
         return word;
     }
     OIIO::string_view rest = OIIO::string_view(word).substr(word.find('{'));
     const std::string before = word.substr(0, word.size() - rest.size());
-    const OIIO::string_view nested = Strutil::parse_nested(rest);
+    const OIIO::string_view nested = OIIO::Strutil::parse_nested(rest);
     if (nested.empty()) {
         return word;
     }
     const std::string after = with_values(session, rest); // the order of oiiotool's messages
-    return before + evaluated(session, nested.substr(1, nested.size() - 2)) + after;
+    return before + value_or_text(session, nested.substr(1, nested.size() - 2)) + after;
 }
 
 } // namespace tonetool::chain

@@ -11,7 +11,4 @@ namespace tonetool::chain {
 /// --compat it is reported and the text stays.
 std::string with_values(Session& session, const std::string& word);
 
-/// What --if and --while take for true: neither empty nor 0 nor "false".
-bool is_true(const std::string& value);
-
 } // namespace tonetool::chain

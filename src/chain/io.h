@@ -14,10 +14,13 @@ void push_file_or_label(Session& session, const std::string& word);
 /// Read a file, push it, print what --info, -v and --stats ask for.
 void push_file(Session& session, const std::string& filename);
 
+/// The colour space that the role "linear" has in the configuration.
+std::string linear_space(Session& session);
+/// Converts the current image, unless the spaces are the same; for --autocc.
+void convert_current(Session& session, const std::string& from, const std::string& to,
+                     bool unpremult);
+
 /// Settings that no output has used: a -d CHAN=TYPE that fits no channel is an error.
 void check_outputs(const Session& session);
-
-/// Rows of the commands that write textures.
-std::vector<Command> texture_commands();
 
 } // namespace tonetool::chain

@@ -5,8 +5,6 @@
 #include <cstdio>
 #include <iterator>
 
-#include "chain/first_part.h"
-
 namespace tonetool::chain {
 
 namespace {
@@ -136,7 +134,7 @@ void run_kernel(Session& session, const Call& call, const Kernel& kernel, Scope 
         return;
     }
     if (chosen.count == 1 && !session.compat) {
-        warn_of_other_parts(session, call, first);
+        session.warn_of_other_parts(call.row().label(), first);
     }
     ImagePtr result = Image::derived(first, std::move(subimages));
     if (session.compat && !call.operation().empty()) {
@@ -164,7 +162,7 @@ std::vector<Command> op_rows(Group group, const std::vector<OpRow>& rows) {
         };
         all.push_back({shape_of(row.usage, row.images, 1, group), modifiers_of(row.modifiers, true),
                        row.help, run});
-        all.back().operation = true;
+        all.back().operation = row.operation == "-" ? "-" + all.back().label() : row.operation;
     }
     return all;
 }
@@ -187,6 +185,18 @@ Command free_row(Group group, const std::string& usage, int pops, int pushes,
                  const std::string& help, Run run, const std::string& modifiers) {
     return {shape_of(usage, pops, pushes, group), modifiers_of(modifiers, false), help,
             std::move(run)};
+}
+
+bool adjust_window(Session& session, const Call& call, const std::string& text, Geometry allowed,
+                   OIIO::ROI& window) {
+    const files::Adjusted adjusted = files::adjust_window(text, allowed, window, session.compat);
+    if (!adjusted.error.empty()) {
+        throw CommandError(adjusted.error, call.text());
+    }
+    if (!adjusted.warning.empty()) {
+        session.warning(call.text(), adjusted.warning);
+    }
+    return adjusted.warning.empty();
 }
 
 std::vector<ImagePtr> take_images(Session& session, size_t count) {

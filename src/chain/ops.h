@@ -5,12 +5,16 @@
 #include <functional>
 
 #include "chain/call.h"
-#include "chain/error.h"
 #include "chain/session.h"
+#include "files/windows.h"
+#include "text/error.h"
 
 namespace tonetool::chain {
 
 namespace IBA = OIIO::ImageBufAlgo;
+using files::Geometry;
+using files::parsed_size;
+using files::Size;
 using Floats = std::vector<float>;
 inline constexpr Range any_number_at_all{-3.4e38, 3.4e38};
 inline constexpr Range any_integer{-2147483648.0, 2147483647.0};
@@ -64,7 +68,13 @@ struct OpRow {
     Kernel kernel;
     std::string modifiers = {};   ///< lines of "key=hint: help"
     Scope scope = Scope::Largest; ///< Levels: with -a MIP levels stay
+    std::string operation = "-";  ///< as Call::operation; "-": the name with a dash
 };
+/// The same row with another Call::operation, "" if the image keeps its name.
+inline OpRow named(std::string operation, OpRow row) {
+    row.operation = std::move(operation);
+    return row;
+}
 std::vector<Command> op_rows(Group group, const std::vector<OpRow>& rows);
 
 /// A command that changes headers and no pixels.
@@ -94,17 +104,9 @@ void run_kernel(Session& session, const Call& call, const Kernel& kernel, Scope 
 ImagePtr with_headers(const Image& image, const Chosen& chosen,
                       const std::function<void(OIIO::ImageSpec&)>& edit);
 
-/// A size or position as oiiotool takes it ("40x30+5+6", "x0,y0,x1,y1", "50%", "+5+6"), applied to
-/// a window. Position: only its origin may change; Scalable: also "50%", "0.5". False where
-/// --compat let something pass.
-enum class Geometry { Position, Window, Scalable };
+/// files::adjust_window for the command. False where --compat let something pass.
 bool adjust_window(Session& session, const Call& call, const std::string& text, Geometry allowed,
                    OIIO::ROI& window);
-/// "3x5"; nullopt for anything else.
-struct Size {
-    float width, height;
-};
-std::optional<Size> parsed_size(const std::string& text);
 
 /// Takes that many images from the stack (0: all there are), the deepest first.
 std::vector<ImagePtr> take_images(Session& session, size_t count);

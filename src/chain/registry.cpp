@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <iterator>
-#include <set>
 
 #include "imagebuf/names.h"
 
@@ -10,29 +9,21 @@ namespace tonetool::chain {
 
 namespace {
 
-std::vector<Command>& added_commands() {
-    static std::vector<Command> rows;
-    return rows;
-}
-
-std::vector<Command> collect() {
-    std::vector<Command> all = std::move(added_commands());
-    const std::set<std::vector<Command> (*)()> own = {
-        compare_commands, color_commands, tone_commands, cgtmo_commands, light_commands};
-    for (auto family :
-         {general_commands,  control_commands,   io_commands,         inspect_commands,
-          compare_commands,  diff_commands,      check_commands,      qc_commands,
-          color_commands,    tone_commands,      cgtmo_commands,      light_commands,
-          metadata_commands, create_commands,    arithmetic_commands, geometry_commands,
-          filter_commands,   composite_commands, ocio_commands,       channel_commands,
-          stack_commands}) {
+// Rows keep their places: calls point at them.
+std::deque<Command> collect() {
+    std::deque<Command> all;
+    for (auto family : {general_commands, control_commands, read_commands, write_commands,
+                        texture_commands, inspect_commands, color_commands, metadata_commands,
+                        create_commands, arithmetic_commands, geometry_commands, filter_commands,
+                        composite_commands, ocio_commands, channel_commands, stack_commands}) {
         std::vector<Command> rows = family();
-        for (Command& row : rows) {
-            row.own =
-                own.count(family) > 0 && row.label() != "colormap" && row.label() != "colorconfig";
-        }
         std::move(rows.begin(), rows.end(), std::back_inserter(all));
     }
+    return all;
+}
+
+std::deque<Command>& registry() {
+    static std::deque<Command> all = collect();
     return all;
 }
 
@@ -76,6 +67,11 @@ Command of_process(Command row) {
     return row;
 }
 
+Command of_manner(Command row) {
+    row.manner = true;
+    return row;
+}
+
 std::string Command::label() const {
     return names.front().size() == 1 ? "-" + names.front() : names.front();
 }
@@ -87,12 +83,11 @@ Command setting(Group group, Strings names, Strings args, std::string help, Run 
 }
 
 void add_commands(std::vector<Command> rows) {
-    std::move(rows.begin(), rows.end(), std::back_inserter(added_commands()));
+    std::move(rows.begin(), rows.end(), std::back_inserter(registry()));
 }
 
-const std::vector<Command>& all_commands() {
-    static const std::vector<Command> all = collect();
-    return all;
+const std::deque<Command>& all_commands() {
+    return registry();
 }
 
 const Command* find_command(const std::string& name) {

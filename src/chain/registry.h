@@ -1,11 +1,12 @@
 // The commands: one row each. Help, checks and tests are all read from these rows.
 #pragma once
 
+#include <deque>
 #include <functional>
 #include <string>
 #include <vector>
 
-#include "chain/text.h"
+#include "text/text.h"
 
 namespace tonetool::chain {
 
@@ -68,10 +69,11 @@ struct Command : Shape {
     int (*pushes_of)(const Call&) = nullptr;
     /// --if and the like: seen also where commands are skipped.
     bool control = false;
-    bool operation = false; ///< one of oiiotool's on pixels: see Call::operation
-    bool own = false;       ///< not one of oiiotool's: strict with --compat, too
+    std::string operation = {}; ///< of oiiotool's on pixels: see Call::operation
+    bool own = false;           ///< not one of oiiotool's: strict with --compat, too
     /// What it sets is the process's and not the chain's.
     bool of_process = false;
+    bool manner = false; ///< says how a line runs, not what comes of it
 
     /// As messages call it: "hdrflip", "-o".
     std::string label() const;
@@ -85,18 +87,19 @@ struct Command : Shape {
 /// Whether an argument or modifier of that name or hint is a file, or may be one.
 bool names_file(const std::string& hint);
 
-/// The row of a command that sets something of the process.
+/// The row of a command that sets something of the process, or says how a line runs.
 Command of_process(Command row);
+Command of_manner(Command row);
 
 /// The row of a command that takes and leaves no image.
 Command setting(Group group, Strings names, Strings args, std::string help, Run run,
                 std::vector<Modifier> modifiers = {});
 
-/// Rows of the rooms above, to be told before the first use of any other function here.
+/// Rows of the rooms above. Before anything runs: rows are looked up without a lock.
 void add_commands(std::vector<Command> rows);
 
 /// All rows.
-const std::vector<Command>& all_commands();
+const std::deque<Command>& all_commands();
 
 /// The row of that name, or nullptr.
 const Command* find_command(const std::string& name);
@@ -110,18 +113,13 @@ std::string suggest_command(const std::string& name);
 // The families, one file each.
 std::vector<Command> general_commands();
 std::vector<Command> control_commands();
-std::vector<Command> io_commands();
+std::vector<Command> read_commands();
+std::vector<Command> write_commands();
+std::vector<Command> texture_commands();
 std::vector<Command> inspect_commands();
-std::vector<Command> compare_commands();
-std::vector<Command> diff_commands();
-std::vector<Command> check_commands();
-std::vector<Command> qc_commands();
 std::vector<Command> color_commands();
 std::vector<Command> channel_commands();
 std::vector<Command> stack_commands();
-std::vector<Command> tone_commands();
-std::vector<Command> cgtmo_commands();
-std::vector<Command> light_commands();
 std::vector<Command> metadata_commands();
 std::vector<Command> create_commands();
 std::vector<Command> arithmetic_commands();

@@ -9,10 +9,9 @@
 #include <new>
 #include <ostream>
 
-#include "chain/error.h"
 #include "chain/expression.h"
-#include "chain/help.h"
 #include "chain/io.h"
+#include "text/error.h"
 
 namespace tonetool::chain {
 
@@ -100,7 +99,7 @@ void Runner::guarded(void (Runner::*step)()) {
     } catch (const UsageError& problem) {
         ++m_session.errors;
         m_session.aborted = true;
-        m_session.out << help_text();
+        m_session.misused = true;
         m_session.err << problem.what() << "\n\nFull command line was:\n> "
                       << m_session.command_line << std::endl;
     } catch (const CommandError& problem) {

@@ -41,6 +41,13 @@ void Session::warning(const std::string& where, const std::string& what) {
     err << prefix("WARNING", where, compat) << what << of_frame(*this) << std::endl;
 }
 
+void Session::warn_of_other_parts(const std::string& where, const Image& image) {
+    if (image.part_count() > 1) {
+        warning(where, "only the first of " + std::to_string(image.part_count()) +
+                           " subimages of " + image.name() + " is looked at (--subimage chooses)");
+    }
+}
+
 void Session::report(const std::string& line) {
     if (!quiet) {
         print(line);
@@ -52,23 +59,21 @@ void Session::print(const std::string& line) {
 }
 
 void Session::note_format(Image& image) {
-    const DataFormat of_first = image.part().format().value_or(DataFormat{});
     if (image.noted || !image.part().from_file()) {
         return;
     }
     image.noted = true;
-    DataFormat widest = read_format.value_or(DataFormat{of_first.type, {}, of_first.bits});
-    for (const PartPtr& part : image.parts()) {
-        const OIIO::TypeDesc type = part->format()->type;
-        widest.type = OIIO::TypeDesc(OIIO::TypeDesc::basetype_merge(widest.type, type));
-        type_of_subimage.emplace(part->header().get_string_attribute("oiio:subimagename"), type);
-    }
-    read_format = widest;
+    types.note(image);
     const OIIO::ImageSpec& spec = image.part().header();
     if (compat && output.tile_width == 0 && !output.scanline) { // oiiotool goes on in its tiles
         output.tile_width = spec.tile_width;
         output.tile_height = spec.tile_height;
     }
+}
+
+files::Writer Session::writer(const std::string& where) {
+    return {command_line, compat, &types,
+            [this, where](const std::string& text) { warning(where, text); }, &matched_channels};
 }
 
 std::string Session::file(const std::string& name) {

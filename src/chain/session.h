@@ -3,6 +3,7 @@
 
 #include <OpenImageIO/color.h>
 #include <ctime>
+#include <functional>
 #include <iosfwd>
 #include <map>
 #include <memory>
@@ -11,36 +12,26 @@
 #include <string>
 #include <vector>
 
-#include "chain/image.h"
 #include "chain/policy.h"
-#include "chain/text.h"
+#include "files/inspect.h"
+#include "files/output.h"
+#include "text/text.h"
 
-namespace tonetool::sequence {
-struct FramePainter;
-struct FrameResult;
-struct ShotExposures;
-struct ExposureSample;
-} // namespace tonetool::sequence
+namespace tonetool::measure {
+struct CheckPart;
+} // namespace tonetool::measure
 
 namespace tonetool::chain {
 
-/// A data type as -d and datatype= name it.
-struct NamedType {
-    OIIO::TypeDesc type;
-    int bits = 0;
-};
-
-/// What -d, --compression and the like ask of the outputs that follow.
-struct OutputSettings {
-    std::optional<NamedType> type;
-    std::map<std::string, NamedType> type_of_channel;
-    std::set<std::string> matched_channels; ///< those of the above that some output had
-    std::string compression, planarconfig, format_name;
-    int tile_width = 0, tile_height = 0;
-    bool scanline = false, dither = false, adjust_time = false, autocrop = true, autotrim = false;
-    bool history = true; ///< not --nosoftwareattrib
-    int quality = 0;     ///< 0: the format's own
-};
+using files::DataFormat;
+using files::Image;
+using files::ImagePtr;
+using files::Listing;
+using files::NamedType;
+using files::OutputSettings;
+using files::Part;
+using files::PartPtr;
+using files::ReadOptions;
 
 /// What the frame loop has put in place of wildcards.
 struct Frame {
@@ -72,18 +63,6 @@ struct Flow {
     bool running() const { return blocks.empty() || blocks.back().running; }
 };
 
-/// What is printed of an image that is read: --info, --stats, --hash, --dumpdata.
-struct Listing {
-    bool info = false, verbose = false, all_subimages = false, hash = false, stats = false;
-    bool named = true; ///< a file, in its own data type; else pixels in memory
-    std::string format, metamatch, no_metamatch; ///< "xml"; lines that (do not) match
-    std::optional<std::string> dump;             ///< name of a C array, or "" for plain text
-    bool dump_black = true;
-    OIIO::ROI roi{}; ///< of the statistics
-};
-
-struct FramePlan;
-
 struct Session {
     Session(std::ostream& out_stream, std::ostream& err_stream, std::string command)
         : out(out_stream),
@@ -100,9 +79,10 @@ struct Session {
     bool evaluate = true;           ///< {expressions} are replaced by their values
     Frame frame;
     Policy policy{false, "", 0};
-    bool for_images = false;         ///< what is left on the stack is the result
-    Strings files;                   ///< that were read or looked for, as they were opened
-    const FramePlan* plan = nullptr; ///< of all frames
+    bool for_images = false; ///< what is left on the stack is the result
+    Strings files;           ///< that were read or looked for, as they were opened
+    /// The words at one place of the command line in all frames.
+    std::function<Strings(size_t at)> in_all_frames;
     Flow flow;
 
     bool compat = false;        ///< lenient as oiiotool is
@@ -113,12 +93,12 @@ struct Session {
     ReadOptions input;
     std::string missing_file = "error"; ///< or what stands in for it: "black", "checker"
     bool autocc = false, autocc_unpremult = false, autoorient = false;
-    bool metamerge = false;                ///< results have the metadata of all inputs
-    std::optional<DataFormat> read_format; ///< the widest of those read: of what is computed
-    std::map<std::string, OIIO::TypeDesc> type_of_subimage; ///< by its name: as it was read
-    std::optional<OIIO::ImageSpec> first_header;            ///< of the image read first
+    bool metamerge = false; ///< results have the metadata of all inputs
+    files::ReadTypes types;
+    std::optional<OIIO::ImageSpec> first_header; ///< of the image read first
     std::time_t newest_input = 0;
     OutputSettings output;
+    std::set<std::string> matched_channels; ///< those of -d CHAN=TYPE that some output had
 
     std::map<std::string, double> seconds; ///< that commands took, for --runstats
     DiffLimits diff;
@@ -135,14 +115,11 @@ struct Session {
     bool produced_by_name = false; ///< --echo and the like: also of images that no command used
     bool wrote = false;            ///< -o has
     bool aborted = false;          ///< by an error
+    bool misused = false;          ///< --compat: cannot be taken apart, --help is the answer
     int errors = 0, warnings = 0, failures = 0;
     std::string first_error;
     Strings warning_texts;
-    sequence::FrameResult* result = nullptr; ///< of a check: gathers what commands measure
-    sequence::FramePainter* painter = nullptr; ///< of a check with a report: what it shows
-    /// The range of exposures=shot or of a file; while that is still measured, where to.
-    const sequence::ShotExposures* shot = nullptr;
-    sequence::ExposureSample* sample = nullptr;
+    measure::CheckPart* check = nullptr; ///< of a check: what its commands find goes there
 
     /// The name of an operator that waits for images; empty if none does.
     std::string waiting;
@@ -159,11 +136,16 @@ struct Session {
     /// What is computed is written in the widest type of all images that were read for it.
     void note_format(Image& image);
 
+    /// What outputs are told; `where` is the command that their warnings name.
+    files::Writer writer(const std::string& where);
+
     void push(ImagePtr image) { stack.push_back(std::move(image)); }
 
     /// `ends`: unless --no-error-exit, the command line ends with it.
     void error(const std::string& where, const std::string& what, bool ends = true);
     void warning(const std::string& where, const std::string& what);
+    /// A warning if the image has subimages beyond the first, which a command looks at.
+    void warn_of_other_parts(const std::string& where, const Image& image);
     /// A line of a measurement: not under -q.
     void report(const std::string& line);
     /// A line that was asked for by name, or a failure: also under -q.

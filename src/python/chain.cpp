@@ -1,5 +1,5 @@
 // A command line on images.
-#include "chain/chain.h"
+#include "runs/runs.h"
 
 #include "imagebuf/oiio_compat.h"
 #include "python/families.h"
@@ -54,9 +54,9 @@ Given given_images(const py::object& objects) {
     return given;
 }
 
-ChainObject object_of(chain::Evaluation&& found, bool arrays) {
+ChainObject object_of(runs::Evaluation&& found, bool arrays) {
     ChainObject object;
-    for (chain::Left& left : found.stack) {
+    for (runs::Left& left : found.stack) {
         object.names.push_back(left.name);
         object.images.push_back(to_python(std::move(left.subimages.at(0)), {arrays, false}));
     }
@@ -79,10 +79,10 @@ py::object run(std::vector<py::object>& arguments, const ChainOptions& options) 
     Given given = given_images(arguments[1]);
     chain::Policy policy;
     policy.read_only = options.read_only;
-    chain::Evaluation found;
+    runs::Evaluation found;
     {
         const py::gil_scoped_release others_may_run;
-        found = chain::evaluate(words, std::move(given.stack), policy);
+        found = runs::evaluate(words, std::move(given.stack), policy);
     }
     const std::string why = found.error.empty() ? "warnings" : found.error;
     if (found.status == 1 && found.stack.empty())

@@ -12,7 +12,7 @@ namespace {
 
 struct Running {
     std::string path, name;
-    chain::Strings files;
+    Strings files;
 };
 
 thread_local std::vector<Running> running;
@@ -26,14 +26,13 @@ Nesting::Nesting(const std::string& file) {
     const std::string named = "recipe \"" + file + "\"";
     const auto same = [&](const Running& one) { return one.path == path; };
     if (std::any_of(running.begin(), running.end(), same)) {
-        chain::Strings names;
+        Strings names;
         for (auto one = std::find_if(running.begin(), running.end(), same); one != running.end();
              ++one) {
             names.push_back(one->name);
         }
-        innermost_error =
-            named + " reads itself" +
-            (names.size() > 1 ? ": " + chain::join(names, " -> ") + " -> " + file : "");
+        innermost_error = named + " reads itself" +
+                          (names.size() > 1 ? ": " + join(names, " -> ") + " -> " + file : "");
         throw RecipeError(innermost_error);
     }
     if (running.size() == most_nested) {
@@ -52,13 +51,13 @@ bool Nesting::is_outermost() const {
     return running.size() == 1;
 }
 
-void Nesting::note_files(const chain::Strings& files) {
+void Nesting::note_files(const Strings& files) {
     for (Running& one : running) {
         one.files.insert(one.files.end(), files.begin(), files.end());
     }
 }
 
-const chain::Strings& Nesting::files() const {
+const Strings& Nesting::files() const {
     return running.back().files;
 }
 

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "chain/text.h"
+#include "text/text.h"
 
 namespace tonetool::recipe {
 
@@ -19,8 +19,8 @@ public:
     bool is_outermost() const;
 
     /// What it reads is read for those around it, too.
-    void note_files(const chain::Strings& files);
-    const chain::Strings& files() const;
+    void note_files(const Strings& files);
+    const Strings& files() const;
 
     /// An error of a recipe that this one reads comes through here with what was put before it on
     /// its way; the text of the innermost alone, and by which recipe it was reached.

@@ -9,9 +9,9 @@
 #include <filesystem>
 #include <thread>
 
-#include "chain/chain.h"
 #include "recipe/nesting.h"
 #include "recipe/shelf.h"
+#include "runs/runs.h"
 
 namespace tonetool::recipe {
 
@@ -47,19 +47,19 @@ std::string folder_of(const std::string& file) {
 }
 
 // All that the picture depends on but the content of files.
-std::string key_of(const Source& source, const chain::Strings& words) {
+std::string key_of(const Source& source, const Strings& words) {
     std::error_code ignored;
     const char* config = std::getenv("OCIO");
     const std::string folder = std::filesystem::absolute(folder_of(source.file), ignored).string();
-    return folder + '\0' + (config ? config : "") + '\0' + chain::join(words, std::string(1, '\0'));
+    return folder + '\0' + (config ? config : "") + '\0' + join(words, std::string(1, '\0'));
 }
 
-std::string chain_text(const chain::Strings& words) {
-    chain::Strings quoted;
+std::string chain_text(const Strings& words) {
+    Strings quoted;
     for (const std::string& word : words) {
-        quoted.push_back(chain::shell_quoted(word));
+        quoted.push_back(shell_quoted(word));
     }
-    return chain::join(quoted, " ");
+    return join(quoted, " ");
 }
 
 // Attributes of every subimage.
@@ -67,7 +67,7 @@ struct Notes {
     std::string recipe, chain, inputs, warnings;
 };
 
-void add_subimages(Picture& picture, chain::Left& image, const Notes& notes) {
+void add_subimages(Picture& picture, runs::Left& image, const Notes& notes) {
     for (size_t i = 0; i < image.subimages.size(); ++i) {
         OIIO::ImageBuf& pixels = image.subimages[i];
         if (pixels.deep()) {
@@ -91,23 +91,22 @@ void add_subimages(Picture& picture, chain::Left& image, const Notes& notes) {
     }
 }
 
-std::shared_ptr<Picture> make_picture(const Source& source, const chain::Strings& words,
+std::shared_ptr<Picture> make_picture(const Source& source, const Strings& words,
                                       Nesting& nesting) {
     WithoutPool serial;
-    chain::Evaluation found =
-        chain::evaluate(words, {}, {true, folder_of(source.file), most_words});
+    runs::Evaluation found = runs::evaluate(words, {}, {true, folder_of(source.file), most_words});
     nesting.note_files(found.files);
     if (found.status != 0) {
-        throw RecipeError(found.error.empty() ? chain::join(found.warnings, "; ") : found.error);
+        throw RecipeError(found.error.empty() ? join(found.warnings, "; ") : found.error);
     }
     if (found.stack.empty()) {
         throw RecipeError("it leaves no image on the stack");
     }
-    const Notes notes{source.file, chain_text(words), chain::join(found.files, ";"),
-                      chain::join(found.warnings, "; ")};
+    const Notes notes{source.file, chain_text(words), join(found.files, ";"),
+                      join(found.warnings, "; ")};
     auto picture = std::make_shared<Picture>();
     std::reverse(found.stack.begin(), found.stack.end());
-    for (chain::Left& image : found.stack) {
+    for (runs::Left& image : found.stack) {
         add_subimages(*picture, image, notes);
     }
     return picture;
@@ -115,12 +114,12 @@ std::shared_ptr<Picture> make_picture(const Source& source, const chain::Strings
 
 PicturePtr find_or_make(const Source& source, Nesting& nesting) {
     nesting.note_files({source.file});
-    const chain::Strings words = parse(read_text(source.file), source.parameters);
+    const Strings words = parse(read_text(source.file), source.parameters);
     // The holder of a place waits for nobody, so that recipes that read each other, which two
     // threads begin from both ends, come to be refused.
     Shelf::Place place(key_of(source, words), nesting.is_outermost());
     if (PicturePtr known = place.picture()) {
-        chain::Strings files;
+        Strings files;
         for (const Stamp& stamp : known->inputs) {
             files.push_back(stamp.file);
         }
@@ -129,7 +128,7 @@ PicturePtr find_or_make(const Source& source, Nesting& nesting) {
     }
     const int64_t begun = now_in_nanoseconds();
     std::shared_ptr<Picture> picture = make_picture(source, words, nesting);
-    chain::Strings files = nesting.files();
+    Strings files = nesting.files();
     std::sort(files.begin(), files.end());
     files.erase(std::unique(files.begin(), files.end()), files.end());
     for (const std::string& file : files) {
@@ -148,7 +147,7 @@ Source parse_source(const std::string& name, const OIIO::ImageSpec& config) {
     const size_t question = name.find('?');
     if (question != std::string::npos && !OIIO::Filesystem::exists(name)) {
         source.file = name.substr(0, question);
-        for (const std::string& pair : chain::split(name.substr(question + 1), '&')) {
+        for (const std::string& pair : split(name.substr(question + 1), '&')) {
             const size_t equals = pair.find('=');
             if (equals == std::string::npos || equals == 0) {
                 throw RecipeError("recipe \"" + name + "\": \"" + pair +

@@ -7,6 +7,7 @@
 
 #include "chain/call.h"
 #include "recipe/nesting.h"
+#include "runs/runs.h"
 #include "sequence/file_sequence.h"
 
 namespace tonetool::recipe {
@@ -14,7 +15,6 @@ namespace tonetool::recipe {
 namespace {
 
 using chain::Call;
-using chain::Strings;
 
 bool has(const Strings& names, const std::string& name) {
     return std::find(names.begin(), names.end(), name) != names.end();
@@ -43,6 +43,7 @@ public:
           m_folder(std::move(folder)) {}
 
     std::optional<OIIO::ImageSpec> run() {
+        runs::know_all_commands();
         while (m_next < m_words.size()) {
             const std::string& word = m_words[m_next++];
             if (!is_plain(word) || !(word[0] == '-' ? command(word) : file(word))) {
@@ -78,7 +79,7 @@ private:
     }
 
     bool command(const std::string& word) {
-        const chain::Token token = chain::parse_token(word);
+        const Token token = parse_token(word);
         const chain::Command* row = chain::find_command(token.name);
         if (!row || !token.value.empty()) {
             return false;

@@ -31,7 +31,7 @@ class Parser {
 public:
     Parser(const std::string& text, const Parameters& given) : m_text(text), m_values(given) {}
 
-    chain::Strings words() {
+    Strings words() {
         m_at = std::min(m_text.find('\n'), m_text.size());
         while (skip_space()) {
             if (!take_default()) {
@@ -155,12 +155,12 @@ private:
     void check_given() const {
         for (const auto& [parameter, unused] : m_values) {
             if (m_known.count(parameter) == 0) {
-                const chain::Strings known(m_known.begin(), m_known.end());
-                const chain::Strings near = nearest_names(parameter, known, 1);
-                throw RecipeError("no parameter \"" + parameter + "\"" +
-                                  (near.empty() ? "" : ", did you mean \"" + near.front() + "\"?") +
-                                  (known.empty() ? " (it has none)"
-                                                 : " (valid: " + chain::join(known, ", ") + ")"));
+                const Strings known(m_known.begin(), m_known.end());
+                const Strings near = nearest_names(parameter, known, 1);
+                throw RecipeError(
+                    "no parameter \"" + parameter + "\"" +
+                    (near.empty() ? "" : ", did you mean \"" + near.front() + "\"?") +
+                    (known.empty() ? " (it has none)" : " (valid: " + join(known, ", ") + ")"));
             }
         }
     }
@@ -168,7 +168,7 @@ private:
     const std::string& m_text;
     Parameters m_values;
     std::set<std::string> m_known;
-    chain::Strings m_words;
+    Strings m_words;
     size_t m_at = 0;
     bool m_line_begins = false;
 };
@@ -218,7 +218,7 @@ std::string read_text(const std::string& filename) {
     return text;
 }
 
-chain::Strings parse(const std::string& text, const Parameters& given) {
+Strings parse(const std::string& text, const Parameters& given) {
     return Parser(text, given).words();
 }
 

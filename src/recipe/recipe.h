@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "chain/text.h"
+#include "text/text.h"
 
 namespace tonetool::recipe {
 
@@ -30,6 +30,6 @@ std::string read_text(const std::string& filename);
 /// a backslash takes the next character as it is, # at the start of a word begins a comment.
 /// "$name = value" on a line of its own is the default of a parameter, and $name or ${name}
 /// outside of '...' becomes its value, $$ a dollar. A RecipeError names the line.
-chain::Strings parse(const std::string& text, const Parameters& given);
+Strings parse(const std::string& text, const Parameters& given);
 
 } // namespace tonetool::recipe

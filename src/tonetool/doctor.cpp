@@ -9,16 +9,14 @@
 #include <filesystem>
 
 #include "chain/call.h"
-#include "chain/error.h"
 #include "chain/session.h"
+#include "text/error.h"
 
 namespace tonetool {
 
 namespace {
 
 namespace fs = std::filesystem;
-using chain::Lines;
-using chain::Strings;
 
 constexpr char plugin_name[] = "tone.imageio.so";
 constexpr char plugin_suffix[] = ".imageio.so";
@@ -51,7 +49,7 @@ std::string own_plugin() {
 
 Strings folders_of(const char* variable) {
     const char* value = std::getenv(variable);
-    return value && *value ? chain::split(value, ':') : Strings();
+    return value && *value ? split(value, ':') : Strings();
 }
 
 // Where OpenImageIO looks, of the versions that have this one's plugins.
@@ -110,7 +108,7 @@ Strings faults_in(const std::string& folder) {
 }
 
 bool is_of_this_version(const std::string& version) {
-    const Strings numbers = chain::split(version, '.');
+    const Strings numbers = split(version, '.');
     return numbers.size() >= 2 && numbers[0] == std::to_string(OIIO_VERSION_MAJOR) &&
            numbers[1] == std::to_string(OIIO_VERSION_MINOR);
 }
@@ -127,16 +125,16 @@ std::string why_not_found(const std::string& version, const Strings& folders) {
         faults.insert(faults.end(), more.begin(), more.end());
     }
     if (!faults.empty()) {
-        return chain::join(faults, "; ");
+        return join(faults, "; ");
     }
     return folders.empty() ? "OIIO_LIBRARY_PATH is not set"
-                           : "no " + std::string(plugin_name) + " in " + chain::join(folders, ", ");
+                           : "no " + std::string(plugin_name) + " in " + join(folders, ", ");
 }
 
 // The line is for a shell.
 std::string mending_line(const std::string& plugin) {
     const std::string folder = fs::path(plugin).parent_path().string();
-    return "export OIIO_LIBRARY_PATH=" + chain::shell_quoted(folder) +
+    return "export OIIO_LIBRARY_PATH=" + shell_quoted(folder) +
            "${OIIO_LIBRARY_PATH:+:$OIIO_LIBRARY_PATH}";
 }
 
@@ -151,10 +149,10 @@ void run_doctor(chain::Session& session, const chain::Call& call) {
     lines.add("plugin-version",
               std::to_string(OIIO_PLUGIN_VERSION) + ", OpenImageIO " OIIO_VERSION_STRING);
     lines.add("oiiotool", program.empty() ? "none" : program + ", OpenImageIO " + version);
-    lines.add("searched", folders.empty() ? "nothing" : chain::join(folders, ", "));
+    lines.add("searched", folders.empty() ? "nothing" : join(folders, ", "));
     session.print(lines.text);
     if (program.empty()) {
-        throw chain::CommandError("there is no oiiotool on the PATH");
+        throw CommandError("there is no oiiotool on the PATH");
     }
     if (output_of("oiiotool --list-formats").find("tone : tone") != std::string::npos) {
         session.print(call.row().label() + ": oiiotool reads recipes");
@@ -163,9 +161,9 @@ void run_doctor(chain::Session& session, const chain::Call& call) {
     session.print(call.row().label() + ": oiiotool does not read recipes");
     const std::string why = why_not_found(version, folders);
     if (plugin.empty()) {
-        throw chain::CommandError(why + "; and the plugin is not installed with this program");
+        throw CommandError(why + "; and the plugin is not installed with this program");
     }
-    throw chain::CommandError(why + "; this line mends it:\n" + mending_line(plugin));
+    throw CommandError(why + "; this line mends it:\n" + mending_line(plugin));
 }
 
 } // namespace

@@ -4,8 +4,8 @@
 #include <exception>
 #include <iostream>
 
-#include "chain/chain.h"
 #include "include/tonetool/write.h"
+#include "runs/runs.h"
 #include "tone.imageio/tone_input.h"
 #include "tonetool/doctor.h"
 
@@ -37,9 +37,10 @@ int main(int argc, char** argv) {
     try {
         install_signal_handlers();
         tonetool::register_tone_format();
+        tonetool::runs::know_all_commands();
         tonetool::chain::add_commands(tonetool::doctor_commands());
-        tonetool::chain::Strings words(argv + (argc > 0 ? 1 : 0), argv + argc);
-        return tonetool::chain::run(words, std::cout, std::cerr);
+        tonetool::Strings words(argv + (argc > 0 ? 1 : 0), argv + argc);
+        return tonetool::runs::run(words, std::cout, std::cerr);
     } catch (const std::exception& problem) {
         std::fprintf(stderr, "tonetool ERROR: %s\n", problem.what());
     } catch (...) {

@@ -3,7 +3,7 @@
 #include <functional>
 #include <gmock/gmock.h>
 
-#include "chain/error.h"
+#include "text/error.h"
 
 namespace tonetool::chain {
 namespace {

@@ -3,7 +3,8 @@
 #include <gmock/gmock.h>
 #include <sstream>
 
-#include "chain/error.h"
+#include "text/error.h"
+#include "text/expression.h"
 
 namespace tonetool::chain {
 namespace {

@@ -5,7 +5,6 @@
 namespace tonetool::recipe {
 namespace {
 
-using chain::Strings;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;

@@ -1,0 +1,18 @@
+// False colours.
+#pragma once
+
+#include <OpenImageIO/imagebuf.h>
+#include <string>
+
+namespace tonetool::files {
+
+/// A CommandError unless `map` is the name of a colour map or a list of RGB triples.
+void check_colormap(const std::string& map);
+
+/// One channel (or the luminance of three) in the colours of `map`: R,G,B, sRGB-encoded.
+OIIO::ImageBuf colored(const OIIO::ImageBuf& pixels, const std::string& map);
+
+/// oiiotool's: of the luminance, as linear light.
+OIIO::ImageBuf linear_colored(const OIIO::ImageBuf& pixels, const std::string& map);
+
+} // namespace tonetool::files

@@ -1,0 +1,228 @@
+// --diff and --pdiff, with oiiotool's report and exit status.
+#include <OpenImageIO/imagebufalgo.h>
+#include <OpenImageIO/strutil.h>
+#include <ostream>
+
+#include "measure/check_part.h"
+#include "measure/color_input.h"
+#include "measure/commands.h"
+#include "sequence/results.h"
+#include "text/error.h"
+
+namespace tonetool::measure {
+
+namespace {
+
+using OIIO::Strutil::fmt::format;
+using Results = OIIO::ImageBufAlgo::CompareResults;
+
+enum class Verdict { Pass, Warning, Failure };
+
+std::string values_at(const OIIO::ImageBuf& image, const Results& found) {
+    Strings words;
+    for (int c = 0; c < image.nchannels(); ++c) {
+        words.push_back(format("{:g}", image.getchannel(found.maxx, found.maxy, found.maxz, c)));
+    }
+    return join(words, ", ");
+}
+
+void print_maximum(Session& session, const OIIO::ImageBuf& a, const OIIO::ImageBuf& b,
+                   const Results& found) {
+    session.out << format("  Max error  = {:g}", found.maxerror);
+    if (found.maxerror != 0) {
+        const OIIO::ImageSpec& named = a.nchannels() > found.maxc ? a.spec() : b.spec();
+        session.out << format(" @ ({}, {}, {}{})", found.maxx, found.maxy,
+                              a.spec().depth > 1 ? format("{}, ", found.maxz) : "",
+                              named.channel_name(found.maxc));
+    }
+    if (found.maxerror != 0 && !a.deep() && !b.deep()) {
+        session.out << format("  values are {} vs {}", values_at(a, found), values_at(b, found));
+    }
+    session.out << '\n';
+}
+
+void print_report(Session& session, const OIIO::ImageBuf& a, const OIIO::ImageBuf& b,
+                  const Results& found, bool perceptual) {
+    const double pixels = double(std::max(a.spec().image_pixels(), b.spec().image_pixels()));
+    const DiffLimits& limits = session.diff;
+    if (!perceptual) {
+        session.out << format("  Mean error = {:g}\n  RMS error = {:g}\n  Peak SNR = {:g}\n",
+                              found.meanerror, found.rms_error, found.PSNR);
+    }
+    print_maximum(session, a, b, found);
+    const std::pair<OIIO::imagesize_t, std::string> counts[] = {
+        {found.nwarn, format("over {:g}", limits.warn)},
+        {found.nfail, format("over {:g}", limits.fail)},
+        {found.nfail, "failed the perceptual test"}};
+    for (size_t i = 0; i < (perceptual ? 3 : 2); ++i) {
+        const auto& [count, what] = counts[i];
+        session.out << format("  {} pixels ({:.3g}%) {}\n", count, 100.0 * double(count) / pixels,
+                              what);
+    }
+}
+
+Verdict judge(const Results& found, const DiffLimits& limits, double pixels) {
+    auto beyond = [&](OIIO::imagesize_t count, float percent, float hard) {
+        return double(count) > double(percent) / 100 * pixels || found.maxerror > double(hard);
+    };
+    if (beyond(found.nfail, limits.fail_percent, limits.hard_fail)) {
+        return Verdict::Failure;
+    }
+    return beyond(found.nwarn, limits.warn_percent, limits.hard_warn) ? Verdict::Warning
+                                                                      : Verdict::Pass;
+}
+
+// The verdict as a threshold: of the pixels that fail or warn, or of the largest error.
+sequence::Threshold threshold_of(const Results& found, const DiffLimits& limits, double pixels,
+                                 Verdict verdict) {
+    const bool warns = verdict == Verdict::Warning;
+    const double count = double(warns ? found.nwarn : found.nfail);
+    const double allowed = double(warns ? limits.warn_percent : limits.fail_percent) / 100 * pixels;
+    const double hard = double(warns ? limits.hard_warn : limits.hard_fail);
+    const bool by_count = verdict == Verdict::Pass || count > allowed;
+    const std::optional<double> limit = by_count ? allowed : hard, none;
+    return {by_count ? "differing-pixels" : "max", by_count ? count : found.maxerror, false,
+            warns ? none : limit, warns ? limit : none};
+}
+
+void record(Session& session, const Results& found, double pixels, Verdict verdict) {
+    if (result_of(session)) {
+        sequence::Measurement measured;
+        measured.threshold = threshold_of(found, session.diff, pixels, verdict);
+        measured.quantities = {
+            {"mean", found.meanerror}, {"rms", found.rms_error}, {"max", found.maxerror}};
+        measured.worst = sequence::Position{found.maxx, found.maxy};
+        measured.pixels = static_cast<long long>(pixels);
+        result_of(session)->measurements.push_back(std::move(measured));
+    }
+}
+
+// Images that differ in more than their pixels have no measurement of their own.
+void complete_record(Session& session, const Call& call, size_t before, Verdict verdict) {
+    if (!result_of(session)) {
+        return;
+    }
+    auto& all = result_of(session)->measurements;
+    if (all.size() == before || (verdict == Verdict::Failure && session.all_subimages)) {
+        all.emplace_back();
+        all.back().threshold = sequence::Threshold{
+            "differing-images", verdict == Verdict::Failure ? 1.0 : 0.0, false, 0.0, {}};
+    }
+    for (size_t i = before; i < all.size(); ++i) {
+        all[i].command = call.row().label();
+        all[i].reference = call.images[0]->name();
+        all[i].test = call.images[1]->name();
+    }
+}
+
+// Once something differs, all that follows is reported.
+void compare_pixels(Session& session, const OIIO::ImageBuf& a, const OIIO::ImageBuf& b,
+                    bool perceptual, const std::string& heading, Verdict& worst) {
+    Results found{};
+    if (perceptual) {
+        found.nfail = OIIO::imagesize_t(OIIO::ImageBufAlgo::compare_Yee(a, b, found));
+    } else {
+        found = OIIO::ImageBufAlgo::compare(a, b, session.diff.fail, session.diff.warn);
+    }
+    if (a.has_error() || b.has_error()) {
+        throw CommandError(a.has_error() ? a.geterror() : b.geterror());
+    }
+    const double pixels = double(std::max(a.spec().image_pixels(), b.spec().image_pixels()));
+    const Verdict verdict = judge(found, session.diff, pixels);
+    record(session, found, pixels, verdict);
+    worst = std::max(worst, verdict);
+    if (worst != Verdict::Pass || session.verbose) {
+        session.out << heading;
+        print_report(session, a, b, found, perceptual);
+    }
+}
+
+Verdict compare_parts(Session& session, Part& a, Part& b, bool perceptual, size_t subimage,
+                      Verdict worst) {
+    const bool all = session.all_subimages;
+    for (int level = 0; level < (all ? a.mip_levels() : 1); ++level) {
+        if (level > 0 && a.mip_levels() != b.mip_levels()) {
+            session.print("Files do not match in their number of MIPmap levels");
+            return Verdict::Failure;
+        }
+        const OIIO::ImageSpec& spec = a.header(level);
+        const std::string heading = format("Subimage {} {}: {} x {}, {} channel\n", subimage,
+                                           level > 0 ? format(" MIP level {} ", level) : "",
+                                           spec.width, spec.height, spec.nchannels);
+        compare_pixels(session, a.pixels(level), b.pixels(level), perceptual, all ? heading : "",
+                       worst);
+    }
+    return worst;
+}
+
+Verdict compare_images(Session& session, const Image& a, const Image& b, bool perceptual) {
+    const size_t parts = session.all_subimages ? std::min(a.part_count(), b.part_count()) : 1;
+    Verdict worst = Verdict::Pass;
+    for (size_t s = 0; s < parts; ++s) {
+        worst = compare_parts(session, a.part(s), b.part(s), perceptual, s, worst);
+    }
+    if (session.all_subimages && a.part_count() != b.part_count()) {
+        session.print(format("Images had differing numbers of subimages ({} vs {})", a.part_count(),
+                             b.part_count()));
+        return Verdict::Failure;
+    }
+    if (a.part_count() > parts || b.part_count() > parts) {
+        session.print(format("Only compared the first subimage (of {} and {}, respectively)",
+                             a.part_count(), b.part_count()));
+        session.warnings += session.compat ? 0 : 1;
+    }
+    return worst;
+}
+
+void run_diff(Session& session, const Call& call) {
+    const bool perceptual = call.row().label() == "pdiff";
+    const Image &a = *call.images[0], &b = *call.images[1];
+    session.print(format("Computing {}diff of \"{}\" vs \"{}\"", perceptual ? "perceptual " : "",
+                         a.name(), b.name()));
+    const size_t before = result_of(session) ? result_of(session)->measurements.size() : 0;
+    Verdict verdict = compare_images(session, a, b, perceptual);
+    complete_record(session, call, before, verdict);
+    session.print(verdict == Verdict::Pass      ? "PASS"
+                  : verdict == Verdict::Warning ? "WARNING"
+                                                : "FAILURE");
+    session.warnings += verdict == Verdict::Warning ? 1 : 0;
+    session.differs |= verdict == Verdict::Failure;
+    session.produced |= !(perceptual && session.compat);
+    session.push(call.images[0]);
+    session.push(call.images[1]);
+}
+
+template <float DiffLimits::*Limit>
+Command limit_row(const char* name, const char* argument, const char* help) {
+    return setting(Group::Compare, {name}, {argument}, help,
+                   [](Session& session, const Call& call) {
+                       session.diff.*Limit = float(call.number_argument(0, {0, 1e30}));
+                   });
+}
+
+} // namespace
+
+std::vector<Command> diff_commands() {
+    std::vector<Command> rows = {
+        limit_row<&DiffLimits::fail>("fail", "THRESH", "--diff: a pixel fails above it (1e-6)"),
+        limit_row<&DiffLimits::fail_percent>("failpercent", "PCNT",
+                                             "--diff: so many failing pixels are allowed (0)"),
+        limit_row<&DiffLimits::hard_fail>("hardfail", "THRESH",
+                                          "--diff: no pixel may exceed it (infinity)"),
+        limit_row<&DiffLimits::warn>("warn", "THRESH", "--diff: a pixel warns above it (1e-6)"),
+        limit_row<&DiffLimits::warn_percent>("warnpercent", "PCNT",
+                                             "--diff: so many warning pixels are allowed (0)"),
+        limit_row<&DiffLimits::hard_warn>("hardwarn", "THRESH",
+                                          "--diff: a pixel above it is a warning (infinity)")};
+    for (const char* name : {"diff", "pdiff"}) {
+        const bool perceptual = name[0] == 'p';
+        rows.push_back({{{name}, {}, 2, 2, Group::Compare},
+                        {},
+                        perceptual ? "Report the perceptual difference of two images (Yee)"
+                                   : "Report the difference of two images; status 1 if it fails",
+                        run_diff});
+    }
+    return rows;
+}
+
+} // namespace tonetool::measure

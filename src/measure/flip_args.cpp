@@ -1,0 +1,233 @@
+#include "measure/flip_args.h"
+
+#include <algorithm>
+
+#include "measure/frame_pictures.h"
+#include "measure/tone_args.h"
+#include "text/error.h"
+
+namespace tonetool::measure {
+
+namespace {
+
+const Range stops_range{-1000, 1000};
+const Range luminance_range{1e-30, 1e30};
+
+std::string choices(const Strings& names) {
+    return join(names, "|");
+}
+
+void read_size(const Call& call, PairOptions& options) {
+    bool resize = call.flag("resize", false);
+    bool crop = call.flag("crop", false);
+    if (resize && crop) {
+        throw CommandError("resize=1 and crop=1 exclude each other (valid: one of them)");
+    }
+    options.size = resize ? SizePolicy::Resize : (crop ? SizePolicy::Crop : SizePolicy::Match);
+}
+
+void read_screen(const Call& call, FlipOptions& options) {
+    auto distance = call.number("distance", {1e-6, 1e6});
+    auto width = call.number("width", {1e-6, 1e6});
+    auto pixels = call.number("pixels", {1, 1e7});
+    if (options.ppd && (distance || width || pixels)) {
+        throw CommandError("ppd= goes without distance=, width= and pixels= (valid: either)");
+    }
+    options.distance = distance.value_or(options.distance);
+    options.width = width.value_or(options.width);
+    options.pixels_across = pixels.value_or(options.pixels_across);
+}
+
+template <class Options>
+void read_exposures(const Call& call, Options& options, double least = 1) {
+    options.start_exposure = call.number("startExposure", stops_range);
+    options.stop_exposure = call.number("stopExposure", stops_range);
+    if (options.start_exposure && options.stop_exposure &&
+        *options.start_exposure > *options.stop_exposure) {
+        throw CommandError("startExposure " + *call.text("startExposure") +
+                           " is above stopExposure " + *call.text("stopExposure"));
+    }
+    options.num_exposures = call.integer("numExposures", {least, 1024});
+}
+
+} // namespace
+
+std::vector<Modifier> pixel_modifiers() {
+    return {
+        {"layer", "NAME", "layer whose R,G,B are used, \"ViewLayer.Combined\""},
+        {"from", "SPACE", "colour space of the pixels: " + join(ToneAlgo::color_spaces(), ", ")}};
+}
+
+std::vector<Modifier> pair_modifiers() {
+    return concatenated(
+        {pixel_modifiers(),
+         {{"resize", "0|1", "resize the test image to the reference's display window"},
+          {"crop", "0|1", "compare only where the display windows meet"},
+          {"alpha", "ignore|error",
+           "what becomes of alpha: error: its difference joins the map"}}});
+}
+
+std::vector<Modifier> viewing_modifiers() {
+    return {{"ppd", "X", "pixels per degree of visual angle; or the three numbers below"},
+            {"distance", "METRES", "viewing distance (0.7)"},
+            {"width", "METRES", "width of the screen (0.7)"},
+            {"pixels", "N", "width of the screen in pixels (3840)"}};
+}
+
+std::vector<Modifier> hdr_modifiers() {
+    return concatenated(
+        {{{"tonemapper", "NAME", "tone curve (aces): " + join(ToneAlgo::flip_tonemappers(), ", ")}},
+         curve_modifiers(false, true),
+         view_modifiers(),
+         {{"encoding", "srgb|gamma2.2|rec1886|gamma2.6|linear",
+           "of the view's result (its display's)"},
+          {"peak", "X", "light in cd/m2 that counts as white, for HDR displays"},
+          {"exact", "0|1", "the view by OpenColorIO itself instead of a table made from it (0)"},
+          {"startExposure", "STOPS", "first exposure (from the reference)"},
+          {"stopExposure", "STOPS", "last exposure (from the reference)"},
+          {"numExposures", "N", "number of exposures (from their range)"},
+          {"maxluminance", "X", "instead of the reference's maximum luminance"},
+          {"medianluminance", "X", "instead of the reference's median luminance"}}});
+}
+
+std::vector<Modifier> threshold_modifiers(const Strings& quantities, const std::string& unless) {
+    return {{"fail", "X", "exit status 3 unless the quantity is " + unless},
+            {"warn", "X", "a warning unless the quantity is " + unless},
+            {"quantity", choices(quantities), "what fail and warn test (the first)"},
+            {"print", "0|1", "print the summary (1)"}};
+}
+
+std::vector<Modifier> concatenated(const std::vector<std::vector<Modifier>>& lists) {
+    std::vector<Modifier> all;
+    for (const std::vector<Modifier>& list : lists) {
+        all.insert(all.end(), list.begin(), list.end());
+    }
+    return all;
+}
+
+PixelOptions pixel_options(const Call& call, const std::string& prefix) {
+    return {call.text(prefix + "layer").value_or(""), call.text(prefix + "from").value_or("")};
+}
+
+void read_pair_options(const Session& session, const Call& call, PairOptions& options) {
+    options.memory = session.memory - std::min(session.memory, shown_bytes(session, call));
+    options.pixels = pixel_options(call);
+    read_size(call, options);
+    bool error = call.choice("alpha", {"ignore", "error"}).value_or("ignore") == "error";
+    options.alpha = error ? AlphaPolicy::Error : AlphaPolicy::Ignore;
+}
+
+void read_flip_options(const Session& session, const Call& call, bool screen,
+                       FlipOptions& options) {
+    read_pair_options(session, call, options);
+    options.ppd = call.number("ppd", {1, 1000});
+    if (screen) {
+        read_screen(call, options);
+    }
+}
+
+void read_hdr_options(const Session& session, const Call& call, HdrFlipOptions& options) {
+    check_one_way(call, "tonemapper");
+    options.view = view_options(session, call);
+    options.curve = curve_options(call, "tonemapper");
+    options.encoding =
+        call.choice("encoding", {"srgb", "gamma2.2", "rec1886", "gamma2.6", "linear"}).value_or("");
+    options.peak = call.number("peak", {1, 10000});
+    options.exact = call.flag("exact", false);
+    if (!options.view && (call.has("encoding") || call.has("peak") || call.has("exact"))) {
+        throw CommandError("encoding=, peak= and exact= need display= or view=");
+    }
+    read_exposures(call, options);
+    options.max_luminance = call.number("maxluminance", luminance_range);
+    options.median_luminance = call.number("medianluminance", luminance_range);
+}
+
+Thresholds thresholds_of(const Call& call, const Strings& quantities, Range range) {
+    auto quantity = call.choice("quantity", quantities);
+    Thresholds thresholds{quantity.value_or(quantities.front()), call.number("fail", range),
+                          call.number("warn", range)};
+    (void)call.flag("print", true);
+    if (quantity && !thresholds.fail && !thresholds.warn) {
+        throw CommandError("quantity= needs fail= or warn=");
+    }
+    return thresholds;
+}
+
+std::vector<Modifier> error_modifiers() {
+    Strings quantities = ToneAlgo::flip_quantities();
+    quantities.insert(quantities.begin(), "METRIC");
+    return concatenated(
+        {{{"metric", choices(ToneAlgo::error_metrics()), "which error"},
+          {"eps", "X", "of smape, rmae, relmse (0.01)"},
+          {"peak", "X", "of psnr (1)"},
+          {"startExposure", "STOPS", "of mpsnr: first exposure, as in hdrflip"},
+          {"stopExposure", "STOPS", "its last exposure"},
+          {"numExposures", "N", "number of its exposures"}},
+         pair_modifiers(),
+         threshold_modifiers(quantities, "at most X (psnr, mpsnr: at least X dB)")});
+}
+
+ErrorOptions error_options(const Session& session, const Call& call) {
+    ErrorOptions options;
+    read_pair_options(session, call, options);
+    options.metric = call.choice("metric", ToneAlgo::error_metrics()).value_or("");
+    if (options.metric.empty()) {
+        throw CommandError("needs metric= (valid: " + join(ToneAlgo::error_metrics(), ", ") + ")");
+    }
+    const std::pair<const char*, Strings> keys[] = {{"eps", {"smape", "rmae", "relmse"}},
+                                                    {"peak", {"psnr"}},
+                                                    {"startExposure", {"mpsnr"}},
+                                                    {"stopExposure", {"mpsnr"}},
+                                                    {"numExposures", {"mpsnr"}}};
+    for (const auto& [key, of] : keys) {
+        if (call.has(key) && std::find(of.begin(), of.end(), options.metric) == of.end()) {
+            throw CommandError(std::string(key) + "= goes with metric=" + join(of, ", ") +
+                               ", not with " + options.metric);
+        }
+    }
+    options.eps = call.number("eps", {1e-12, 1e12}).value_or(options.eps);
+    options.peak = call.number("peak", {1e-12, 1e12}).value_or(options.peak);
+    read_exposures(call, options);
+    return options;
+}
+
+std::vector<Modifier> flipdiff_modifiers() {
+    return {
+        {"hdr", "0|1", "HDR-FLIP (1), or LDR-FLIP"},
+        {"maxluminance", "X",
+         "luminance that the first exposure suits (2.0); 0: exposures "
+         "from the reference"},
+        {"medianluminance", "X", "luminance that the last exposure suits (0.18)"},
+        {"startExposure", "STOPS", "first exposure"},
+        {"stopExposure", "STOPS", "last exposure"},
+        {"numExposures", "N", "number of exposures; 0: from their range"},
+        {"ppd", "X", "pixels per degree of visual angle (67.02)"},
+        {"tonemapper", "NAME", "tone curve (aces): " + join(ToneAlgo::flip_tonemappers(), ", ")},
+        {"colormap", "NAME", "push the map in these colours, as --colormap"},
+        {"layer", "NAME", "layer whose R,G,B are used"},
+        {"from", "SPACE", "colour space of the pixels"},
+        {"print", "0|1", "print the summary (1)"},
+        {"fail", "X", "exit status 3 unless the largest error is at most X (0 to 1)"}};
+}
+
+HdrFlipOptions flipdiff_options(const Session& session, const Call& call) {
+    HdrFlipOptions options;
+    options.memory = session.memory - std::min(session.memory, shown_bytes(session, call));
+    options.pixels = pixel_options(call);
+    options.ppd = call.number("ppd", {1, 1000}).value_or(67.02);
+    options.curve.name =
+        call.choice("tonemapper", ToneAlgo::flip_tonemappers()).value_or(options.curve.name);
+    read_exposures(call, options, 0);
+    if (options.num_exposures == 0) {
+        options.num_exposures.reset();
+    }
+    double maximum = call.number("maxluminance", {-1e30, 1e30}).value_or(2.0);
+    double median = call.number("medianluminance", {-1e30, 1e30}).value_or(0.18);
+    if (maximum > 0) {
+        options.max_luminance = maximum;
+        options.median_luminance = median > 0 ? std::optional<double>(median) : std::nullopt;
+    }
+    return options;
+}
+
+} // namespace tonetool::measure

@@ -1,0 +1,35 @@
+// What the commands that compare print, and what their thresholds say.
+#pragma once
+
+#include <string>
+
+#include "measure/commands.h"
+#include "measure/flip_args.h"
+#include "sequence/results.h"
+
+namespace tonetool::measure {
+
+// The summary, one fact a line, each with "LABEL: " before it. `first` and `second` are the names
+// of the images.
+std::string summary_text(const std::string& label, const FlipSummary& summary,
+                         const std::string& first, const std::string& second);
+std::string summary_text(const std::string& label, const ErrorSummary& summary,
+                         const std::string& first, const std::string& second);
+std::string summary_text(const std::string& label, const TmqiSummary& summary,
+                         const std::string& first, const std::string& second);
+
+/// Part of the frame's result, where there is a check. judge() adds the threshold to it.
+void record(Session& session, const Call& call, sequence::Measurement measurement, size_t test = 0);
+
+/// A measured quantity, and whether a threshold is what it must reach or what it may be at most.
+struct Measured {
+    double value = 0;
+    bool higher_is_better = false;
+};
+
+/// Prints PASS or FAIL with the name of the test image, warns, and counts in the session. Whatever
+/// is not on the good side of a threshold fails. Returns whether a fail threshold was missed.
+bool judge(Session& session, const Call& call, const Thresholds& thresholds,
+           const Measured& measured, size_t test = 0);
+
+} // namespace tonetool::measure

@@ -1,0 +1,55 @@
+#include "measure/shot_args.h"
+
+#include "include/tonetool/luminance.h"
+#include "measure/check_part.h"
+#include "measure/color_input.h"
+#include "sequence/shot_exposures.h"
+#include "text/error.h"
+
+namespace tonetool::measure {
+
+namespace {
+
+void measure_sample(Session& session, const Call& call) {
+    const Image& reference = *call.images.front();
+    const OIIO::ImageBuf pixels = color_source(session, call, reference, pixel_options(call));
+    LuminanceStats stats;
+    std::string why;
+    if (!ToneAlgo::luminance_stats(stats, pixels, why, pixel_options(call))) {
+        throw CommandError(why);
+    }
+    session.check->sample->max_luminance = stats.max;
+    session.check->sample->median_luminance = stats.median > 0 ? stats.median : stats.median_lit;
+    throw EndOfRun();
+}
+
+sequence::ShotExposures range_of(const Session& session, const std::string& from) {
+    if (session.check && session.check->shot) {
+        return *session.check->shot;
+    }
+    if (from == "shot") {
+        throw CommandError("exposures=shot has no shot here (valid: frame, FILE)");
+    }
+    return sequence::read_exposures(from);
+}
+
+} // namespace
+
+void read_shot_exposures(Session& session, const Call& call, HdrFlipOptions& options) {
+    const std::string from = call.text("exposures").value_or("frame");
+    if (from == "frame") {
+        return;
+    }
+    if (options.max_luminance || options.median_luminance) {
+        throw CommandError("exposures=" + from +
+                           " goes without maxluminance= and medianluminance= (valid: either)");
+    }
+    if (from == "shot" && session.check && session.check->sample) {
+        measure_sample(session, call);
+    }
+    const sequence::ShotExposures range = range_of(session, from);
+    options.max_luminance = range.max_luminance;
+    options.median_luminance = range.median_luminance;
+}
+
+} // namespace tonetool::measure

@@ -1,0 +1,161 @@
+#include "runs/check_plan.h"
+
+#include <algorithm>
+#include <set>
+
+#include "chain/registry.h"
+#include "text/error.h"
+#include "text/token.h"
+
+namespace tonetool::runs {
+
+namespace {
+
+using chain::Command;
+using chain::find_command;
+using chain::Group;
+
+class Walk {
+public:
+    explicit Walk(const Strings& words) : m_words(words) {}
+
+    CheckPlan plan() {
+        while (m_next < m_words.size()) {
+            const size_t at = m_next++;
+            const Command* row = command(m_words[at]);
+            if (row) {
+                take_command(*row, at);
+            } else {
+                take_file(at);
+            }
+        }
+        check_merge();
+        return std::move(m_plan);
+    }
+
+private:
+    static std::string name_of(const std::string& word) {
+        const std::string bare = word.substr(word.size() > 1 && word[1] == '-' ? 2 : 1);
+        return bare.substr(0, bare.find_first_of(":="));
+    }
+    static const Command* command(const std::string& word) {
+        return word.size() > 1 && word[0] == '-' ? find_command(name_of(word)) : nullptr;
+    }
+
+    void keep(size_t at, const std::string& word) {
+        m_plan.essence.push_back(word);
+        m_plan.essence_at.push_back(at);
+    }
+
+    void take_command(const Command& row, size_t at) {
+        const std::string& name = row.names.front();
+        const bool check = row.group == Group::Check, manner = check || row.manner;
+        if (!manner) {
+            keep(at, with_shot_exposures(m_words[at]));
+        }
+        // What --qc looks for is part of what comes of the line.
+        if (check || name == "qc") {
+            take_check(row, at);
+        }
+        for (const std::string& argument : row.args) {
+            if (argument.front() == '=' || m_next >= m_words.size()) {
+                break;
+            }
+            take_argument(row, manner, m_next++);
+        }
+    }
+
+    void take_check(const Command& row, size_t at) {
+        const std::string& name = row.names.front();
+        const bool complete =
+            row.args.empty() || (at + 1 < m_words.size() && !command(m_words[at + 1]));
+        if (!complete) {
+            throw CommandError("--" + name + ": missing argument " + row.args.front());
+        }
+        const std::string argument = row.args.empty() ? "" : m_words[at + 1];
+        if (!m_plan.words.emplace(name, argument).second) {
+            throw CommandError("--" + name + " is given twice");
+        }
+    }
+
+    void take_argument(const Command& row, bool manner, size_t at) {
+        const std::string& name = row.names.front();
+        if (name == "frames") {
+            for (int frame : sequence::parse_frames(m_words[at])) {
+                m_plan.expected.push_back({frame, ""});
+            }
+        }
+        if (manner) {
+            return;
+        }
+        if (row.group == Group::Write && name[0] == 'o') {
+            m_plan.outputs.push_back(at);
+        } else if (name == "i") {
+            m_plan.inputs.push_back(at);
+        } else if (name == "label") {
+            m_labels.insert(m_words[at]);
+        }
+        keep(at, sequence::without_range(m_words[at]));
+    }
+
+    void take_file(size_t at) {
+        const std::string& word = m_words[at];
+        if (m_labels.count(word) == 0 && word.find('{') == std::string::npos) {
+            m_plan.inputs.push_back(at);
+        }
+        keep(at, sequence::without_range(word));
+    }
+
+    // The range of a shot is the same whether it was measured now or is read from a file.
+    std::string with_shot_exposures(const std::string& word) {
+        std::string value;
+        for (const auto& [key, text] : parse_token(word, true).modifiers) {
+            value = key == "exposures" && text != "frame" ? text : value;
+        }
+        if (value.empty()) {
+            return word;
+        }
+        if (!m_plan.exposures.empty() && m_plan.exposures != value) {
+            throw CommandError("exposures=" + m_plan.exposures + " and exposures=" + value +
+                               " exclude each other (valid: one range on a command line)");
+        }
+        m_shot_commands += value == "shot" ? 1 : 0;
+        if (m_shot_commands > 1) {
+            throw CommandError("exposures=shot is there twice (valid: one on a command line; "
+                               "exposures=FILE for more)");
+        }
+        m_plan.exposures = value;
+        const size_t begin = word.find(":exposures=") + 11;
+        const bool quoted = word[begin] == '\'' || word[begin] == '"';
+        const size_t end = quoted ? word.find(word[begin], begin + 1) + 1 : word.find(':', begin);
+        return word.substr(0, begin) + "shot" + (end < word.size() ? word.substr(end) : "");
+    }
+
+    void check_merge() const {
+        if (m_plan.has("merge") && m_plan.has("state")) {
+            throw CommandError("--merge and --state exclude each other");
+        }
+        if (m_plan.has("statistics") && !m_plan.has("merge") && m_plan.exposures != "shot") {
+            throw CommandError("--statistics measures what exposures=shot needs: no command has it "
+                               "(valid: --hdrflip:exposures=shot)");
+        }
+    }
+
+    const Strings& m_words;
+    size_t m_next = 0;
+    CheckPlan m_plan;
+    std::set<std::string> m_labels;
+    int m_shot_commands = 0;
+};
+
+} // namespace
+
+bool CheckPlan::is_input(size_t at) const {
+    return std::find(inputs.begin(), inputs.end(), at) != inputs.end();
+}
+
+CheckPlan plan_check(const Strings& words) {
+    return Walk(words).plan();
+}
+
+} // namespace tonetool::runs

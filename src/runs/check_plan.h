@@ -1,0 +1,39 @@
+// What a command line says about a check of its frames, before any of them runs.
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "chain/registry.h"
+#include "sequence/file_sequence.h"
+#include "text/text.h"
+
+namespace tonetool::runs {
+
+/// The rows of the commands that ask for a check. What they ask for is read before any frame runs
+/// and done after the last one (check_run.h).
+std::vector<chain::Command> check_commands();
+
+struct CheckPlan {
+    std::map<std::string, std::string> words; ///< of Group::Check, with their arguments: "json"
+    std::string exposures;                    ///< of exposures=; empty: each frame has its own
+    std::vector<size_t> inputs, outputs;      ///< indices of the words that name files
+    /// The words without those that say which frames, where to and how fast; and where they are.
+    Strings essence;
+    std::vector<size_t> essence_at;
+    std::vector<sequence::Item> expected; ///< of --frames, for --merge
+
+    bool has(const std::string& word) const { return words.count(word) > 0; }
+    std::string argument(const std::string& word) const { return has(word) ? words.at(word) : ""; }
+    /// Frames are paired by number, and what is wrong with one is a result.
+    bool is_check() const { return !words.empty() && !has("statistics") && !has("merge"); }
+    /// So are those whose exposures are measured.
+    bool pairs_frames() const { return is_check() || has("statistics") || exposures == "shot"; }
+    bool is_input(size_t at) const;
+};
+
+/// A CommandError where the words of a check are not whole or exclude each other.
+CheckPlan plan_check(const Strings& words);
+
+} // namespace tonetool::runs

@@ -1,0 +1,119 @@
+// evaluate(): a chain that is run for the images it leaves.
+#include <algorithm>
+#include <map>
+#include <sstream>
+
+#include "chain/runner.h"
+#include "runs/check_run.h"
+#include "runs/frames.h"
+#include "runs/runs.h"
+#include "text/error.h"
+
+namespace tonetool::runs {
+
+namespace {
+
+using chain::Runner;
+using chain::Session;
+using files::DataFormat;
+using files::Image;
+using files::ImagePtr;
+using files::Part;
+using files::PartPtr;
+
+// An image from outside is like one that was read.
+void push_given(Session& session, OIIO::ImageBuf& pixels, size_t index) {
+    const std::string which = "image " + std::to_string(index + 1);
+    const bool unread = pixels.spec().undefined() || pixels.storage() == OIIO::ImageBuf::IMAGECACHE;
+    const OIIO::ImageSpec native = unread ? pixels.nativespec() : pixels.spec();
+    if (!pixels.initialized() ||
+        (unread && !pixels.read(pixels.subimage(), pixels.miplevel(), true, OIIO::TypeFloat))) {
+        const std::string why = pixels.geterror();
+        throw CommandError(which + " has no pixels" + (why.empty() ? "" : ": " + why));
+    }
+    const DataFormat format{native.format, {}, native.get_int_attribute("oiio:BitsPerSample")};
+    const bool integer = !native.format.is_floating_point();
+    const std::string name = pixels.name().empty() ? which : std::string(pixels.name());
+    std::vector<OIIO::ImageBuf> levels(1);
+    const bool is_float = pixels.spec().deep || pixels.spec().format == OIIO::TypeFloat;
+    levels[0] = is_float ? std::move(pixels) : pixels.copy(OIIO::TypeFloat);
+    auto part = std::make_shared<Part>(std::move(levels), format, integer);
+    session.types.widest = format;
+    session.first_header = session.first_header.value_or(part->header());
+    session.push(std::make_shared<Image>(name, std::vector<PartPtr>{part}));
+}
+
+Left left(Session& session, const Image& image, const std::string& label) {
+    Left out{image.name(), label, {}, {}};
+    for (const PartPtr& part : image.parts()) {
+        const OIIO::ImageBuf& pixels = part->pixels();
+        out.subimages.push_back(pixels.copy(pixels.spec().format));
+        out.formats.push_back(files::output_type(*part, session.output, session.writer("")));
+    }
+    return out;
+}
+
+void take_images(Session& session, Evaluation& result) {
+    std::map<ImagePtr, std::string> labels;
+    for (const auto& [label, image] : session.labels) {
+        labels.emplace(image, label);
+    }
+    for (const ImagePtr& image : session.stack) {
+        auto label = labels.find(image);
+        result.stack.push_back(left(session, *image, label == labels.end() ? "" : label->second));
+    }
+}
+
+void evaluate_one(Session& session, std::vector<OIIO::ImageBuf>& images, FramePlan plan,
+                  Evaluation& result) {
+    if (plan.runs.size() != 1) {
+        throw CommandError("wildcards fit " + std::to_string(plan.runs.size()) +
+                           " frames, not one (--frames N chooses one)");
+    }
+    if (!plan.check.words.empty()) {
+        throw CommandError("--" + plan.check.words.begin()->first +
+                           " is for the frames of the program's command line");
+    }
+    for (size_t i = 0; i < images.size(); ++i) {
+        push_given(session, images[i], i);
+    }
+    session.frame = plan.runs[0].frame;
+    session.in_all_frames = [&plan](size_t at) { return Strings{plan.runs[0].words.at(at)}; };
+    Runner(session, plan.runs[0].words).run_all();
+    if (session.errors == 0) {
+        take_images(session, result);
+    }
+}
+
+} // namespace
+
+Evaluation evaluate(const Strings& words, std::vector<OIIO::ImageBuf> images,
+                    const chain::Policy& policy) {
+    know_all_commands();
+    Evaluation result;
+    std::ostringstream out, err;
+    Session session(out, err, full_command_line(words, false));
+    session.compat = is_compat(words);
+    session.policy = policy;
+    session.for_images = true;
+    try {
+        evaluate_one(session, images, plan_frames(words, policy.directory), result);
+    } catch (const std::exception& problem) {
+        session.error("", problem.what());
+    }
+    result.status = session.exit_status();
+    result.error = session.first_error;
+    if (result.error.empty() && result.status != 0 && result.status != 2) {
+        result.error = result.status == 3 ? "a threshold was exceeded" : "the images differ";
+    }
+    result.out = out.str();
+    result.err = err.str();
+    result.warnings = session.warning_texts;
+    result.files = session.files;
+    if (session.errors > 0) {
+        result.stack.clear();
+    }
+    return result;
+}
+
+} // namespace tonetool::runs

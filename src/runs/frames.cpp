@@ -1,0 +1,223 @@
+#include "runs/frames.h"
+
+#include <OpenImageIO/strutil.h>
+#include <algorithm>
+#include <iostream>
+#include <unistd.h>
+
+#include "chain/call.h"
+#include "sequence/file_sequence.h"
+#include "sequence/pairing.h"
+#include "text/error.h"
+
+namespace tonetool::runs {
+
+namespace {
+
+using sequence::Files;
+
+// Words with wildcards, by their place on the command line.
+struct Pattern {
+    size_t at;
+    bool is_output;
+};
+
+struct Scan {
+    FramePlan plan;
+    std::string directory{};
+    sequence::PatternOptions options;
+    std::vector<Pattern> patterns;
+};
+
+bool is_output(const std::string& name) {
+    const chain::Command* row = chain::find_command(name);
+    return row && row->group == chain::Group::Write && row->writes();
+}
+
+// The settings that hold for the whole command line; true if `name` was one with an argument.
+bool take_setting(Scan& scan, const std::string& name, const std::string& argument) {
+    if (name == "frames") {
+        scan.options.frames = argument;
+    } else if (name == "framepadding") {
+        scan.options.padding = checked_integer("DIGITS", argument, {1, 9});
+    } else if (name == "views") {
+        scan.options.views = split(argument, ',');
+    } else if (name == "parallel-frames" || name == "jobs") {
+        scan.plan.parallel = checked_integer("N", argument, {1, 1024});
+    } else {
+        return false;
+    }
+    return true;
+}
+
+Scan scan_words(const Strings& words) {
+    Scan scan;
+    scan.plan.compat = is_compat(words);
+    bool wildcards = true, output = false, all = false;
+    for (size_t i = 0; i < words.size(); ++i) {
+        const std::string& word = words[i];
+        std::string name =
+            word.size() > 1 && word[0] == '-' ? word.substr(word[1] == '-' ? 2 : 1) : std::string();
+        wildcards = name == "wildcardon" || (wildcards && name != "wildcardoff");
+        scan.plan.skip_bad |= name == "skip-bad-frames";
+        scan.plan.warnings_exit |= name == "warnings-exit";
+        scan.plan.verbose = (name == "v" || scan.plan.verbose) && name != "q";
+        scan.plan.progress = name == "progress=json" ? "json" : scan.plan.progress;
+        if (i + 1 < words.size() && take_setting(scan, name, words[i + 1])) {
+            ++i;
+            continue;
+        }
+        if (wildcards && !all && sequence::is_pattern(word)) {
+            scan.patterns.push_back({i, output});
+        }
+        output = is_output(name.substr(0, name.find(':')));
+        all = output && name.find(":all=") != std::string::npos;
+    }
+    return scan;
+}
+
+// A pattern that names no file may be a text or an output that takes its numbers from the first.
+Files listing_of(const Scan& scan, const Pattern& pattern, const std::string& word,
+                 const Files& first) {
+    bool inherits = &pattern != scan.patterns.data();
+    Files listing;
+    const bool here = scan.directory.empty() || word.front() == '/' || word.front() == '-';
+    const std::string prefix = here ? "" : scan.directory + "/";
+    if (sequence::is_pattern(prefix)) {
+        throw CommandError("the folder \"" + scan.directory + "\" has wildcards in its name");
+    }
+    if (!(inherits && pattern.is_output && scan.options.frames.empty())) {
+        listing = sequence::list_files(prefix + word, scan.options);
+        for (std::string& name : listing.names) {
+            name.erase(0, prefix.size());
+        }
+    }
+    bool unmatched = listing.names.empty() && (pattern.is_output || !scan.plan.compat);
+    if (inherits && unmatched) {
+        listing.items = first.items;
+        listing.names = sequence::file_names(word, scan.options, first.items);
+    }
+    return listing;
+}
+
+void check_length(const Strings& words, const Scan& scan, const Pattern& pattern, size_t frames,
+                  size_t expected) {
+    if (frames != expected) {
+        throw CommandError(
+            "Not all sequence specifications matched: " + words[scan.patterns.front().at] + " (" +
+            std::to_string(expected) + " frames) vs. " + words[pattern.at] + " (" +
+            std::to_string(frames) + " frames)");
+    }
+}
+
+// What the frames of a check are: paired by number, whatever is on the disk.
+void pair_frames(const Strings& words, Scan& scan, const Files& numbered,
+                 std::vector<Files>& listings) {
+    FramePlan& plan = scan.plan;
+    std::vector<sequence::Side> sides;
+    for (const Pattern& pattern : scan.patterns) {
+        if (plan.check.is_input(pattern.at)) {
+            sides.push_back(
+                {words[pattern.at], sequence::list_files(words[pattern.at], scan.options)});
+            plan.sequences.push_back(pattern.at);
+        }
+    }
+    const std::vector<sequence::Item> items =
+        sides.empty() ? numbered.items : sequence::paired(sides);
+    if (items.empty() && !scan.patterns.empty()) {
+        throw CommandError("no file matches \"" + words[scan.patterns.front().at] + "\"");
+    }
+    auto side = sides.begin();
+    for (const Pattern& pattern : scan.patterns) {
+        const bool input = plan.check.is_input(pattern.at);
+        listings.push_back({items,
+                            input ? sequence::names_of(*side++, scan.options, items)
+                                  : sequence::file_names(words[pattern.at], scan.options, items),
+                            false});
+    }
+}
+
+void list_frames(const Strings& words, Scan& scan, Files& first, std::vector<Files>& listings) {
+    for (const Pattern& pattern : scan.patterns) {
+        listings.push_back(listing_of(scan, pattern, words[pattern.at], first));
+        first = listings.front();
+        if (first.names.empty() && !scan.plan.compat) {
+            throw CommandError("no file matches \"" + words[pattern.at] +
+                               "\" (a word that is no pattern goes after --wildcardoff)");
+        }
+        check_length(words, scan, pattern, listings.back().names.size(), first.names.size());
+    }
+}
+
+} // namespace
+
+bool is_compat(const Strings& words) {
+    return std::find(words.begin(), words.end(), "--compat") != words.end();
+}
+
+FramePlan plan_frames(const Strings& words, const std::string& directory) {
+    Scan scan = scan_words(words);
+    scan.directory = directory;
+    scan.plan.check = plan_check(words);
+    if (scan.plan.check.has("merge")) {
+        return scan.plan;
+    }
+    std::vector<FrameRun>& runs = scan.plan.runs;
+    Files first;
+    for (int frame : scan.options.frames.empty() || !scan.patterns.empty()
+                         ? std::vector<int>{}
+                         : sequence::parse_frames(scan.options.frames)) {
+        first.items.push_back({frame, ""});
+    }
+    std::vector<Files> listings;
+    if (scan.plan.check.pairs_frames()) {
+        pair_frames(words, scan, first, listings);
+        first = listings.empty() ? first : listings.front();
+    } else {
+        list_frames(words, scan, first, listings);
+    }
+    scan.plan.loops = !scan.patterns.empty() || !first.items.empty();
+    runs.resize(scan.plan.loops ? first.items.size() : 1);
+    for (size_t i = 0; i < runs.size(); ++i) {
+        runs[i].words = words;
+        for (size_t p = 0; p < listings.size(); ++p) {
+            runs[i].words[scan.patterns[p].at] = listings[p].names[i];
+        }
+        if (scan.plan.loops) {
+            runs[i].frame = {first.items[i].frame, scan.options.padding, first.items[i].view, true};
+        }
+    }
+    return scan.plan;
+}
+
+Progress::Progress(std::ostream& stream, const FramePlan& plan)
+    : m_stream(stream),
+      m_json(plan.progress == "json"),
+      m_terminal(!m_json && plan.loops && &stream == &std::cerr && isatty(STDERR_FILENO) == 1),
+      m_verbose(!m_json && plan.loops && plan.verbose && !plan.compat),
+      m_total(plan.runs.size()) {}
+
+void Progress::done(const FrameRun& run, int status, const std::string& words, double seconds) {
+    ++m_done;
+    double elapsed = m_time();
+    double rate = elapsed > 0 ? double(m_done) / elapsed : 0;
+    double left = rate > 0 ? double(m_total - m_done) / rate : 0;
+    if (m_json) {
+        m_stream << OIIO::Strutil::fmt::format(
+                        "{{\"frame\": {}, \"status\": {}, \"done\": {}, \"total\": {}, "
+                        "\"frames_per_second\": {:.4g}, \"seconds_left\": {:.1f}}}",
+                        run.frame.number, status, m_done, m_total, rate, left)
+                 << std::endl;
+    } else if (m_verbose) {
+        m_stream << OIIO::Strutil::fmt::format("frame {}{}{}: {}, {:.2f} s, {:.0f} s left",
+                                               run.frame.number, run.frame.view.empty() ? "" : " ",
+                                               run.frame.view, words, seconds, left)
+                 << std::endl;
+    } else if (m_terminal) {
+        m_stream << OIIO::Strutil::fmt::format("\r{} of {} frames, {:.3g} a second, {:.0f} s left ",
+                                               m_done, m_total, rate, left)
+                 << (m_done == m_total ? "\n" : "") << std::flush;
+    }
+}
+
+} // namespace tonetool::runs

@@ -1,0 +1,84 @@
+#include "chain/registry.h"
+
+#include <gtest/gtest.h>
+#include <set>
+
+#include "manual/help.h"
+#include "runs/runs.h"
+
+namespace tonetool::runs {
+namespace {
+
+using namespace chain;
+
+class Registry : public testing::Test {
+protected:
+    void SetUp() override { know_all_commands(); }
+};
+using Help = Registry;
+
+TEST_F(Registry, EveryRowIsComplete) {
+    for (const Command& row : all_commands()) {
+        ASSERT_FALSE(row.names.empty());
+        const std::string& name = row.names.front();
+        EXPECT_NE(row.run, nullptr) << name;
+        EXPECT_FALSE(row.help.empty()) << name;
+        EXPECT_EQ(row.help.find('\n'), std::string::npos) << name;
+        EXPECT_FALSE(group_title(row.group).empty()) << name;
+        EXPECT_GE(row.pops, 0) << name;
+        EXPECT_GE(row.pushes, any_number) << name;
+    }
+}
+
+TEST_F(Registry, NamesAreUnique) {
+    std::set<std::string> seen;
+    for (const Command& row : all_commands()) {
+        for (const std::string& name : row.names) {
+            EXPECT_TRUE(seen.insert(name).second) << name;
+            EXPECT_NE(name.front(), '-') << name;
+            EXPECT_EQ(find_command(name), &row) << name;
+        }
+    }
+}
+
+TEST_F(Registry, ModifiersAreUniqueAndExplained) {
+    for (const Command& row : all_commands()) {
+        std::set<std::string> seen;
+        for (const Modifier& modifier : row.modifiers) {
+            const std::string where = row.names.front() + ":" + modifier.key;
+            EXPECT_TRUE(seen.insert(modifier.key).second) << where;
+            EXPECT_FALSE(modifier.key.empty()) << where;
+            EXPECT_FALSE(modifier.hint.empty()) << where;
+            EXPECT_FALSE(modifier.help.empty()) << where;
+        }
+    }
+}
+
+TEST_F(Registry, OnlyTheLastArgumentMayBeLeftOut) {
+    for (const Command& row : all_commands()) {
+        for (size_t i = 0; i + 1 < row.args.size(); ++i) {
+            EXPECT_NE(row.args[i].front(), '[') << row.names.front();
+        }
+    }
+}
+
+TEST_F(Registry, SuggestsNearNames) {
+    EXPECT_NE(suggest_command("hdrflp").find("--hdrflip"), std::string::npos);
+    EXPECT_EQ(suggest_command("qqqqqqqqqq").find("did you mean"), std::string::npos);
+}
+
+TEST_F(Help, ListsEveryCommandAndEveryModifier) {
+    const std::string all = manual::help_text();
+    for (const Command& row : all_commands()) {
+        const std::string own = manual::help_text(row);
+        EXPECT_NE(all.find(row.help), std::string::npos) << row.names.front();
+        EXPECT_NE(own.find(row.help), std::string::npos) << row.names.front();
+        for (const Modifier& modifier : row.modifiers) {
+            EXPECT_NE(own.find(modifier.key + "=" + modifier.hint), std::string::npos)
+                << row.names.front() << ":" << modifier.key;
+        }
+    }
+}
+
+} // namespace
+} // namespace tonetool::runs

@@ -1,0 +1,75 @@
+#include "runs/runs.h"
+
+#include <gmock/gmock.h>
+#include <sstream>
+
+namespace tonetool::runs {
+namespace {
+
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+struct Ran {
+    int status;
+    std::string out, err;
+};
+
+Ran run_words(const Strings& words) {
+    std::ostringstream out, err;
+    int status = run(words, out, err);
+    return {status, out.str(), err.str()};
+}
+
+const std::string plain = TESTIMAGES_DIR "/plain.exr";
+
+TEST(Run, NothingToDoIsAnError) {
+    EXPECT_EQ(run_words({}).status, 1);
+    Ran ran = run_words({plain});
+    EXPECT_EQ(ran.status, 1);
+    EXPECT_THAT(ran.err, HasSubstr("produced no output"));
+    EXPECT_THAT(ran.err, HasSubstr("Full command line was:\n> tonetool " + plain));
+}
+
+TEST(Run, VersionAndHelpPass) {
+    EXPECT_EQ(run_words({"--version"}).status, 0);
+    Ran ran = run_words({"--help", "--hdrflip"});
+    EXPECT_EQ(ran.status, 0);
+    EXPECT_THAT(ran.out, HasSubstr("prescale=X"));
+    EXPECT_THAT(ran.err, IsEmpty());
+    EXPECT_EQ(run_words({"--help", "hdrflp"}).status, 1);
+}
+
+TEST(Run, UnknownCommandNamesNearOnes) {
+    Ran ran = run_words({plain, "--hdrflp"});
+    EXPECT_EQ(ran.status, 1);
+    EXPECT_THAT(ran.err, HasSubstr("unknown command \"--hdrflp\", did you mean --hdrflip"));
+}
+
+TEST(Run, PendingOperatorAtTheEndIsAnError) {
+    Ran ran = run_words({"--info", plain, "--hdrflip:fail=0.5"});
+    EXPECT_EQ(ran.status, 1);
+    EXPECT_THAT(ran.err, HasSubstr("hdrflip : never executed: needs 2 image(s)"));
+}
+
+TEST(Run, ForgottenArgumentIsAnError) {
+    EXPECT_THAT(run_words({plain, "--exposure"}).err, HasSubstr("missing argument STOPS"));
+    EXPECT_THAT(run_words({plain, "-o", "--dup"}).err, HasSubstr("missing argument FILENAME"));
+}
+
+TEST(Run, AStreamThatCannotBeWrittenIsAnError) {
+    std::ostringstream out, err;
+    out.setstate(std::ios::badbit);
+    EXPECT_EQ(run({"--version"}, out, err), 1);
+    EXPECT_THAT(err.str(), HasSubstr("standard output"));
+}
+
+TEST(Run, StackCommandsNeedTheirImages) {
+    for (const char* command : {"--dup", "--swap", "--pop"}) {
+        Ran ran = run_words({command});
+        EXPECT_EQ(ran.status, 1) << command;
+        EXPECT_THAT(ran.err, HasSubstr("needs")) << command;
+    }
+}
+
+} // namespace
+} // namespace tonetool::runs
