@@ -2,10 +2,8 @@
 #include <OpenImageIO/imagecache.h>
 #include <OpenImageIO/imageio.h>
 
-#include "chain/call.h"
-#include "chain/session.h"
+#include "chain/ops.h"
 #include "include/tonetool/export.h"
-#include "text/error.h"
 
 namespace tonetool::chain {
 
@@ -24,94 +22,118 @@ void run_oiioattrib(Session& session, const Call& call) {
     }
 }
 
-} // namespace
+template <bool Session::*Flag>
+void set_on(Session& session, const Call&) {
+    session.*Flag = true;
+}
 
-std::vector<Command> general_commands() {
-    const auto row = [](Strings names, Strings args, std::string help, Run run) {
-        return setting(Group::General, std::move(names), std::move(args), std::move(help), run);
-    };
-    Command autocc =
-        row({"autocc"}, {}, "Convert colour by file names, to the linear space and back",
-            [](Session& session, const Call& call) {
-                session.autocc = true;
-                session.autocc_unpremult = call.flag("unpremult", false);
-            });
-    autocc.modifiers = {{"unpremult", "0|1", "divide by alpha for that"}};
-    Command oiioattrib =
-        row({"oiioattrib"}, {"NAME", "VALUE"}, "Set an attribute of OpenImageIO", run_oiioattrib);
-    oiioattrib.modifiers = {{"type", "TYPE", "its data type (as it looks)"}};
+template <bool Session::*Flag>
+void set_off(Session& session, const Call&) {
+    session.*Flag = false;
+}
+
+Command row(const char* usage, const char* help, Run run, const char* modifiers = "") {
+    return free_row(Group::General, usage, 0, 0, help, std::move(run), modifiers);
+}
+
+// What is said, and when it ends.
+std::vector<Command> talk_rows() {
     return {
-        row({"version"}, {}, "Print the version",
+        row("version", "Print the version",
             [](Session& session, const Call&) {
                 session.produced = true;
                 session.print(TONETOOL_VERSION);
             }),
-        of_manner(row({"v"}, {}, "Say what is read and written",
+        of_manner(row("v", "Say what is read and written",
                       [](Session& session, const Call&) {
                           session.verbose = true;
                           session.quiet = false;
                       })),
-        of_manner(row({"q"}, {}, "Quiet: measurements print only warnings, failures and errors",
+        of_manner(row("q", "Quiet: measurements print only warnings, failures and errors",
                       [](Session& session, const Call&) {
                           session.quiet = true;
                           session.verbose = false;
                       })),
-        row({"n"}, {}, "Dry run: nothing is written",
-            [](Session& session, const Call&) { session.dry_run = true; }),
-        row({"a"}, {}, "Do operations on all subimages and MIP levels",
-            [](Session& session, const Call&) { session.all_subimages = true; }),
-        of_manner(of_process(row({"threads"}, {"N"}, "Number of threads (0: one per core)",
-                                 [](Session&, const Call& call) {
-                                     const int threads = call.integer_argument(0, {0, 4096});
-                                     OIIO::attribute("threads", threads);
-                                     files::limit_reader_threads(threads);
-                                 }))),
-        row({"no-error-exit"}, {}, "After an error go on with the next command",
-            [](Session& session, const Call&) { session.error_exit = false; }),
         of_manner(
-            row({"debug"}, {}, "Say what is done",
+            row("debug", "Say what is done",
                 [](Session& session, const Call&) { session.debug = session.verbose = true; })),
-        of_manner(row({"runstats"}, {}, "Print the time and the memory that the command line took",
-                      [](Session& session, const Call&) { session.runstats = true; })),
-        row({"u"}, {}, "Update: outputs that are newer than all inputs stay as they are",
-            [](Session& session, const Call&) { session.update = true; }),
-        row({"no-clobber"}, {}, "Outputs that exist stay as they are",
-            [](Session& session, const Call&) { session.no_clobber = true; }),
-        row({"no-autopremult"}, {}, "Do not multiply colour by an alpha that is not associated",
+        of_manner(row("runstats", "Print the time and the memory that the command line took",
+                      set_on<&Session::runstats>)),
+        of_manner(row("warnings-exit", "Exit with status 2 when there were warnings",
+                      set_on<&Session::warnings_exit>)),
+        row("no-error-exit", "After an error go on with the next command",
+            set_off<&Session::error_exit>),
+    };
+}
+
+// What holds for the commands that follow.
+std::vector<Command> work_rows() {
+    return {
+        row("n", "Dry run: nothing is written", set_on<&Session::dry_run>),
+        row("a", "Do operations on all subimages and MIP levels", set_on<&Session::all_subimages>),
+        row("u", "Update: outputs that are newer than all inputs stay as they are",
+            set_on<&Session::update>),
+        row("no-clobber", "Outputs that exist stay as they are", set_on<&Session::no_clobber>),
+        row("no-autopremult", "Do not multiply colour by an alpha that is not associated",
             [](Session& session, const Call&) {
                 session.input.config.attribute("oiio:UnassociatedAlpha", 1);
             }),
-        row({"autopremult"}, {}, "Multiply colour by an alpha that is not associated",
+        row("autopremult", "Multiply colour by an alpha that is not associated",
             [](Session& session, const Call&) {
                 if (session.input.config.find_attribute("oiio:UnassociatedAlpha")) {
                     session.input.config.attribute("oiio:UnassociatedAlpha", 0);
                 }
             }),
-        row({"autoorient"}, {}, "--reorient every image that is read",
-            [](Session& session, const Call&) { session.autoorient = true; }),
-        autocc,
-        row({"noautocc"}, {}, "No colour conversion by file names",
-            [](Session& session, const Call&) { session.autocc = false; }),
-        row({"native"}, {}, "Pixels keep the file's data type in memory",
+        row("autoorient", "--reorient every image that is read", set_on<&Session::autoorient>),
+        row(
+            "autocc", "Convert colour by file names, to the linear space and back",
+            [](Session& session, const Call& call) {
+                session.autocc = true;
+                session.autocc_unpremult = call.flag("unpremult", false);
+            },
+            "unpremult=0|1: divide by alpha for that"),
+        row("noautocc", "No colour conversion by file names", set_off<&Session::autocc>),
+        row("native", "Pixels keep the file's data type in memory",
             [](Session& session, const Call&) { session.input.type = OIIO::TypeUnknown; }),
-        of_manner(of_process(row(
-            {"cache"}, {"MB"}, "Size of OpenImageIO's image cache",
-            [](Session&, const Call& call) {
-                auto* cache = OIIO::ImageCache::create();
-                cache->attribute("max_memory_MB", float(call.integer_argument(0, {0, 1 << 30})));
-            }))),
-        of_manner(
-            of_process(row({"autotile"}, {"SIZE"}, "Tiles of OpenImageIO's image cache (0: none)",
-                           [](Session&, const Call& call) {
-                               auto* cache = OIIO::ImageCache::create();
-                               cache->attribute("autotile", call.integer_argument(0, {0, 1 << 16}));
-                           }))),
-        row({"metamerge"}, {}, "Results have the metadata of all images they are made of",
-            [](Session& session, const Call&) { session.metamerge = true; }),
-        of_process(oiioattrib),
-        of_manner(row({"warnings-exit"}, {}, "Exit with status 2 when there were warnings",
-                      [](Session& session, const Call&) { session.warnings_exit = true; })),
+        row("metamerge", "Results have the metadata of all images they are made of",
+            set_on<&Session::metamerge>),
     };
+}
+
+// What holds for the whole process.
+std::vector<Command> process_rows() {
+    return {
+        of_manner(row("threads N", "Number of threads (0: one per core)",
+                      [](Session&, const Call& call) {
+                          const int threads = call.integer_argument(0, {0, 4096});
+                          OIIO::attribute("threads", threads);
+                          files::limit_reader_threads(threads);
+                      })),
+        of_manner(row("cache MB", "Size of OpenImageIO's image cache",
+                      [](Session&, const Call& call) {
+                          OIIO::ImageCache::create()->attribute(
+                              "max_memory_MB", float(call.integer_argument(0, {0, 1 << 30})));
+                      })),
+        of_manner(row("autotile SIZE", "Tiles of OpenImageIO's image cache (0: none)",
+                      [](Session&, const Call& call) {
+                          OIIO::ImageCache::create()->attribute(
+                              "autotile", call.integer_argument(0, {0, 1 << 16}));
+                      })),
+        row("oiioattrib NAME VALUE", "Set an attribute of OpenImageIO", run_oiioattrib,
+            "type=TYPE: its data type (as it looks)"),
+    };
+}
+
+} // namespace
+
+std::vector<Command> general_commands() {
+    std::vector<Command> all = process_rows();
+    for (Command& command : all) {
+        command.of_process = true;
+    }
+    append(all, talk_rows());
+    append(all, work_rows());
+    return all;
 }
 
 } // namespace tonetool::chain

@@ -2,218 +2,17 @@
 #include "include/tonetool/write.h"
 
 #include <OpenImageIO/deepdata.h>
-#include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/strutil.h>
 #include <algorithm>
-#include <atomic>
-#include <cerrno>
-#include <climits>
-#include <cstdlib>
 #include <cstring>
-#include <fcntl.h>
-#include <memory>
-#include <sys/file.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
 #include "imagebuf/guard.h"
-#include "imagebuf/temporary_names.h"
+#include "imagebuf/output_target.h"
 
 namespace tonetool {
 namespace {
 
 using OIIO::Strutil::fmt::format;
-
-// Temporary files now being written, for a signal handler: fixed storage, no locks.
-constexpr int kMaxUnfinished = 64;
-struct Unfinished {
-    std::atomic<bool> used{false}, ready{false};
-    char path[PATH_MAX]{};
-};
-Unfinished g_unfinished[kMaxUnfinished];
-
-int remember(const std::string& path) {
-    for (int i = 0; i < kMaxUnfinished && path.size() < PATH_MAX; ++i)
-        if (!g_unfinished[i].used.exchange(true)) {
-            std::memcpy(g_unfinished[i].path, path.c_str(), path.size() + 1);
-            g_unfinished[i].ready = true;
-            return i;
-        }
-    return -1;
-}
-
-void forget(int slot) {
-    if (slot < 0)
-        return;
-    g_unfinished[slot].ready = false;
-    g_unfinished[slot].used = false;
-}
-
-std::string reason() {
-    return std::strerror(errno);
-}
-
-/// The file behind a name: symbolic links followed, also one that points to nothing yet.
-std::string resolve(const std::string& name) {
-    std::string path = name;
-    for (int hops = 0; hops < 40; ++hops) {
-        char target[PATH_MAX];
-        const ssize_t n = ::readlink(path.c_str(), target, sizeof target - 1);
-        if (n < 0)
-            break;
-        const std::string to(target, size_t(n));
-        const auto slash = path.rfind('/');
-        path = to[0] == '/' || slash == std::string::npos ? to : path.substr(0, slash + 1) + to;
-    }
-    return path;
-}
-
-// The descriptor a file is written through, and where it ends up.
-class Target {
-public:
-    explicit Target(const std::string& name) : m_final(resolve(name)) {}
-    Target(const Target&) = delete;
-    Target& operator=(const Target&) = delete;
-
-    ~Target() {
-        if (m_fd >= 0)
-            ::close(m_fd);
-        if (!m_temporary.empty())
-            ::unlink(m_temporary.c_str());
-        forget(m_slot);
-    }
-
-    bool open(std::string& error) {
-        struct stat info {};
-        const bool exists = ::stat(m_final.c_str(), &info) == 0;
-        if (exists && S_ISDIR(info.st_mode)) {
-            error = "is a directory";
-            return false;
-        }
-        if (exists && !S_ISREG(info.st_mode)) {
-            m_fd = ::open(m_final.c_str(), O_WRONLY | O_CLOEXEC);
-            error = m_fd < 0 ? reason() : "";
-            return m_fd >= 0;
-        }
-        if (exists && ::access(m_final.c_str(), W_OK) != 0) {
-            error = reason();
-            return false;
-        }
-        return open_temporary(exists ? info.st_mode & 0777 : 0, error);
-    }
-
-    // Everything to the disk, then the new name in one step.
-    bool commit(std::string& error) {
-        const bool regular = !m_temporary.empty();
-        if (regular && ::fsync(m_fd) != 0) {
-            error = reason();
-            return false;
-        }
-        const int closed = ::close(m_fd);
-        m_fd = -1;
-        if (closed != 0 || (regular && ::rename(m_temporary.c_str(), m_final.c_str()) != 0)) {
-            error = reason();
-            return false;
-        }
-        m_temporary.clear();
-        return true;
-    }
-
-    int fd() const { return m_fd; }
-    bool is_device() const { return m_temporary.empty(); }
-    /// What a writer is told to open: never the final name of a file.
-    const std::string& path() const { return is_device() ? m_final : m_temporary; }
-
-private:
-    // Tells remove_abandoned_outputs that somebody still writes. False where that was quicker and
-    // has removed the file; a file system without locks is none of its business.
-    bool hold() {
-        struct stat info {};
-        ::flock(m_fd, LOCK_EX | LOCK_NB);
-        if (::fstat(m_fd, &info) != 0 || info.st_nlink > 0)
-            return true;
-        ::close(m_fd);
-        return false;
-    }
-
-    bool open_temporary(mode_t mode, std::string& error) {
-        const auto slash = m_final.rfind('/');
-        const std::string folder = slash == std::string::npos ? "" : m_final.substr(0, slash + 1);
-        const std::string base = m_final.substr(slash == std::string::npos ? 0 : slash + 1);
-        // 0666 less the umask for a new file, the old file's rights for a replaced one.
-        static std::atomic<unsigned> counter{0};
-        for (int attempt = 0; attempt < 100 && m_fd < 0; ++attempt) {
-            m_temporary = folder + temporary_name(base, ::getpid(), counter++);
-            m_fd = ::open(m_temporary.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-            if (m_fd < 0 && errno != EEXIST)
-                break;
-            if (m_fd >= 0 && !hold())
-                m_fd = -1;
-        }
-        if (m_fd < 0) {
-            m_temporary.clear();
-            error =
-                "cannot create a file in \"" + (folder.empty() ? "." : folder) + "\": " + reason();
-            return false;
-        }
-        m_slot = remember(m_temporary);
-        if (mode != 0 && ::fchmod(m_fd, mode) != 0) {
-            error = reason();
-            return false;
-        }
-        return true;
-    }
-
-    std::string m_final, m_temporary;
-    int m_fd = -1, m_slot = -1;
-};
-
-// OpenImageIO's writers write through this. The first failure is kept and the writer is told that
-// all is well: the EXR writer (2.4) uses freed memory when it closes after a failed write.
-class CheckedProxy final : public OIIO::Filesystem::IOProxy {
-public:
-    explicit CheckedProxy(const Target& target) : IOProxy(target.path(), Write), m_target(target) {}
-    const char* proxytype() const override { return "tonetool"; }
-    bool seek(int64_t offset) override {
-        if (m_target.is_device() && offset != m_pos)
-            note("cannot seek in a device or pipe");
-        m_pos = offset;
-        return true;
-    }
-    size_t write(const void* data, size_t size) override {
-        pwrite(data, size, m_pos);
-        m_pos += int64_t(size);
-        return size;
-    }
-    size_t pwrite(const void* data, size_t size, int64_t offset) override {
-        for (size_t done = 0; done < size && m_failure.empty();) {
-            const char* from = static_cast<const char*>(data) + done;
-            const ssize_t n = m_target.is_device() ? ::write(m_target.fd(), from, size - done)
-                                                   : ::pwrite(m_target.fd(), from, size - done,
-                                                              offset + int64_t(done));
-            if (n < 0 && errno == EINTR)
-                continue;
-            if (n <= 0)
-                note(n < 0 ? reason() : "nothing could be written");
-            else
-                done += size_t(n);
-        }
-        m_size = std::max(m_size, offset + int64_t(size));
-        return size;
-    }
-    size_t size() const override { return size_t(m_size); }
-    const std::string& failure() const { return m_failure; }
-
-private:
-    void note(const std::string& what) {
-        if (m_failure.empty())
-            m_failure = what;
-    }
-
-    const Target& m_target;
-    int64_t m_size = 0;
-    std::string m_failure;
-};
 
 // In pieces, so that a conversion does not take another image's memory.
 bool write_pixels(const OIIO::ImageBuf& image, OIIO::ImageOutput& out) {
@@ -352,7 +151,7 @@ bool write_checked(const std::vector<OutputImage>& images, const std::string& fi
     }
     if (!check_images(images, *out, error))
         return false;
-    Target target(filename);
+    OutputTarget target(filename);
     if (!target.open(error))
         return false;
     CheckedProxy proxy(target);
@@ -398,7 +197,7 @@ bool write_image(const OIIO::ImageBuf& image, const std::string& filename, std::
 
 bool write_bytes(const std::string& bytes, const std::string& filename, std::string& error) {
     return named(filename, error, [&](std::string& why) {
-        Target target(filename);
+        OutputTarget target(filename);
         if (!target.open(why))
             return false;
         CheckedProxy proxy(target);
@@ -406,12 +205,6 @@ bool write_bytes(const std::string& bytes, const std::string& filename, std::str
         why = proxy.failure();
         return why.empty() && target.commit(why);
     });
-}
-
-void remove_unfinished_outputs() noexcept {
-    for (Unfinished& entry : g_unfinished)
-        if (entry.ready)
-            ::unlink(entry.path);
 }
 
 } // namespace tonetool

@@ -1,6 +1,5 @@
 #include "runs/check_run.h"
 
-#include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/sysutil.h>
 #include <algorithm>
 #include <memory>
@@ -12,18 +11,16 @@
 #include "include/tonetool/write.h"
 #include "manual/help.h"
 #include "measure/check_part.h"
+#include "runs/check_end.h"
 #include "runs/loop.h"
 #include "sequence/check_files.h"
-#include "sequence/merge.h"
 #include "sequence/probe.h"
 #include "sequence/qc.h"
-#include "sequence/report_files.h"
 #include "sequence/report_store.h"
 #include "sequence/results_json.h"
 #include "sequence/shot_exposures.h"
 #include "sequence/state.h"
 #include "text/error.h"
-#include "text/token.h"
 
 namespace tonetool::runs {
 
@@ -37,44 +34,12 @@ using sequence::Kept;
 using sequence::State;
 using sequence::Status;
 
-Strings words_at(const Strings& words, const std::vector<size_t>& places) {
-    Strings found;
-    for (size_t at : places) {
-        found.push_back(words.at(at));
-    }
-    return found;
-}
-
 sequence::Item item_of(const FrameRun& run) {
     return {run.frame.number, run.frame.view};
 }
 
 std::string in_words(const FrameResult& result) {
     return status_name(result.status) + (result.message.empty() ? "" : " (" + result.message + ")");
-}
-
-// What the whole came to: a line, and the files.
-int conclude_check(const sequence::ShotResult& shot, const FramePlan& plan,
-                   const sequence::PictureStore& pictures, std::ostream& out) {
-    write_results(shot, plan.check.words);
-    for (const std::string& complaint : write_reports(shot, pictures, plan.check.words)) {
-        out << "check: " << complaint << '\n';
-    }
-    out << sequence::faults_text(shot);
-    out << "check: " << status_name(shot.verdict) << ", " << shot.sentence << '\n';
-    const int status = exit_status(shot.verdict, plan.warnings_exit);
-    return plan.compat && status == 3 ? 1 : status;
-}
-
-bool draws(const CheckPlan& check) {
-    return check.has("report") || check.has("contactsheet") || check.has("pictures");
-}
-
-// Empty: in memory.
-std::string picture_folder(const CheckPlan& check) {
-    return check.has("pictures")                ? check.argument("pictures")
-           : check.has("state") && draws(check) ? check.argument("state") + "/pictures"
-                                                : "";
 }
 
 // Of what one comparison alone would take, half of the computer's memory; --memory says otherwise.
@@ -354,57 +319,11 @@ Ran PlanRun::check(size_t index, std::ostream& out, std::ostream& err) {
     return {kept.status, in_words(result)};
 }
 
-// ---- parts
-
-int merge(const Strings& words, const FramePlan& plan, std::ostream& out, std::ostream& err) {
-    const CheckPlan& check = plan.check;
-    const Strings parts = words_at(words, check.inputs);
-    if (parts != check.essence) {
-        throw CommandError("--merge takes results alone (valid: --merge PART.json ... with --json, "
-                           "--csv and the like)");
-    }
-    sequence::check_places(check.words);
-    if (check.has("statistics")) {
-        sequence::write_text(sequence::merged_exposures(parts), check.argument("statistics"));
-        return 0;
-    }
-    Strings complaints;
-    const sequence::ShotResult shot = sequence::merged(parts, check.expected, complaints);
-    Session session(out, err, full_command_line(words, plan.compat));
-    for (const std::string& complaint : complaints) {
-        session.error("merge", complaint);
-    }
-    if (check.has("pictures") && !OIIO::Filesystem::is_directory(check.argument("pictures"))) {
-        throw CommandError("--pictures: there is no folder \"" + check.argument("pictures") + "\"");
-    }
-    const sequence::PictureStore pictures(picture_folder(check));
-    return worse(session.exit_status(), conclude_check(shot, plan, pictures, out));
-}
-
 } // namespace
 
-std::string full_command_line(const Strings& words, bool compat) {
-    static const Strings attributes = {"attrib", "sattrib"};
-    const auto is_in = [](const Strings& names, const std::string& name) {
-        return std::find(names.begin(), names.end(), name) != names.end();
-    };
-    const bool sans = is_in(words, "--sansattrib") || is_in(words, "-sansattrib");
-    std::string line = "tonetool";
-    for (size_t i = 0; i < words.size(); ++i) {
-        const std::string& word = words[i];
-        const std::string name = parse_token(word, true).name;
-        if (sans && (name == "sansattrib" || is_in(attributes, name))) {
-            i += name == "sansattrib" ? 0 : 2;
-            continue;
-        }
-        bool quoted = word.find_first_of(" \t\n") != std::string::npos;
-        line += " " + (!compat ? shell_quoted(word) : (quoted ? '"' + word + '"' : word));
-    }
-    return line;
-}
-
 int run_plan(const Strings& words, FramePlan plan, std::ostream& out, std::ostream& err) {
-    return plan.check.has("merge") ? merge(words, plan, out, err) : PlanRun(plan, out, err).run();
+    return plan.check.has("merge") ? merge_parts(words, plan, out, err)
+                                   : PlanRun(plan, out, err).run();
 }
 
 } // namespace tonetool::runs

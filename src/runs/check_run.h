@@ -7,9 +7,6 @@
 
 namespace tonetool::runs {
 
-/// The words for messages and outputs, quoted as a shell wants them unless `compat`.
-std::string full_command_line(const Strings& words, bool compat);
-
 /// Runs the frames of the plan, measures the exposures of the shot before where they are asked
 /// for, joins parts where that is asked for. The exit status; exceptions are errors of the whole.
 int run_plan(const Strings& words, FramePlan plan, std::ostream& out, std::ostream& err);

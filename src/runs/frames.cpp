@@ -151,10 +151,6 @@ void list_frames(const Strings& words, Scan& scan, Files& first, std::vector<Fil
 
 } // namespace
 
-bool is_compat(const Strings& words) {
-    return std::find(words.begin(), words.end(), "--compat") != words.end();
-}
-
 FramePlan plan_frames(const Strings& words, const std::string& directory) {
     Scan scan = scan_words(words);
     scan.directory = directory;

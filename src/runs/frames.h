@@ -33,6 +33,9 @@ struct FramePlan {
 /// --compat holds for the whole command line.
 bool is_compat(const Strings& words);
 
+/// The words for messages and outputs, quoted as a shell wants them unless `compat`.
+std::string full_command_line(const Strings& words, bool compat);
+
 /// A CommandError where sequences do not fit together or match no file.
 /// `directory` is that of relative file names; empty: the current one.
 FramePlan plan_frames(const Strings& words, const std::string& directory = "");

@@ -1,0 +1,28 @@
+// What a check comes to: its files and its last line, of frames that ran or of parts that are
+// joined.
+#pragma once
+
+#include <iosfwd>
+
+#include "runs/frames.h"
+#include "sequence/report_store.h"
+#include "sequence/results.h"
+
+namespace tonetool::runs {
+
+/// The words at these places.
+Strings words_at(const Strings& words, const std::vector<size_t>& places);
+
+/// Pictures are drawn of the frames.
+bool draws(const CheckPlan& check);
+/// Where they are kept; empty: in memory.
+std::string picture_folder(const CheckPlan& check);
+
+/// Writes the files of the check and prints its verdict. The exit status.
+int conclude_check(const sequence::ShotResult& shot, const FramePlan& plan,
+                   const sequence::PictureStore& pictures, std::ostream& out);
+
+/// --merge: the results of parts of a shot as one.
+int merge_parts(const Strings& words, const FramePlan& plan, std::ostream& out, std::ostream& err);
+
+} // namespace tonetool::runs
