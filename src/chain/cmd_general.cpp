@@ -104,10 +104,10 @@ std::vector<Command> work_rows() {
 std::vector<Command> process_rows() {
     return {
         of_manner(row("threads N", "Number of threads (0: one per core)",
-                      [](Session&, const Call& call) {
+                      [](Session& session, const Call& call) {
                           const int threads = call.integer_argument(0, {0, 4096});
                           OIIO::attribute("threads", threads);
-                          files::limit_reader_threads(threads);
+                          files::limit_reader_threads(threads * session.parallel);
                       })),
         of_manner(row("cache MB", "Size of OpenImageIO's image cache",
                       [](Session&, const Call& call) {
