@@ -120,8 +120,9 @@ struct ShotResult {
 /// already: sets status and message.
 void judge(FrameResult& frame);
 
-/// Sorts the frames, finds the faults of --qc anew and fills verdict, sentence and worst. A shot without a frame that was measured
-/// is an Error, never passed. A runtime_error if a frame is there twice.
+/// Sorts the frames, finds the faults of --qc anew and fills verdict, sentence and worst. A shot
+/// without a frame that was measured is an Error, never passed. A runtime_error if a frame is there
+/// twice.
 void conclude(ShotResult& shot);
 
 /// How bad a frame is beside another of the same status: the measured value in units of its
