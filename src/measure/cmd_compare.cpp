@@ -31,27 +31,31 @@ Look same_look(const Call& call, bool again = false) {
     return {pixel_options(call), pixel_options(call), again};
 }
 
-// A map for each test. `kept` receives the images as they were compared.
-Maps compare(Session& session, const Call& call, const Look& look, const Compare& function,
-             Views* kept = nullptr) {
-    Views own;
-    Views& views = kept ? *kept : own;
+// The images as they were compared, and a map for each test.
+struct Compared {
+    Views views;
+    Maps maps;
+};
+
+Compared compare(Session& session, const Call& call, const Look& look, const Compare& function) {
+    Compared done;
     const auto view = shown_bytes(session, call) > 0      ? shown_input
                       : look.again && session.memory == 0 ? color_input
                                                           : color_source;
     for (const ImagePtr& image : call.images) {
-        views.push_back(view(session, call, *image, views.empty() ? look.reference : look.tests));
+        const PixelOptions& options = done.views.empty() ? look.reference : look.tests;
+        done.views.push_back(view(session, call, *image, options));
     }
     Tests tests;
-    for (size_t i = 1; i < views.size(); ++i) {
-        tests.push_back(&views[i]);
+    for (size_t i = 1; i < done.views.size(); ++i) {
+        tests.push_back(&done.views[i]);
     }
-    Maps maps(tests.size());
-    if (!function(maps, views.front(), tests)) {
-        throw CommandError(maps.front().geterror());
+    done.maps.resize(tests.size());
+    if (!function(done.maps, done.views.front(), tests)) {
+        throw CommandError(done.maps.front().geterror());
     }
     session.produced = true;
-    return maps;
+    return done;
 }
 
 template <class Summary>
@@ -139,13 +143,10 @@ void run_hdrflip(Session& session, const Call& call) {
     options.want_exposure_map = exposure_map || shown_bytes(session, call) > 0;
     options.want_exposures = call.has("saveexposures");
     std::vector<FlipResult> results;
-    Views views;
-    Maps maps = compare(
-        session, call, same_look(call),
-        [&](Maps& to, auto& reference, auto& tests) {
+    auto [views, maps] =
+        compare(session, call, same_look(call), [&](Maps& to, auto& reference, auto& tests) {
             return ToneAlgo::hdr_flip(to, reference, tests, options, &results);
-        },
-        &views);
+        });
     for (size_t i = 0; i < maps.size(); ++i) {
         FlipResult& result = results[i];
         report(session, call, result.summary, i);
@@ -170,13 +171,10 @@ void run_ldrflip(Session& session, const Call& call) {
     read_flip_options(session, call, true, options);
     Thresholds thresholds = thresholds_of(call);
     FlipResult result;
-    Views views;
-    Maps maps = compare(
-        session, call, same_look(call),
-        [&](Maps& to, auto& reference, auto& tests) {
+    auto [views, maps] =
+        compare(session, call, same_look(call), [&](Maps& to, auto& reference, auto& tests) {
             return ToneAlgo::ldr_flip(to[0], reference, *tests[0], options, &result);
-        },
-        &views);
+        });
     report(session, call, result.summary);
     judge_flip(session, call, thresholds, result.summary.pool);
     sequence::PictureRequest request = pair_request(views);
@@ -197,14 +195,11 @@ void run_flipdiff(Session& session, const Call& call) {
     (void)call.flag("print", true);
     options.want_exposure_map = hdr && shown_bytes(session, call) > 0;
     FlipResult result;
-    Views views;
-    Maps maps = compare(
-        session, call, same_look(call),
-        [&](Maps& to, auto& reference, auto& tests) {
+    auto [views, maps] =
+        compare(session, call, same_look(call), [&](Maps& to, auto& reference, auto& tests) {
             return hdr ? ToneAlgo::hdr_flip(to[0], reference, *tests[0], options, &result)
                        : ToneAlgo::ldr_flip(to[0], reference, *tests[0], options, &result);
-        },
-        &views);
+        });
     report(session, call, result.summary);
     if (judge_flip(session, call, thresholds, result.summary.pool)) {
         session.print("FAILURE");
@@ -228,7 +223,7 @@ void run_filmstrip(Session& session, const Call& call) {
     look.max_columns = call.integer("columns", {1, 1024}).value_or(look.max_columns);
     look.font = call.text("font").value_or(look.font);
     FlipResult result;
-    Maps maps =
+    auto [views, maps] =
         compare(session, call, same_look(call, true), [&](Maps& to, auto& reference, auto& tests) {
             return ToneAlgo::flip_filmstrip(to[0], reference, *tests[0], options, look, &result);
         });
@@ -245,13 +240,10 @@ void run_errormap(Session& session, const Call& call) {
     quantities.insert(quantities.begin(), options.metric);
     Thresholds thresholds = thresholds_of(call, quantities, {decibels ? -1e30 : 0, 1e30});
     ErrorSummary summary;
-    Views views;
-    Maps maps = compare(
-        session, call, same_look(call),
-        [&](Maps& to, auto& reference, auto& tests) {
+    auto [views, maps] =
+        compare(session, call, same_look(call), [&](Maps& to, auto& reference, auto& tests) {
             return ToneAlgo::error_map(to[0], reference, *tests[0], options, &summary);
-        },
-        &views);
+        });
     report(session, call, summary);
     auto pooled = ToneAlgo::flip_quantity(summary.pool, thresholds.quantity);
     judge(session, call, thresholds, {pooled.value_or(summary.value), !pooled && decibels});
@@ -269,7 +261,7 @@ void run_tmqi(Session& session, const Call& call) {
                         session.memory};
     Thresholds thresholds = thresholds_of(call, ToneAlgo::tmqi_quantities());
     TmqiSummary summary;
-    Maps maps =
+    auto [views, maps] =
         compare(session, call, {options.hdr, options.ldr}, [&](Maps& to, auto& hdr, auto& tests) {
             return ToneAlgo::tmqi(to[0], hdr, *tests[0], options, &summary);
         });
