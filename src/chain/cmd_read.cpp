@@ -30,7 +30,7 @@ namespace {
 
 // Of the same file in another frame, or of the first image that was read.
 OIIO::ImageSpec missing_header(const Session& session) {
-    const OIIO::ImageSpec usual(1920, 1080, 4, OIIO::TypeHalf);
+    OIIO::ImageSpec usual(1920, 1080, 4, OIIO::TypeHalf);
     if (session.compat || session.first_header) {
         return session.first_header.value_or(usual);
     }

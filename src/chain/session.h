@@ -76,11 +76,9 @@ struct Session {
     std::vector<ImagePtr> stack; ///< the top is the last
     std::map<std::string, ImagePtr> labels;
     OIIO::ParamValueList variables; ///< of --set and --for
-    bool evaluate = true;           ///< {expressions} are replaced by their values
     Frame frame;
     Policy policy{false, "", 0};
-    bool for_images = false; ///< what is left on the stack is the result
-    Strings files;           ///< that were read or looked for, as they were opened
+    Strings files; ///< that were read or looked for, as they were opened
     /// The words at one place of the command line in all frames.
     std::function<Strings(size_t at)> in_all_frames;
     Flow flow;
@@ -89,11 +87,13 @@ struct Session {
     bool all_subimages = false; ///< -a: and all MIP levels
     bool dry_run = false, no_clobber = false, update = false, debug = false, runstats = false;
     bool verbose = false, quiet = false, warnings_exit = false, error_exit = true;
+    bool evaluate = true;    ///< {expressions} are replaced by their values
+    bool for_images = false; ///< what is left on the stack is the result
+    bool autocc = false, autocc_unpremult = false, autoorient = false;
+    bool metamerge = false; ///< results have the metadata of all inputs
 
     ReadOptions input;
     std::string missing_file = "error"; ///< or what stands in for it: "black", "checker"
-    bool autocc = false, autocc_unpremult = false, autoorient = false;
-    bool metamerge = false; ///< results have the metadata of all inputs
     files::ReadTypes types;
     std::optional<OIIO::ImageSpec> first_header; ///< of the image read first
     std::time_t newest_input = 0;
@@ -102,8 +102,7 @@ struct Session {
 
     std::map<std::string, double> seconds; ///< that commands took, for --runstats
     DiffLimits diff;
-    bool differs = false; ///< a --diff has failed
-    Listing list;         ///< what is printed of files as they are read
+    Listing list; ///< what is printed of files as they are read
 
     std::string color_config; ///< file of the OpenColorIO configuration; empty: $OCIO
     std::shared_ptr<OIIO::ColorConfig> ocio; ///< what is in it, once it is needed
@@ -114,6 +113,7 @@ struct Session {
     bool produced = false;         ///< something was written, printed or measured
     bool produced_by_name = false; ///< --echo and the like: also of images that no command used
     bool wrote = false;            ///< -o has
+    bool differs = false;          ///< a --diff has failed
     bool aborted = false;          ///< by an error
     bool misused = false;          ///< --compat: cannot be taken apart, --help is the answer
     int errors = 0, warnings = 0, failures = 0;
