@@ -144,13 +144,12 @@ void note_history(OIIO::ImageSpec& spec, const std::string& line) {
 
 void set_layout(OIIO::ImageSpec& spec, const OutputSettings& settings,
                 const OIIO::ImageOutput& writer, bool lenient) {
-    if (settings.scanline || !oiio::format_supports(writer, "tiles")) {
-        spec.tile_width = spec.tile_height = spec.tile_depth = 0;
-    } else if (settings.tile_width > 0) {
+    const bool tiles = !settings.scanline && oiio::format_supports(writer, "tiles");
+    if (tiles && settings.tile_width > 0) {
         spec.tile_width = settings.tile_width;
         spec.tile_height = settings.tile_height;
         spec.tile_depth = 1;
-    } else if (lenient) { // oiiotool keeps no tiles
+    } else if (!tiles || lenient) { // oiiotool keeps no tiles
         spec.tile_width = spec.tile_height = spec.tile_depth = 0;
     }
     if (!settings.planarconfig.empty() && settings.planarconfig != "default") {

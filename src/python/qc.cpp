@@ -29,11 +29,11 @@ struct Python<QcPicture> : Nested<QcPicture> {
 
 namespace {
 
-struct Options : QcOptions {
+struct FactsOptions : QcOptions {
     int nthreads = 0;
 };
 
-py::object facts_of(std::vector<py::object>& images, const Options& options) {
+py::object facts_of(std::vector<py::object>& images, const FactsOptions& options) {
     const InputImage image(images[0], "qc_facts: image");
     QcFacts facts;
     run_or_raise("qc_facts", [&](std::string& error) {
@@ -126,11 +126,12 @@ void add_qc(Module& module) {
                        "alpha out of range: counted, with the first positions.",
                        "No picture among the layers, deep images, an unreadable file.",
                        "The checks of chain(\"--qc\"), which judge these facts over a shot."},
-           Fields<Options>{field<Options>("pixels", &Options::pixels, "Layer and colour space."),
-                           field<Options>("groups", &Options::groups,
-                                          "Light groups that are to add up to the picture, by "
-                                          "name or layer; []: found by name."),
-                           threads_field<Options>()},
+           Fields<FactsOptions>{
+               field<FactsOptions>("pixels", &FactsOptions::pixels, "Layer and colour space."),
+               field<FactsOptions>("groups", &FactsOptions::groups,
+                                   "Light groups that are to add up to the picture, by "
+                                   "name or layer; []: found by name."),
+               threads_field<FactsOptions>()},
            facts_of);
 }
 

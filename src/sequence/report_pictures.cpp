@@ -39,8 +39,8 @@ public:
     Painter(const PictureRequest& request, int nthreads)
         : m_request(request),
           m_nthreads(nthreads),
+          m_look(request.look),
           m_whole(request.error ? request.error->roi() : request.test->roi_full()) {
-        m_look = request.look;
         m_look.pixels.layer.clear();
         m_look.pixels.from.clear();
         m_look.alpha = AlphaPolicy::Ignore;
@@ -216,8 +216,8 @@ private:
 
     const PictureRequest& m_request;
     int m_nthreads;
-    ROI m_whole;
     HdrFlipOptions m_look;
+    ROI m_whole;
 };
 
 ordered_json json_of(const std::vector<SpotPictures>& spots) {
