@@ -23,11 +23,13 @@ HWY_INLINE V SquaredLength(V a, V b) {
     return hn::MulAdd(a, a, hn::Mul(b, b));
 }
 
-// log2 of the colour difference of h after the remap of q = h^0.7. Below 1e-30 all h are one.
+// log2 of the colour difference of 116 h after the remap of q = (116 h)^0.7. Below 1e-30 all h are
+// the same.
 HWY_INLINE V Log2ColorError(V h) {
     constexpr double knee = kKneeShare * kLargestQ;
     const V log2_h = Log2(d, hn::Max(h, hn::Set(d, 1e-30f)));
-    const V log2_q = hn::Mul(hn::Set(d, float(kColorExponent)), log2_h);
+    const V log2_q = hn::MulAdd(hn::Set(d, float(kColorExponent)), log2_h,
+                                hn::Set(d, float(kColorExponent * std::log2(116.0))));
     const V low = hn::Add(log2_q, hn::Set(d, float(std::log2(kKneeError / knee))));
     const auto above = hn::Ge(log2_q, hn::Set(d, float(std::log2(knee))));
     if (hn::AllFalse(d, above))
@@ -43,12 +45,14 @@ HWY_INLINE V Difference(const float* const (&r)[kFeaturePlanes],
     return hn::Sub(hn::Load(d, r[plane] + x), hn::Load(d, t[plane] + x));
 }
 
-// HyAB.
+// HyAB over 116.
 HWY_INLINE V ColorDistance(const float* const (&r)[kFeaturePlanes],
                            const float* const (&t)[kFeaturePlanes], ptrdiff_t x) {
     const V l = hn::Add(Difference(r, t, kLHigh, x), Difference(r, t, kLLow, x));
-    return hn::Add(hn::Abs(l),
-                   hn::Sqrt(SquaredLength(Difference(r, t, kA, x), Difference(r, t, kB, x))));
+    const V a = Difference(r, t, kA, x), b = Difference(r, t, kB, x);
+    // ((5 a)^2 + (2 b)^2) / 2^2
+    const V square = hn::MulAdd(hn::Mul(hn::Set(d, 6.25f), a), a, hn::Mul(b, b));
+    return hn::MulAdd(hn::Set(d, 2.0f), hn::Sqrt(square), hn::Abs(l));
 }
 
 HWY_INLINE V FeatureDistance(const float* const (&r)[kFeaturePlanes],

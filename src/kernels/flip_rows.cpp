@@ -244,29 +244,24 @@ void SplitLabF(ptrdiff_t count, const float* HWY_RESTRICT t, float* HWY_RESTRICT
     }
 }
 
-void ToFeatures(ptrdiff_t count, float* const (&work)[kWorkPlanes],
-                float* const (&out)[kFeaturePlanes]) {
-    ClampColors(count, work);
+// Hunt's a and b from f(x), f(z) and the two parts of f(y). Those are compared in place of L, which
+// is 116 (f(y) - 4/29): no factor is left that a comparison of the differences could not take over.
+void LightAndHues(ptrdiff_t count, const float* const (&work)[kWorkPlanes],
+                  float* const (&out)[kFeaturePlanes]) {
     const float* HWY_RESTRICT y = work[kFilteredY];
     const float* HWY_RESTRICT xy = work[kFilteredCx];
     const float* HWY_RESTRICT yz = work[kFilteredCz];
-    float* HWY_RESTRICT fx = work[kWorkFx];
-    float* HWY_RESTRICT fz = work[kWorkFz];
-    float* HWY_RESTRICT high = out[kLHigh];
-    float* HWY_RESTRICT low = out[kLLow];
+    const float* HWY_RESTRICT fx = work[kWorkFx];
+    const float* HWY_RESTRICT fz = work[kWorkFz];
+    const float* HWY_RESTRICT high = out[kLHigh];
+    const float* HWY_RESTRICT low = out[kLLow];
     float* HWY_RESTRICT a = out[kA];
     float* HWY_RESTRICT b = out[kB];
-    LabFAndRoot(count, y, xy, 1.0f, fx, out[kEdge]);
-    LabFAndRoot(count, y, yz, -1.0f, fz, out[kPoint]);
-    SplitLabF(count, y, high, low);
-    const V scale = hn::Set(d, 116.0f), knee = hn::Set(d, float(kLabKnee));
+    const V offset = hn::Set(d, float(kLabOffset)), knee = hn::Set(d, float(kLabKnee));
     for (ptrdiff_t i = 0; i < count; i += LaneCount()) {
-        const V fy_high = hn::Load(d, high + i), fy_low = hn::Load(d, low + i);
-        // Exact: `high` has 8 bits, 116 has 5.
-        const V l_high = hn::Sub(hn::Mul(scale, fy_high), hn::Set(d, 16.0f));
-        const V l_low = hn::Mul(scale, fy_low);
-        const V light = hn::Add(l_high, l_low), fy = hn::Add(fy_high, fy_low);
         const V here = hn::Load(d, y + i);
+        const V fy_high = hn::Load(d, high + i), fy_low = hn::Load(d, low + i);
+        const V light = hn::Add(hn::Sub(fy_high, offset), fy_low), fy = hn::Add(fy_high, fy_low);
         const V x_less_y = hn::Load(d, xy + i), y_less_z = hn::Load(d, yz + i);
         const V f_x = hn::Load(d, fx + i), f_z = hn::Load(d, fz + i);
         const V x = hn::Add(here, x_less_y), z = hn::Sub(here, y_less_z);
@@ -275,11 +270,19 @@ void ToFeatures(ptrdiff_t count, float* const (&work)[kWorkPlanes],
             x_step = LabStep(x, here, x_less_y, f_x, fy);
             z_step = LabStep(here, z, y_less_z, fy, f_z);
         }
-        hn::Store(l_high, d, high + i);
-        hn::Store(l_low, d, low + i);
-        hn::Store(hn::Mul(hn::Mul(light, hn::Set(d, 5.0f)), x_step), d, a + i);
-        hn::Store(hn::Mul(hn::Mul(light, hn::Set(d, 2.0f)), z_step), d, b + i);
+        hn::Store(hn::Mul(light, x_step), d, a + i);
+        hn::Store(hn::Mul(light, z_step), d, b + i);
     }
+}
+
+void ToFeatures(ptrdiff_t count, float* const (&work)[kWorkPlanes],
+                float* const (&out)[kFeaturePlanes]) {
+    ClampColors(count, work);
+    const float* y = work[kFilteredY];
+    LabFAndRoot(count, y, work[kFilteredCx], 1.0f, work[kWorkFx], out[kEdge]);
+    LabFAndRoot(count, y, work[kFilteredCz], -1.0f, work[kWorkFz], out[kPoint]);
+    SplitLabF(count, y, out[kLHigh], out[kLLow]);
+    LightAndHues(count, work, out);
 }
 
 void CompareRow(const float* const (&r)[kFeaturePlanes], const float* const (&t)[kFeaturePlanes],

@@ -53,8 +53,8 @@ enum ColumnPlane {
     kColumnPlanes
 };
 
-/// What LDR-FLIP compares: Hunt-adjusted L (in two parts), a, b of the filtered image, edge and
-/// point strength.
+/// What LDR-FLIP compares: Hunt-adjusted L, a, b of the filtered image, edge and point strength.
+/// L, in two parts, lacks its factor 116 and its offset; a and b lack 116 times 5 and 116 times 2.
 enum FeaturePlane { kLHigh, kLLow, kA, kB, kEdge, kPoint, kFeaturePlanes };
 
 /// Work space for one row: its filtered colours, and what Lab needs beside them.

@@ -1,5 +1,7 @@
 #include "kernels/flip_tile.h"
 
+#include <hwy/cache_control.h>
+
 #include <algorithm>
 #include <cstring>
 
@@ -32,6 +34,24 @@ void copy_columns(const float* in, int width, int x0, int count, float* out) {
     std::fill(out, out + before, in[0]);
     std::copy(in + x0 + before, in + x0 + inside, out + before);
     std::fill(out + inside, out + count, in[width - 1]);
+}
+
+// Part of a row of an image that is soon read or written: rows of a tile lie too far from each
+// other for a core to foresee the next one.
+void prefetch(const float* row, int from, int to) {
+    constexpr int line = 16;
+    for (int x = from; x < to; x += line)
+        hwy::Prefetch(row + x);
+    hwy::Prefetch(row + to - 1);
+}
+
+// Columns that the row of the image begins with before the tile: the halo, and on to whole vectors.
+ptrdiff_t lead(const StripShape& strips) {
+    return round_up(strips.halo, kMostLanes);
+}
+
+ptrdiff_t row_pitch(const StripShape& strips) {
+    return lead(strips) + strips.columns() + strips.halo;
 }
 
 } // namespace
@@ -68,7 +88,7 @@ FlipTile::FlipTile(const FlipRows& functions, const TileShape& shape, const Lane
       m_keep_each(keep_each),
       m_slots(2 * shape.strips.halo + kRowBlock),
       m_tests(tests),
-      m_row(1, shape.strips.columns(), 1),
+      m_row(1, row_pitch(shape.strips), 1),
       m_toned(kColors, shape.strips.pitch(), 1),
       m_columns(kColumnPlanes, shape.strips.wide_pitch(), kRowBlock),
       m_steps(1, shape.strips.wide_pitch(), 1),
@@ -92,7 +112,8 @@ size_t FlipTile::bytes(const TileShape& shape, size_t tests, bool keep_each) {
     const size_t side = pitch * (kColors * size_t(shape.padded_rows()) +
                                  kOpponentPlanes * size_t(2 * s.halo + kRowBlock));
     const size_t result = columns * rows * size_t(keep_each ? kResultPlanes : kLastError);
-    const size_t row = columns * (1 + kWorkPlanes + kFeaturePlanes * (kRowBlock + 1));
+    const size_t row =
+        columns * (kWorkPlanes + kFeaturePlanes * (kRowBlock + 1)) + size_t(row_pitch(s));
     const size_t block = wide * (kColumnPlanes * kRowBlock + 1);
     const size_t toned = pitch * kColors;
     return sizeof(float) * (side * (1 + tests) + result * tests + row + toned + block);
@@ -130,22 +151,22 @@ void FlipTile::load(Side& side, const ConstRgb& image) {
     };
     for (int y = 0; y < m_shape.padded_rows(); ++y)
         for (int c = 0; c < kColors; ++c)
-            pack_row(source(c, y), image.width, side.rgb.row(c, y));
+            pack_row(source(c, y), source(c, y + 1), image.width, side.rgb.row(c, y));
 }
 
-// A row of the image into strips; then the outer columns, those on the left from the tile outwards.
-void FlipTile::pack_row(const float* in, int width, float* out) {
+// A row of the image into strips, while the next one is on its way; then the outer columns, those
+// on the left from the tile outwards.
+void FlipTile::pack_row(const float* in, const float* next, int width, float* out) {
     const StripShape& strips = m_shape.strips;
-    const float* columns = in + m_tile.x0;
-    if (m_tile.x0 + strips.columns() > width) {
-        copy_columns(in, width, m_tile.x0, strips.columns(), m_row[0]);
-        columns = m_row[0];
-    }
+    const ptrdiff_t before = lead(strips);
+    copy_columns(in, width, m_tile.x0 - int(before), int(row_pitch(strips)), m_row[0]);
+    prefetch(next, std::max(m_tile.x0 - strips.halo, 0),
+             std::min(m_tile.x0 + int(strips.columns()) + strips.halo, width));
+    const float* columns = m_row[0] + before;
     m_functions.transpose(columns, strips.lanes, strips.strip, out);
     float* outer = out + strips.columns();
-    copy_columns(in, width, m_tile.x0 - strips.halo, strips.halo, outer);
-    std::reverse(outer, outer + strips.halo);
-    copy_columns(in, width, m_tile.x0 + strips.columns(), strips.halo, outer + strips.halo);
+    std::reverse_copy(columns - strips.halo, columns, outer);
+    std::copy_n(columns + strips.columns(), strips.halo, outer + strips.halo);
 }
 
 void FlipTile::find_differing_rows(Test& test) const {
@@ -316,6 +337,8 @@ void FlipTile::expose(const ToneCurve& curve, float scale, float n, const ToneRo
 void FlipTile::store(size_t test, ResultPlane plane, float* to, ptrdiff_t stride) {
     const StripShape& strips = m_shape.strips;
     for (int y = 0; y < m_shape.height; ++y) {
+        if (y + 1 < m_shape.height)
+            prefetch(to + (y + 1) * stride, 0, m_shape.width);
         m_functions.transpose(m_tests[test].result.row(plane, y), strips.strip, strips.lanes,
                               m_row[0]);
         std::copy_n(m_row[0], m_shape.width, to + y * stride);

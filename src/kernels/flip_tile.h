@@ -88,7 +88,7 @@ private:
 
     void make(Side& side) const;
     void load(Side& side, const ConstRgb& image);
-    void pack_row(const float* in, int width, float* out);
+    void pack_row(const float* in, const float* next, int width, float* out);
     void find_differing_rows(Test& test) const;
     bool same_window(const Test& test, int y) const;
     bool same_behind_curve(const Test& test) const;

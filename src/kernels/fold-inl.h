@@ -16,7 +16,8 @@ namespace tonetool::kernels::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
 // Outputs of one filter at a time. A sum waits for its last product, so that eight sums (of four
-// outputs and two filters, or of two planes) keep the multipliers busy.
+// outputs and two filters, or of two planes) keep the multipliers busy; four do where a core finds
+// the next four in time.
 constexpr int kOutputs = 4;
 
 // One vector for each of the outputs. Not an array, which compilers like to keep in memory.
@@ -40,9 +41,27 @@ HWY_INLINE Four MulAdd(V tap, const Four& a, const Four& sum) {
 }
 
 // Neighbouring outputs share their inputs: held in registers, each step towards the centre loads
-// one new vector instead of four. Of 32 registers both sides of a window take eight, of 16 one side
-// takes four.
+// one new vector instead of four. Both sides of a window take eight registers: of 16 this leaves
+// enough for four sums, but for eight one side only.
 constexpr bool kManyRegisters = HWY_MAX_BYTES == 64 || HWY_ARCH_ARM_A64;
+
+#if HWY_ARCH_X86 && HWY_COMPILER_GCC_ACTUAL && HWY_TARGET != HWY_SCALAR
+// Left alone, GCC loads a vector once more for each of its uses,
+HWY_INLINE V InRegister(V v) {
+    asm("" : "+v"(v.raw));
+    return v;
+}
+// and keeps what it has loaded for later steps, for which few registers are too few.
+HWY_INLINE void ForgetLoads() {
+    if constexpr (!kManyRegisters)
+        asm volatile("" : : : "memory");
+}
+#else
+HWY_INLINE V InRegister(V v) {
+    return v;
+}
+HWY_INLINE void ForgetLoads() {}
+#endif
 
 // A row in strips: At(i) is i columns from the first output.
 struct AlongRow {
@@ -63,7 +82,7 @@ HWY_INLINE Four FourAt(const Source& in, ptrdiff_t i) {
 }
 
 // The vectors at +above and at -below of the outputs, both distances counting down.
-template <class Source, bool kHoldDown = kManyRegisters>
+template <class Source, bool kHoldDown>
 struct Window {
     Source in;
     ptrdiff_t above, below;
@@ -103,7 +122,7 @@ struct Window<Source, true> : Window<Source, false> {
 struct Taps {
     const float* HWY_RESTRICT vectors;
     HWY_INLINE V operator[](ptrdiff_t i) const {
-        return hn::Load(d, vectors + i * ptrdiff_t(hn::Lanes(d)));
+        return InRegister(hn::Load(d, vectors + i * ptrdiff_t(hn::Lanes(d))));
     }
 };
 
@@ -113,13 +132,13 @@ template <class Filter>
 HWY_INLINE void Run(Filter& filter, ptrdiff_t count) {
     for (; count >= 4; count -= 4) {
         filter.Step();
-        filter.OtherStep();
         filter.Step();
-        filter.OtherStep();
+        filter.Step();
+        filter.Step();
     }
     if (count >= 2) {
         filter.Step();
-        filter.OtherStep();
+        filter.Step();
         count -= 2;
     }
     if (count > 0)
@@ -130,9 +149,9 @@ HWY_INLINE void Run(Filter& filter, ptrdiff_t count) {
 // additions of a step are written before the products that wait for them.
 
 // An even filter.
-template <class Source>
+template <class Source, bool kHoldDown>
 struct EvenFilter {
-    Window<Source> window;
+    Window<Source, kHoldDown> window;
     Taps taps;
     Four sum = ZeroFour();
 
@@ -153,36 +172,23 @@ struct TwoFours {
     Four first, second;
 };
 
-// An even filter on its own: every other tap in a sum of its own, for eight sums in all.
-template <class Source>
-struct SplitFilter : EvenFilter<Source> {
-    Four other = ZeroFour();
-
-    HWY_INLINE SplitFilter(const Source& in, const TapList& list) : EvenFilter<Source>(in, list) {}
-    HWY_INLINE void OtherStep() {
-        other = MulAdd(this->Tap(), this->Pairs(), other);
-        this->window.Close();
-    }
-};
-
 template <class Source>
 HWY_INLINE Four Even(const Source& in, const TapList& taps) {
-    SplitFilter<Source> filter(in, taps);
+    EvenFilter<Source, true> filter(in, taps);
     Run(filter, filter.window.above);
-    return Add(filter.WithCentre(), filter.other);
+    return filter.WithCentre();
 }
 
 // Two even filters of one length, each on its plane.
 template <class Source>
 struct PairOfFilters {
-    EvenFilter<Source> first, second;
+    EvenFilter<Source, true> first, second;
 
     HWY_INLINE void Step() {
         const Four a = first.Pairs(), b = second.Pairs();
         first.AddPairs(a);
         second.AddPairs(b);
     }
-    HWY_INLINE void OtherStep() { Step(); }
 };
 
 template <class Source>
@@ -198,7 +204,7 @@ HWY_INLINE TwoFours EvenPair(const Source& in_first, const TapList& first, const
 // Two even filters on one plane.
 template <class Source>
 struct TwoFilters {
-    EvenFilter<Source> second;
+    EvenFilter<Source, kManyRegisters> second;
     Taps first_taps;
     Four first_sum = ZeroFour();
 
@@ -215,6 +221,7 @@ struct TwoFilters {
             AddPair(2, second.window.up.v2, tap, second_tap, first_sum.v2, second.sum.v2);
             AddPair(3, second.window.up.v3, tap, second_tap, first_sum.v3, second.sum.v3);
             second.window.Close();
+            ForgetLoads();
         }
     }
     HWY_INLINE void AddPair(ptrdiff_t j, V up, V tap, V second_tap, V& one, V& two) const {
@@ -222,7 +229,6 @@ struct TwoFilters {
         one = hn::MulAdd(tap, pair, one);
         two = hn::MulAdd(second_tap, pair, two);
     }
-    HWY_INLINE void OtherStep() { Step(); }
 };
 
 // The second filter may be longer.
@@ -240,7 +246,7 @@ HWY_INLINE TwoFours EvenTwo(const Source& in, const TapList& first, const TapLis
 // Both detectors on the steps of a plane.
 template <class Source>
 struct DetectorFilters {
-    Window<Source> window;
+    Window<Source, kManyRegisters> window;
     Taps first_taps, second_taps;
     Four first = ZeroFour(), second = ZeroFour();
 
@@ -256,6 +262,7 @@ struct DetectorFilters {
             AddPair(1, window.up.v1, tap, second_tap, first.v1, second.v1);
             AddPair(2, window.up.v2, tap, second_tap, first.v2, second.v2);
             AddPair(3, window.up.v3, tap, second_tap, first.v3, second.v3);
+            ForgetLoads();
         }
     }
     HWY_INLINE void AddPair(ptrdiff_t j, V up, V tap, V second_tap, V& one, V& two) const {
@@ -267,7 +274,6 @@ struct DetectorFilters {
         AddPairs();
         window.Close();
     }
-    HWY_INLINE void OtherStep() { Step(); }
 };
 
 template <class Source>

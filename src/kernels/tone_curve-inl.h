@@ -50,36 +50,55 @@ struct ReinhardCurve {
     }
 };
 
-template <class Curve>
-HWY_INLINE Color Display(const Curve& curve, const Color& linear, V scale) {
-    const V limit = hn::Set(d, kLargestExposed);
-    const Color y = curve(Color{hn::Min(hn::Mul(linear.c0, scale), limit),
-                                hn::Min(hn::Mul(linear.c1, scale), limit),
-                                hn::Min(hn::Mul(linear.c2, scale), limit)});
-    return {Clamp01(y.c0), Clamp01(y.c1), Clamp01(y.c2)};
-}
+// The exposure of a pixel; what is brighter than any curve tells apart is cut off.
+struct Expose {
+    float scale;
+    HWY_INLINE V operator()(V x) const {
+        return hn::Min(hn::Mul(x, hn::Set(d, scale)), hn::Set(d, kLargestExposed));
+    }
+};
+
+// The same where the curve has the factor in its coefficients.
+struct CutOff {
+    float largest;
+    HWY_INLINE V operator()(V x) const { return hn::Min(x, hn::Set(d, largest)); }
+};
 
 // Tone map `count` pixels, rounded up to whole vectors; `store(i, color)` takes them.
-template <class Curve, class Store>
-HWY_INLINE void ForDisplay(const float* const in[3], ptrdiff_t count, const Curve& curve,
-                           float scale, const Store& store) {
-    const V s = hn::Set(d, scale);
-    for (ptrdiff_t i = 0; i < count; i += ptrdiff_t(hn::Lanes(d)))
-        store(i, Display(curve,
-                         Color{hn::LoadU(d, in[0] + i), hn::LoadU(d, in[1] + i),
-                               hn::LoadU(d, in[2] + i)},
-                         s));
+template <class Exposure, class Curve, class Store>
+HWY_INLINE void ForDisplay(const float* const in[3], ptrdiff_t count, const Exposure& expose,
+                           const Curve& curve, const Store& store) {
+    for (ptrdiff_t i = 0; i < count; i += ptrdiff_t(hn::Lanes(d))) {
+        const Color y =
+            curve(Color{expose(hn::LoadU(d, in[0] + i)), expose(hn::LoadU(d, in[1] + i)),
+                        expose(hn::LoadU(d, in[2] + i))});
+        store(i, Color{Clamp01(y.c0), Clamp01(y.c1), Clamp01(y.c2)});
+    }
+}
+
+// A rational curve of x * scale as one of x.
+inline ToneCurve Scaled(ToneCurve curve, double scale) {
+    for (size_t i : {0, 3}) {
+        curve.k[i] *= scale * scale;
+        curve.k[i + 1] *= scale;
+    }
+    return curve;
 }
 
 template <class Store>
 void WithCurve(const float* const in[3], ptrdiff_t count, const ToneCurve& curve, float scale,
                const Store& store) {
-    if (curve.kind == ToneKind::Rational)
-        ForDisplay(in, count, RationalCurve(curve), scale, store);
-    else if (curve.kind == ToneKind::ReinhardLuminance)
-        ForDisplay(in, count, ReinhardCurve(curve), scale, store);
+    // Beyond this coefficients and squares could leave the range of a float.
+    constexpr float most = 1e9f;
+    if (curve.kind == ToneKind::ReinhardLuminance)
+        ForDisplay(in, count, Expose{scale}, ReinhardCurve(curve), store);
+    else if (curve.kind == ToneKind::None)
+        ForDisplay(in, count, Expose{scale}, NoCurve(curve), store);
+    else if (scale < 1 / most || scale > most)
+        ForDisplay(in, count, Expose{scale}, RationalCurve(curve), store);
     else
-        ForDisplay(in, count, NoCurve(curve), scale, store);
+        ForDisplay(in, count, CutOff{kLargestExposed / scale}, RationalCurve(Scaled(curve, scale)),
+                   store);
 }
 
 } // namespace tonetool::kernels::HWY_NAMESPACE

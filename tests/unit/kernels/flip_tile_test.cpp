@@ -234,6 +234,28 @@ TEST(ToneMapPixels, MatchTheTwinForEveryCount) {
     });
 }
 
+TEST(ToneMapPixels, MatchTheTwinAtAnyExposure) {
+    const HdrImage image = make_image(Content::Noise, 32, 1, 63);
+    on_every_target([&] {
+        for (const char* name : {"aces", "hable", "reinhard"}) {
+            const ToneCurve curve = curve_of(name);
+            const TwinImage expected = tone_map_twin(image.view(), curve, 0);
+            for (int stops : {-90, -31, -29, -10, 10, 29, 31, 90}) {
+                SCOPED_TRACE(testing::Message() << name << " at " << stops << " stops");
+                HdrImage far = image, out(32, 1);
+                for (auto& p : far.plane)
+                    for (float& v : p)
+                        v = std::ldexp(v, -stops);
+                float* to[3] = {out.plane[0].data(), out.plane[1].data(), out.plane[2].data()};
+                tone_map_pixels(far.view().plane, to, 32, curve, std::ldexp(1.0f, stops));
+                for (int c = 0; c < 3; ++c)
+                    for (size_t i = 0; i < 32; ++i)
+                        ASSERT_NEAR(out.plane[c][i], expected.plane[c][i], 6e-7);
+            }
+        }
+    });
+}
+
 TEST(ToneMapPixels, MayWorkInPlace) {
     const HdrImage image = make_image(Content::Noise, 29, 1, 62);
     HdrImage out(29, 1), in_place = image;
