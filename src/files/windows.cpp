@@ -16,8 +16,9 @@ struct Window {
 
 enum class Found { Nothing, Origin, Sized, Scaled };
 
+// As oiiotool rounds.
 int rounded(float size) {
-    return static_cast<int>(size + 0.5F);
+    return static_cast<int>(size + 0.5F); // NOLINT(bugprone-incorrect-roundings)
 }
 
 // A size of 0 follows the other one.

@@ -45,7 +45,8 @@ HWY_INLINE Four MulAdd(V tap, const Four& a, const Four& sum) {
 // enough for four sums, but for eight one side only.
 constexpr bool kManyRegisters = HWY_MAX_BYTES == 64 || HWY_ARCH_ARM_A64;
 
-#if HWY_ARCH_X86 && HWY_COMPILER_GCC_ACTUAL && HWY_TARGET != HWY_SCALAR
+// Where a vector is a register: not where arrays or single floats stand in for them.
+#if HWY_ARCH_X86 && HWY_COMPILER_GCC_ACTUAL && (HWY_TARGET & (HWY_SCALAR | HWY_EMU128)) == 0
 // Left alone, GCC loads a vector once more for each of its uses,
 HWY_INLINE V InRegister(V v) {
     asm("" : "+v"(v.raw));
