@@ -1,5 +1,6 @@
 // Commands that print what images are, and other texts.
 #include <OpenImageIO/strutil.h>
+#include <cstdio>
 #include <ostream>
 
 #include "chain/expression.h"
@@ -56,8 +57,13 @@ void run_printstats(Session& session, const Call& call) {
     what.stats = true;
     what.verbose = session.verbose;
     if (auto text = call.text("roi"); text && !session.compat) {
-        what.roi = call.images[0]->part().header().roi();
-        adjust_window(session, call, *text, Geometry::Window, what.roi);
+        int end = 0, x = 0, y = 0, width = 0, height = 0;
+        if (std::sscanf(text->c_str(), "%dx%d%d%d%n", &width, &height, &x, &y, &end) != 4 ||
+            size_t(end) < text->size()) {
+            throw CommandError("roi \"" + *text + "\" is not WxH+X+Y");
+        }
+        what.roi = {x, x + width, y, y + height,
+                    0, 1,         0, call.images[0]->part().header().nchannels};
     }
     print_listing(session, call, what);
 }

@@ -1,9 +1,7 @@
 // Commands that read images.
 #include <OpenImageIO/filesystem.h>
-#include <OpenImageIO/imagebufalgo.h>
 #include <OpenImageIO/strutil.h>
 #include <algorithm>
-#include <cstdio>
 
 #include "chain/io.h"
 #include "chain/ops.h"

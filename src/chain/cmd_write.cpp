@@ -24,7 +24,8 @@ namespace {
 OutputSettings settings_of(const Session& session, const Call& call) {
     OutputSettings settings = session.output;
     if (auto name = call.text("datatype")) {
-        settings.set_type(*name, session.compat);
+        settings.type = files::parse_data_type(*name, session.compat);
+        settings.type_of_channel.clear();
     }
     if (auto bits = call.integer("bits", {1, 32})) {
         if (!settings.type && !session.compat) { // oiiotool takes no notice of it then

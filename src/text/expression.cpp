@@ -14,10 +14,6 @@ namespace {
 
 namespace Strutil = OIIO::Strutil;
 
-std::string shown(double value) {
-    return expression_number(value);
-}
-
 bool find_global(const std::string& name, OIIO::ParamValue& value) {
     if (int number = 0; OIIO::getattribute(name, number)) {
         value = {name, number};
@@ -117,7 +113,7 @@ std::string Evaluator::combined(const std::string& left, const Operator& with,
         return left;
     }
     double value = with.compute(double(Strutil::stof(left)), double(Strutil::stof(right)));
-    return value == 0 ? "0" : shown(value);
+    return value == 0 ? "0" : expression_number(value);
 }
 
 std::string Evaluator::binary(int level) {
@@ -160,10 +156,10 @@ std::string Evaluator::atom() {
         return is_true(atom()) ? "0" : "1";
     }
     if (float number = 0; Strutil::parse_float(m_rest, number)) {
-        return shown(double(number));
+        return expression_number(double(number));
     }
     if (Strutil::parse_char(m_rest, '-')) {
-        return shown(-double(Strutil::stof(atom())));
+        return expression_number(-double(Strutil::stof(atom())));
     }
     if (Strutil::parse_char(m_rest, '+')) {
         return atom();

@@ -22,6 +22,15 @@ Ran run_words(const Strings& words) {
 
 const std::string plain = TESTIMAGES_DIR "/plain.exr";
 
+// A file's own type is one for all channels: CHANNEL=TYPE would go unchecked there.
+TEST(Run, TheTypeOfOneFileIsOneForAllChannels) {
+    for (const char* type : {"R=half", "Q=half", "halves"}) {
+        Ran ran = run_words({plain, std::string("-o:datatype=") + type, "unwritten.exr"});
+        EXPECT_EQ(ran.status, 1) << type;
+        EXPECT_THAT(ran.err, HasSubstr("Unknown data format \"" + std::string(type))) << type;
+    }
+}
+
 TEST(Run, NothingToDoIsAnError) {
     EXPECT_EQ(run_words({}).status, 1);
     Ran ran = run_words({plain});
