@@ -47,16 +47,15 @@ HWY_INLINE Root<V> CubeRoot(D tag, V x) {
     return {high, hn::Mul(p, u)};
 }
 
-/// Cube roots of the middles of equal parts of the binades from 2^-7 to 2, rounded to 8 bits so
-/// that their cubes are exact in float; the cubes, and one over them.
+/// Cube roots of about the middles of equal parts of the binades from 2^-7 to 2, rounded to 8 bits,
+/// and one over their cubes: of the roots at the middle those for which float has it best.
 template <int kParts>
 struct CubeRootTable {
     static constexpr int kEntries = 8 * kParts;
     alignas(64) float root[kEntries];
-    alignas(64) float cube[kEntries];
     alignas(64) float inverse[kEntries];
 
-    constexpr CubeRootTable() : root(), cube(), inverse() {
+    constexpr CubeRootTable() : root(), inverse() {
         for (int i = 0; i < kEntries; ++i) {
             const double binade = double(1 << (i / kParts)) / 128;
             const double middle = binade * (1 + (i % kParts + 0.5) / kParts);
@@ -69,10 +68,16 @@ struct CubeRootTable {
                                               : 1) /
                                128;
             const int nearest = (int(2 * exact / ulp) + 1) / 2;
-            const double rounded = nearest * ulp;
-            root[i] = float(rounded);
-            cube[i] = float(rounded * rounded * rounded);
-            inverse[i] = float(1 / (rounded * rounded * rounded));
+            double least = 1;
+            for (int n = nearest - kParts; n <= nearest + kParts; ++n) {
+                const double rounded = n * ulp, cube = rounded * rounded * rounded;
+                const double off = double(float(1 / cube)) * cube - 1;
+                if ((off < 0 ? -off : off) >= least)
+                    continue;
+                least = off < 0 ? -off : off;
+                root[i] = float(rounded);
+                inverse[i] = float(1 / cube);
+            }
         }
     }
 };
@@ -90,26 +95,26 @@ HWY_INLINE Root<V> CubeRootOfShare(D tag, V x) {
     const auto index =
         hn::IndicesFromVec(tag, hn::And(entry, hn::Set(di, int32_t(table.kEntries - 1))));
     const V high = hn::TableLookupLanes(hn::Load(tag, table.root), index);
-    const V u = hn::Mul(hn::Sub(x, hn::TableLookupLanes(hn::Load(tag, table.cube), index)),
-                        hn::TableLookupLanes(hn::Load(tag, table.inverse), index));
+    const V inverse = hn::TableLookupLanes(hn::Load(tag, table.inverse), index);
+    const V u = hn::MulSub(x, inverse, hn::Set(tag, 1.0f));
     // ((1 + u)^(1/3) - 1) / u
     V p;
-    if constexpr (kParts == 2) { // |u| < 0.204
-        p = hn::Set(tag, -0.025342489778950903f);
-        p = hn::MulAdd(p, u, hn::Set(tag, 0.0315501658028984f));
-        p = hn::MulAdd(p, u, hn::Set(tag, -0.04109181212208456f));
-        p = hn::MulAdd(p, u, hn::Set(tag, 0.06170107902763325f));
-        p = hn::MulAdd(p, u, hn::Set(tag, -0.11111165557487199f));
-        p = hn::MulAdd(p, u, hn::Set(tag, 0.33333346374610767f));
-    } else { // |u| < 0.34
-        p = hn::Set(tag, -0.02105433338490693f);
-        p = hn::MulAdd(p, u, hn::Set(tag, 0.022778072074271252f));
-        p = hn::MulAdd(p, u, hn::Set(tag, -0.022807855175729478f));
-        p = hn::MulAdd(p, u, hn::Set(tag, 0.029858353179580056f));
-        p = hn::MulAdd(p, u, hn::Set(tag, -0.04118387083842544f));
-        p = hn::MulAdd(p, u, hn::Set(tag, 0.061738055807969115f));
-        p = hn::MulAdd(p, u, hn::Set(tag, -0.11111064829337594f));
-        p = hn::MulAdd(p, u, hn::Set(tag, 0.33333325974370326f));
+    if constexpr (kParts == 2) { // |u| < 0.236
+        p = hn::Set(tag, -0.025972509447540586f);
+        p = hn::MulAdd(p, u, hn::Set(tag, 0.03204941722245045f));
+        p = hn::MulAdd(p, u, hn::Set(tag, -0.041042016726833525f));
+        p = hn::MulAdd(p, u, hn::Set(tag, 0.06167821872593176f));
+        p = hn::MulAdd(p, u, hn::Set(tag, -0.11111249215489369f));
+        p = hn::MulAdd(p, u, hn::Set(tag, 0.3333336517884711f));
+    } else { // |u| < 0.348
+        p = hn::Set(tag, -0.02052951817463687f);
+        p = hn::MulAdd(p, u, hn::Set(tag, 0.02316682970339488f));
+        p = hn::MulAdd(p, u, hn::Set(tag, -0.0228815164355381f));
+        p = hn::MulAdd(p, u, hn::Set(tag, 0.029793029138391113f));
+        p = hn::MulAdd(p, u, hn::Set(tag, -0.04118169869964628f));
+        p = hn::MulAdd(p, u, hn::Set(tag, 0.061741063336224686f));
+        p = hn::MulAdd(p, u, hn::Set(tag, -0.11111063767513228f));
+        p = hn::MulAdd(p, u, hn::Set(tag, 0.3333332279612339f));
     }
     return {high, hn::Mul(p, u)};
 #else

@@ -62,12 +62,12 @@ struct FromOpponentPlanes {
     }
 };
 
-// CIELAB f(t).
+// CIELAB f(t). The line is the tangent of the root at the knee, and nowhere below it beyond.
 HWY_INLINE V LabF(V t) {
     const V knee = hn::Set(d, float(kLabKnee));
     const V line = hn::MulAdd(t, hn::Set(d, float(kLabSlope)), hn::Set(d, float(kLabOffset)));
     const Root<V> root = CubeRootOfShare(d, hn::Max(t, knee));
-    return hn::IfThenElse(hn::Gt(t, knee), hn::MulAdd(root.high, root.rest, root.high), line);
+    return hn::Min(hn::MulAdd(root.high, root.rest, root.high), line);
 }
 
 // The same as an unevaluated sum. E is as steep as h^0.7 at h = 0: f is kept to more than float
