@@ -118,7 +118,7 @@ kernels::LaneTaps lane_taps(const kernels::FlipTaps<double>& taps) {
     out.g = to_float(taps.g, false);
     out.d1 = on_steps(taps.d1);
     out.d2 = on_steps(taps.d2);
-    const size_t length = std::max(out.y.size(), out.cx.size());
+    const size_t length = std::max({out.y.size(), out.cx.size(), size_t(2)});
     out.y.resize(length, 0.0f);
     out.cx.resize(length, 0.0f);
     // With few pixels per degree the detectors are shorter than the contrast sensitivity.

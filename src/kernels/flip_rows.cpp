@@ -82,7 +82,7 @@ void ToOpponent(const float* const rgb[3], ptrdiff_t count, const ToneCurve& cur
     });
 }
 
-static_assert(kOutputs == kRowBlock, "a block of rows is filtered at once");
+static_assert(Four::kCount == kRowBlock, "a block of rows is filtered at once");
 
 HWY_INLINE void StoreRows(const Four& v, float* const (&rows)[kRowBlock], ptrdiff_t at) {
     hn::Store(v.v0, d, rows[0] + at);
@@ -112,8 +112,7 @@ void FilterColumns(const RowTable (&in)[kOpponentPlanes], const TapVectors& taps
     // Two vectors at a time; the last one, if odd, twice.
     for (ptrdiff_t x = from; x < end; x += 2 * LaneCount()) {
         const ptrdiff_t next = std::min(x + LaneCount(), end - LaneCount());
-        const TwoFours v =
-            EvenPair(DownRows{in[kXy], x}, taps[kTapsCx], DownRows{in[kXy], next}, taps[kTapsCx]);
+        const TwoFours v = EvenPair(DownRows{in[kXy], x}, DownRows{in[kXy], next}, taps[kTapsCx]);
         StoreRows(v.first, out[kColumnCx], x + shift);
         StoreRows(v.second, out[kColumnCx], next + shift);
     }
@@ -144,6 +143,19 @@ HWY_INLINE void StoreAlong(const Four& v, float* at) {
     hn::Store(v.v2, d, at + 2 * LaneCount());
     hn::Store(v.v3, d, at + 3 * LaneCount());
 }
+HWY_INLINE void StoreAlong(const Eight& v, float* at) {
+    StoreAlong(v.low, at);
+    StoreAlong(v.high, at + Four::kCount * LaneCount());
+}
+
+static_assert(kStripStep % RowOutputs::kCount == 0, "no output beyond a strip");
+
+// An even filter along a row of columns.
+void FilterRow(const StripShape& shape, const float* row, const TapList& taps, float* out) {
+    const float* first = row + shape.wide_start();
+    for (ptrdiff_t x = 0; x < shape.columns(); x += RowOutputs::kCount * LaneCount())
+        StoreAlong(Even<RowOutputs>(AlongRow{first + x}, taps), out + x);
+}
 
 // The steps of a wide row to the next column.
 void StepsOfRow(const StripShape& shape, const float* row, float* steps, const TapList& taps) {
@@ -166,17 +178,14 @@ void FillHalo(const StripShape& shape, const TapVectors& taps,
 
 void FilterColors(const StripShape& shape, const TapVectors& taps,
                   const float* const (&columns)[kColumnPlanes], float* const (&out)[kWorkPlanes]) {
-    const ptrdiff_t start = shape.wide_start(), step = kOutputs * LaneCount();
-    for (ptrdiff_t x = 0; x < shape.columns(); x += step) {
-        const TwoFours v = EvenPair(AlongRow{columns[kColumnY] + start + x}, taps[kTapsY],
-                                    AlongRow{columns[kColumnCx] + start + x}, taps[kTapsCx]);
-        StoreAlong(v.first, out[kFilteredY] + x);
-        StoreAlong(v.second, out[kFilteredCx] + x);
-    }
-    for (ptrdiff_t x = 0; x < shape.columns(); x += step) {
-        const TwoFours v = EvenPair(AlongRow{columns[kColumnCz1] + start + x}, taps[kTapsCz1],
-                                    AlongRow{columns[kColumnCz2] + start + x}, taps[kTapsCz2]);
-        StoreAlong(Add(v.first, v.second), out[kFilteredCz] + x);
+    FilterRow(shape, columns[kColumnY], taps[kTapsY], out[kFilteredY]);
+    FilterRow(shape, columns[kColumnCx], taps[kTapsCx], out[kFilteredCx]);
+    const float* first = columns[kColumnCz1] + shape.wide_start();
+    const float* second = columns[kColumnCz2] + shape.wide_start();
+    for (ptrdiff_t x = 0; x < shape.columns(); x += RowOutputs::kCount * LaneCount()) {
+        const RowOutputs wide = Even<RowOutputs>(AlongRow{first + x}, taps[kTapsCz1]);
+        const RowOutputs narrow = Even<RowOutputs>(AlongRow{second + x}, taps[kTapsCz2]);
+        StoreAlong(Add(wide, narrow), out[kFilteredCz] + x);
     }
 }
 
@@ -188,17 +197,13 @@ HWY_INLINE Four SquaredLengths(const Four& a, const Four& b) {
 void FilterFeatures(const StripShape& shape, const TapVectors& taps,
                     const float* const (&columns)[kColumnPlanes], const float* steps, float* edge,
                     float* point) {
-    const ptrdiff_t start = shape.wide_start(), step = kOutputs * LaneCount();
-    for (ptrdiff_t x = 0; x < shape.columns(); x += step) {
-        const TwoFours v = EvenPair(AlongRow{columns[kColumnD1] + start + x}, taps[kTapsG],
-                                    AlongRow{columns[kColumnD2] + start + x}, taps[kTapsG]);
-        StoreAlong(v.first, edge + x);
-        StoreAlong(v.second, point + x);
-    }
-    for (ptrdiff_t x = 0; x < shape.columns(); x += step) {
-        const TwoFours v = Detectors(AlongRow{steps + start + x}, taps[kTapsD1], taps[kTapsD2]);
-        StoreAlong(SquaredLengths(v.first, FourAt(AlongRow{edge + x}, 0)), edge + x);
-        StoreAlong(SquaredLengths(v.second, FourAt(AlongRow{point + x}, 0)), point + x);
+    FilterRow(shape, columns[kColumnD1], taps[kTapsG], edge);
+    FilterRow(shape, columns[kColumnD2], taps[kTapsG], point);
+    const float* first = steps + shape.wide_start();
+    for (ptrdiff_t x = 0; x < shape.columns(); x += Four::kCount * LaneCount()) {
+        const TwoFours v = Detectors(AlongRow{first + x}, taps[kTapsD1], taps[kTapsD2]);
+        StoreAlong(SquaredLengths(v.first, Four::At(AlongRow{edge + x}, 0)), edge + x);
+        StoreAlong(SquaredLengths(v.second, Four::At(AlongRow{point + x}, 0)), point + x);
     }
 }
 
@@ -224,12 +229,19 @@ void ClampColors(ptrdiff_t count, float* const (&work)[kWorkPlanes]) {
     }
 }
 
-// f(x) or f(z) of a row; and the roots of another one.
+struct Plus {
+    HWY_INLINE V operator()(V a, V b) const { return hn::Add(a, b); }
+};
+struct Minus {
+    HWY_INLINE V operator()(V a, V b) const { return hn::Sub(a, b); }
+};
+
+// f(x) or f(z) of a row, from y and a step; and the roots of another row.
+template <class Sign>
 void LabFAndRoot(ptrdiff_t count, const float* HWY_RESTRICT y, const float* HWY_RESTRICT step,
-                 float sign, float* HWY_RESTRICT f, float* HWY_RESTRICT squares) {
-    const V one = hn::Set(d, sign);
+                 const Sign& sign, float* HWY_RESTRICT f, float* HWY_RESTRICT squares) {
     for (ptrdiff_t i = 0; i < count; i += LaneCount()) {
-        const V t = hn::MulAdd(one, hn::Load(d, step + i), hn::Load(d, y + i));
+        const V t = sign(hn::Load(d, y + i), hn::Load(d, step + i));
         hn::Store(LabF(t), d, f + i);
         hn::Store(hn::Sqrt(hn::Load(d, squares + i)), d, squares + i);
     }
@@ -279,8 +291,8 @@ void ToFeatures(ptrdiff_t count, float* const (&work)[kWorkPlanes],
                 float* const (&out)[kFeaturePlanes]) {
     ClampColors(count, work);
     const float* y = work[kFilteredY];
-    LabFAndRoot(count, y, work[kFilteredCx], 1.0f, work[kWorkFx], out[kEdge]);
-    LabFAndRoot(count, y, work[kFilteredCz], -1.0f, work[kWorkFz], out[kPoint]);
+    LabFAndRoot(count, y, work[kFilteredCx], Plus(), work[kWorkFx], out[kEdge]);
+    LabFAndRoot(count, y, work[kFilteredCz], Minus(), work[kWorkFz], out[kPoint]);
     SplitLabF(count, y, out[kLHigh], out[kLLow]);
     LightAndHues(count, work, out);
 }

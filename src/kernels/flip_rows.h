@@ -17,12 +17,15 @@ inline constexpr ptrdiff_t kMostLanes = 16;
 /// Rows that the columns are filtered for at a time.
 inline constexpr int kRowBlock = 4;
 
+/// Vectors that are filtered along a row at a time, at most.
+inline constexpr int kStripStep = 8;
+
 /// How a row of a tile lies in memory: in strips. Lane l of vector v is column l * strip + v, so
 /// that the neighbours of a vector in the row are whole vectors too, and no filter needs an
 /// unaligned load.
 struct StripShape {
     int lanes = 0;
-    int strip = 0; ///< vectors of a row, a multiple of kRowBlock and at least `halo`
+    int strip = 0; ///< vectors of a row, a multiple of kStripStep and at least `halo`
     int halo = 0;  ///< columns that are read beside the row
 
     int columns() const { return lanes * strip; }

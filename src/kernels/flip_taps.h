@@ -16,6 +16,7 @@ struct FlipTaps {
 
 /// As the lanes apply them. Lists may be shorter than the radius where the tail is below the
 /// precision of float. `y` and `cx` are of one length, not longer than `g`; so are `cz1` and `cz2`.
+/// All of these have two taps or more.
 ///
 /// The taps of both detectors sum to 0, so that they can be applied to the steps between
 /// neighbours, s[i] = v[i + 1] - v[i]: a flat area then gives exactly 0, which matters since the

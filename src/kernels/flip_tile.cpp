@@ -19,7 +19,7 @@ StripShape make_strips(int lanes, int columns, int halo) {
     strips.lanes = lanes;
     strips.halo = halo;
     const int needed = (columns + strips.lanes - 1) / strips.lanes;
-    strips.strip = round_up(std::max(needed, halo), kRowBlock);
+    strips.strip = round_up(std::max(needed, halo), kStripStep);
     return strips;
 }
 

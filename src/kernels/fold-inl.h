@@ -7,6 +7,7 @@
 #endif
 
 #include <hwy/highway.h>
+#include <type_traits>
 
 #include "kernels/color-inl.h"
 #include "kernels/flip_rows.h"
@@ -15,34 +16,7 @@ HWY_BEFORE_NAMESPACE();
 namespace tonetool::kernels::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-// Outputs of one filter at a time. A sum waits for its last product, so that eight sums (of four
-// outputs and two filters, or of two planes) keep the multipliers busy; four do where a core finds
-// the next four in time.
-constexpr int kOutputs = 4;
-
-// One vector for each of the outputs. Not an array, which compilers like to keep in memory.
-struct Four {
-    V v0, v1, v2, v3;
-};
-
-HWY_INLINE Four ZeroFour() {
-    const V zero = hn::Zero(d);
-    return {zero, zero, zero, zero};
-}
-HWY_INLINE Four Add(const Four& a, const Four& b) {
-    return {hn::Add(a.v0, b.v0), hn::Add(a.v1, b.v1), hn::Add(a.v2, b.v2), hn::Add(a.v3, b.v3)};
-}
-HWY_INLINE Four Sub(const Four& a, const Four& b) {
-    return {hn::Sub(a.v0, b.v0), hn::Sub(a.v1, b.v1), hn::Sub(a.v2, b.v2), hn::Sub(a.v3, b.v3)};
-}
-HWY_INLINE Four MulAdd(V tap, const Four& a, const Four& sum) {
-    return {hn::MulAdd(tap, a.v0, sum.v0), hn::MulAdd(tap, a.v1, sum.v1),
-            hn::MulAdd(tap, a.v2, sum.v2), hn::MulAdd(tap, a.v3, sum.v3)};
-}
-
-// Neighbouring outputs share their inputs: held in registers, each step towards the centre loads
-// one new vector instead of four. Both sides of a window take eight registers: of 16 this leaves
-// enough for four sums, but for eight one side only.
+// Of 16 registers few are left beside eight sums.
 constexpr bool kManyRegisters = HWY_MAX_BYTES == 64 || HWY_ARCH_ARM_A64;
 
 // Where a vector is a register: not where arrays or single floats stand in for them.
@@ -77,44 +51,116 @@ struct DownRows {
     HWY_INLINE V At(ptrdiff_t i) const { return hn::Load(d, rows[i] + place); }
 };
 
-template <class Source>
-HWY_INLINE Four FourAt(const Source& in, ptrdiff_t i) {
-    return {in.At(i), in.At(i + 1), in.At(i + 2), in.At(i + 3)};
+// One vector for each of the outputs that are filtered at a time. Not arrays, which compilers like
+// to keep in memory.
+struct Four {
+    static constexpr int kCount = 4;
+    V v0, v1, v2, v3;
+
+    template <class Source>
+    static HWY_INLINE Four At(const Source& in, ptrdiff_t i) {
+        return {in.At(i), in.At(i + 1), in.At(i + 2), in.At(i + 3)};
+    }
+    template <int j>
+    HWY_INLINE V At() const {
+        if constexpr (j == 0)
+            return v0;
+        else if constexpr (j == 1)
+            return v1;
+        else if constexpr (j == 2)
+            return v2;
+        else
+            return v3;
+    }
+    HWY_INLINE void PushFront(V v) { *this = {v, v0, v1, v2}; }
+    HWY_INLINE void PushBack(V v) { *this = {v1, v2, v3, v}; }
+};
+
+struct Eight {
+    static constexpr int kCount = 8;
+    Four low, high;
+
+    template <class Source>
+    static HWY_INLINE Eight At(const Source& in, ptrdiff_t i) {
+        return {Four::At(in, i), Four::At(in, i + Four::kCount)};
+    }
+    HWY_INLINE void PushFront(V v) {
+        high.PushFront(low.v3);
+        low.PushFront(v);
+    }
+    HWY_INLINE void PushBack(V v) {
+        low.PushBack(high.v0);
+        high.PushBack(v);
+    }
+};
+
+// A sum waits for its last product, so that eight sums keep the multipliers busy: four outputs of
+// two filters, or eight of one. With few registers four must do: a core finds the next four in
+// time.
+using RowOutputs = std::conditional_t<kManyRegisters, Eight, Four>;
+
+HWY_INLINE Four Add(const Four& a, const Four& b) {
+    return {hn::Add(a.v0, b.v0), hn::Add(a.v1, b.v1), hn::Add(a.v2, b.v2), hn::Add(a.v3, b.v3)};
+}
+HWY_INLINE Eight Add(const Eight& a, const Eight& b) {
+    return {Add(a.low, b.low), Add(a.high, b.high)};
+}
+HWY_INLINE Four Mul(V tap, const Four& a) {
+    return {hn::Mul(tap, a.v0), hn::Mul(tap, a.v1), hn::Mul(tap, a.v2), hn::Mul(tap, a.v3)};
+}
+HWY_INLINE Eight Mul(V tap, const Eight& a) {
+    return {Mul(tap, a.low), Mul(tap, a.high)};
+}
+HWY_INLINE Four MulAdd(V tap, const Four& a, const Four& sum) {
+    return {hn::MulAdd(tap, a.v0, sum.v0), hn::MulAdd(tap, a.v1, sum.v1),
+            hn::MulAdd(tap, a.v2, sum.v2), hn::MulAdd(tap, a.v3, sum.v3)};
+}
+HWY_INLINE Eight MulAdd(V tap, const Eight& a, const Eight& sum) {
+    return {MulAdd(tap, a.low, sum.low), MulAdd(tap, a.high, sum.high)};
 }
 
-// The vectors at +above and at -below of the outputs, both distances counting down.
-template <class Source, bool kHoldDown>
+// The vectors at +above and at -below of the outputs, both distances counting down. Neighbouring
+// outputs share their inputs: held in registers, each step towards the centre loads one new vector
+// of a side instead of four or eight.
+template <class Source, class Outputs>
 struct Window {
     Source in;
     ptrdiff_t above, below;
-    Four up;
+    Outputs up;
 
     HWY_INLINE Window(const Source& source, ptrdiff_t distance_up, ptrdiff_t distance_down)
         : in(source),
           above(distance_up),
           below(distance_down),
-          up(FourAt(source, distance_up)) {}
-    HWY_INLINE const Four& Up() const { return up; }
-    HWY_INLINE Four Down() const { return FourAt(in, -below); }
+          up(Outputs::At(source, distance_up)) {}
+    // What lies below the output `j`.
+    template <int j>
+    HWY_INLINE V Down() const {
+        return in.At(j - below);
+    }
     HWY_INLINE void Close() {
         --above;
         --below;
-        up = {in.At(above), up.v0, up.v1, up.v2};
+        up.PushFront(in.At(above));
     }
 };
 
-template <class Source>
-struct Window<Source, true> : Window<Source, false> {
-    using Base = Window<Source, false>;
-    Four down;
+// Both sides in registers.
+template <class Source, class Outputs>
+struct HeldWindow : Window<Source, Outputs> {
+    using Base = Window<Source, Outputs>;
+    Outputs down;
 
-    HWY_INLINE Window(const Source& source, ptrdiff_t distance_up, ptrdiff_t distance_down)
+    HWY_INLINE HeldWindow(const Source& source, ptrdiff_t distance_up, ptrdiff_t distance_down)
         : Base(source, distance_up, distance_down),
-          down(FourAt(source, -distance_down)) {}
-    HWY_INLINE const Four& Down() const { return down; }
+          down(Outputs::At(source, -distance_down)) {}
+    template <int j>
+    HWY_INLINE V Down() const {
+        return down.template At<j>();
+    }
     HWY_INLINE void Close() {
         Base::Close();
-        down = {down.v1, down.v2, down.v3, Base::in.At(kOutputs - 1 - Base::below)};
+        down.PushBack(Base::template Down<Outputs::kCount - 1>());
     }
 };
 
@@ -146,44 +192,48 @@ HWY_INLINE void Run(Filter& filter, ptrdiff_t count) {
         filter.Step();
 }
 
-// Sums run from the outside in, so that the rounding of one is that of its last few terms. The
-// additions of a step are written before the products that wait for them.
+// Sums run from the outside in, so that the rounding of one is that of its last few terms. They
+// begin with a product: added to nothing it would have a third operand, and some cores read that
+// where stores read theirs. The additions of a step are written before the products that wait for
+// them.
 
-// An even filter.
-template <class Source, bool kHoldDown>
+// An even filter of two taps or more.
+template <class Outputs, class Source>
 struct EvenFilter {
-    Window<Source, kHoldDown> window;
+    HeldWindow<Source, Outputs> window;
     Taps taps;
-    Four sum = ZeroFour();
+    Outputs sum;
 
     HWY_INLINE EvenFilter(const Source& in, const TapList& list)
         : window(in, list.count - 1, list.count - 1),
-          taps{list.vectors} {}
-    HWY_INLINE Four Pairs() const { return Add(window.Up(), window.Down()); }
-    HWY_INLINE V Tap() const { return taps[window.above]; }
-    HWY_INLINE void AddPairs(const Four& pairs) {
-        sum = MulAdd(Tap(), pairs, sum);
+          taps{list.vectors},
+          sum(Mul(taps[window.above], Pairs())) {
+        window.Close();
+    }
+    HWY_INLINE Outputs Pairs() const { return Add(window.up, window.down); }
+    HWY_INLINE void AddPairs(const Outputs& pairs) {
+        sum = MulAdd(taps[window.above], pairs, sum);
         window.Close();
     }
     HWY_INLINE void Step() { AddPairs(Pairs()); }
-    HWY_INLINE Four WithCentre() const { return MulAdd(taps[0], window.Up(), sum); }
+    HWY_INLINE Outputs WithCentre() const { return MulAdd(taps[0], window.up, sum); }
 };
+
+template <class Outputs, class Source>
+HWY_INLINE Outputs Even(const Source& in, const TapList& taps) {
+    EvenFilter<Outputs, Source> filter(in, taps);
+    Run(filter, filter.window.above);
+    return filter.WithCentre();
+}
 
 struct TwoFours {
     Four first, second;
 };
 
-template <class Source>
-HWY_INLINE Four Even(const Source& in, const TapList& taps) {
-    EvenFilter<Source, true> filter(in, taps);
-    Run(filter, filter.window.above);
-    return filter.WithCentre();
-}
-
-// Two even filters of one length, each on its plane.
+// An even filter at two places.
 template <class Source>
 struct PairOfFilters {
-    EvenFilter<Source, true> first, second;
+    EvenFilter<Four, Source> first, second;
 
     HWY_INLINE void Step() {
         const Four a = first.Pairs(), b = second.Pairs();
@@ -193,96 +243,121 @@ struct PairOfFilters {
 };
 
 template <class Source>
-HWY_INLINE TwoFours EvenPair(const Source& in_first, const TapList& first, const Source& in_second,
-                             const TapList& second) {
+HWY_INLINE TwoFours EvenPair(const Source& in_first, const Source& in_second, const TapList& taps) {
     if constexpr (!kManyRegisters)
-        return {Even(in_first, first), Even(in_second, second)};
-    PairOfFilters<Source> filters{{in_first, first}, {in_second, second}};
+        return {Even<Four>(in_first, taps), Even<Four>(in_second, taps)};
+    PairOfFilters<Source> filters{{in_first, taps}, {in_second, taps}};
     Run(filters, filters.first.window.above);
     return {filters.first.WithCentre(), filters.second.WithCentre()};
 }
 
-// Two even filters on one plane.
-template <class Source>
-struct TwoFilters {
-    EvenFilter<Source, kManyRegisters> second;
-    Taps first_taps;
-    Four first_sum = ZeroFour();
-
-    HWY_INLINE void Step() {
-        const V tap = first_taps[second.window.above];
-        if constexpr (kManyRegisters) {
-            const Four pairs = second.Pairs();
-            first_sum = MulAdd(tap, pairs, first_sum);
-            second.AddPairs(pairs);
-        } else {
-            const V second_tap = second.Tap();
-            AddPair(0, second.window.up.v0, tap, second_tap, first_sum.v0, second.sum.v0);
-            AddPair(1, second.window.up.v1, tap, second_tap, first_sum.v1, second.sum.v1);
-            AddPair(2, second.window.up.v2, tap, second_tap, first_sum.v2, second.sum.v2);
-            AddPair(3, second.window.up.v3, tap, second_tap, first_sum.v3, second.sum.v3);
-            second.window.Close();
-            ForgetLoads();
-        }
+// How two vectors at one distance enter the sums of two filters: of even ones,
+struct BothEven {
+    static HWY_INLINE void Begin(V up, V down, V tap, V second_tap, V& one, V& two) {
+        const V pair = hn::Add(up, down);
+        one = hn::Mul(tap, pair);
+        two = hn::Mul(second_tap, pair);
     }
-    HWY_INLINE void AddPair(ptrdiff_t j, V up, V tap, V second_tap, V& one, V& two) const {
-        const V pair = hn::Add(up, second.window.in.At(j - second.window.below));
+    static HWY_INLINE void Add(V up, V down, V tap, V second_tap, V& one, V& two) {
+        const V pair = hn::Add(up, down);
         one = hn::MulAdd(tap, pair, one);
         two = hn::MulAdd(second_tap, pair, two);
     }
 };
-
-// The second filter may be longer.
-template <class Source>
-HWY_INLINE TwoFours EvenTwo(const Source& in, const TapList& first, const TapList& second) {
-    TwoFilters<Source> filters{{in, second}, {first.vectors}};
-    const ptrdiff_t both = first.count - 1;
-    while (filters.second.window.above > both)
-        filters.second.Step();
-    Run(filters, both);
-    return {MulAdd(filters.first_taps[0], filters.second.window.Up(), filters.first_sum),
-            filters.second.WithCentre()};
-}
-
-// Both detectors on the steps of a plane.
-template <class Source>
-struct DetectorFilters {
-    Window<Source, kManyRegisters> window;
-    Taps first_taps, second_taps;
-    Four first = ZeroFour(), second = ZeroFour();
-
-    HWY_INLINE void AddPairs() {
-        const V tap = first_taps[window.above], second_tap = second_taps[window.above];
-        if constexpr (kManyRegisters) {
-            const Four sums = Add(window.Up(), window.Down());
-            const Four differences = Sub(window.Up(), window.Down());
-            first = MulAdd(tap, sums, first);
-            second = MulAdd(second_tap, differences, second);
-        } else {
-            AddPair(0, window.up.v0, tap, second_tap, first.v0, second.v0);
-            AddPair(1, window.up.v1, tap, second_tap, first.v1, second.v1);
-            AddPair(2, window.up.v2, tap, second_tap, first.v2, second.v2);
-            AddPair(3, window.up.v3, tap, second_tap, first.v3, second.v3);
-            ForgetLoads();
-        }
+// or of the detectors on steps.
+struct OddAndEven {
+    static HWY_INLINE void Begin(V up, V down, V tap, V second_tap, V& one, V& two) {
+        one = hn::Mul(tap, hn::Add(up, down));
+        two = hn::Mul(second_tap, hn::Sub(up, down));
     }
-    HWY_INLINE void AddPair(ptrdiff_t j, V up, V tap, V second_tap, V& one, V& two) const {
-        const V down = window.in.At(j - window.below);
+    static HWY_INLINE void Add(V up, V down, V tap, V second_tap, V& one, V& two) {
         one = hn::MulAdd(tap, hn::Add(up, down), one);
         two = hn::MulAdd(second_tap, hn::Sub(up, down), two);
+    }
+};
+
+// Two filters on one plane. With few registers the vectors below are loaded one by one.
+template <class Source, class Pair>
+struct TwoFilters {
+    std::conditional_t<kManyRegisters, HeldWindow<Source, Four>, Window<Source, Four>> window;
+    Taps first_taps, second_taps;
+    Four first, second;
+
+    HWY_INLINE TwoFilters(const Source& in, ptrdiff_t distance_up, ptrdiff_t distance_down,
+                          const TapList& first_list, const TapList& second_list)
+        : window(in, distance_up, distance_down),
+          first_taps{first_list.vectors},
+          second_taps{second_list.vectors} {}
+
+    HWY_INLINE void BeginPairs() { Enter(Pair::Begin); }
+    HWY_INLINE void AddPairs() { Enter(Pair::Add); }
+    HWY_INLINE void Begin() {
+        BeginPairs();
+        window.Close();
     }
     HWY_INLINE void Step() {
         AddPairs();
         window.Close();
     }
+    template <class Function>
+    HWY_INLINE void Enter(const Function& enter) {
+        const V tap = first_taps[window.above], second_tap = second_taps[window.above];
+        enter(window.up.v0, window.template Down<0>(), tap, second_tap, first.v0, second.v0);
+        enter(window.up.v1, window.template Down<1>(), tap, second_tap, first.v1, second.v1);
+        enter(window.up.v2, window.template Down<2>(), tap, second_tap, first.v2, second.v2);
+        enter(window.up.v3, window.template Down<3>(), tap, second_tap, first.v3, second.v3);
+        ForgetLoads();
+    }
+
+    // Where the second one is the longer one, it begins alone.
+    HWY_INLINE Four Pairs() const {
+        return {hn::Add(window.up.v0, window.template Down<0>()),
+                hn::Add(window.up.v1, window.template Down<1>()),
+                hn::Add(window.up.v2, window.template Down<2>()),
+                hn::Add(window.up.v3, window.template Down<3>())};
+    }
+    HWY_INLINE void BeginSecond() {
+        second = Mul(second_taps[window.above], Pairs());
+        window.Close();
+    }
+    HWY_INLINE void StepOfSecond() {
+        second = MulAdd(second_taps[window.above], Pairs(), second);
+        window.Close();
+    }
+    HWY_INLINE void BeginFirst() {
+        first = Mul(first_taps[window.above], Pairs());
+        StepOfSecond();
+    }
 };
 
+// Two even filters of two taps or more, the second one of as many as the first one at least.
+template <class Source>
+HWY_INLINE TwoFours EvenTwo(const Source& in, const TapList& first, const TapList& second) {
+    TwoFilters<Source, BothEven> filters(in, second.count - 1, second.count - 1, first, second);
+    if (second.count == first.count) {
+        filters.Begin();
+    } else {
+        filters.BeginSecond();
+        while (filters.window.above >= first.count)
+            filters.StepOfSecond();
+        filters.BeginFirst();
+    }
+    Run(filters, filters.window.above);
+    return {MulAdd(filters.first_taps[0], filters.window.up, filters.first),
+            MulAdd(filters.second_taps[0], filters.window.up, filters.second)};
+}
+
+// Both detectors on the steps of a plane.
 template <class Source>
 HWY_INLINE TwoFours Detectors(const Source& steps, const TapList& first, const TapList& second) {
-    DetectorFilters<Source> filters{
-        {steps, first.count - 1, first.count}, {first.vectors}, {second.vectors}};
-    Run(filters, filters.window.above);
-    filters.AddPairs();
+    TwoFilters<Source, OddAndEven> filters(steps, first.count - 1, first.count, first, second);
+    if (first.count == 1) {
+        filters.BeginPairs();
+    } else {
+        filters.Begin();
+        Run(filters, filters.window.above);
+        filters.AddPairs();
+    }
     return {filters.first, filters.second};
 }
 

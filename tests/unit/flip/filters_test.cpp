@@ -130,10 +130,13 @@ TEST(LaneTaps, TrimWhatFloatCannotSee) {
             return 2 * std::accumulate(taps.begin() + ptrdiff_t(from), taps.end(), 0.0);
         };
         ASSERT_EQ(trimmed.y.size(), trimmed.cx.size());
+        // The lanes begin with a product and add the centre to it.
+        ASSERT_GE(trimmed.y.size(), 2u);
         EXPECT_LT(std::max(tail(full.y, trimmed.y.size()), tail(full.cx, trimmed.y.size())), 2e-9);
-        EXPECT_GE(std::max(tail(full.y, trimmed.y.size() - 1), tail(full.cx, trimmed.y.size() - 1)),
-                  2e-9)
-            << "could be shorter";
+        if (trimmed.y.size() > 2) {
+            const size_t shorter = trimmed.y.size() - 1;
+            EXPECT_GE(std::max(tail(full.y, shorter), tail(full.cx, shorter)), 2e-9);
+        }
     }
 }
 
@@ -143,6 +146,7 @@ TEST(LaneTaps, KeepTheRest) {
         const auto exact = make_taps(ppd);
         const auto taps = lane_taps(exact);
         EXPECT_EQ(taps.cz1.size(), exact.cz1.size());
+        EXPECT_GE(taps.cz1.size(), 2u);
         EXPECT_EQ(taps.cz2.size(), exact.cz2.size());
         EXPECT_GE(taps.g.size(), std::max(exact.g.size(), taps.y.size()));
         const std::pair<const std::vector<float>*, const Taps*> pairs[] = {{&taps.cz1, &exact.cz1},
