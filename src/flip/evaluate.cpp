@@ -18,12 +18,30 @@ using kernels::Window;
 // halos. Enough tiles remain for all threads to end at the same time.
 constexpr int kTileWidth = 640, kTileHeight = 128;
 // Of several tests at a time, each with rows of its own.
-constexpr int kNarrowTileWidth = 320, kNarrowFrom = 3;
+constexpr int kNarrowTileWidth = 384, kNarrowFrom = 3;
+
+int parts_of(int length, int size) {
+    return (length + size - 1) / size;
+}
 
 // `length` in equal parts of about `wanted`.
 int part_size(int length, int wanted) {
-    const int parts = (length + wanted - 1) / wanted;
-    return (length + parts - 1) / parts;
+    return parts_of(length, parts_of(length, wanted));
+}
+
+// Tiles have whole strips, also the last one of a row: of the widths up to the wanted one that with
+// which the fewest columns are filtered.
+int tile_width(int width, int wanted, int halo) {
+    constexpr int step = int(kernels::kMostLanes) * kernels::kStripStep;
+    const int widest = parts_of(std::min(width, wanted), step) * step;
+    const auto filtered = [width, halo](int columns) {
+        return int64_t(parts_of(width, columns)) * (columns + 2 * halo);
+    };
+    int best = widest;
+    for (int columns = widest - step; columns >= widest / 2; columns -= step)
+        if (filtered(columns) < filtered(best))
+            best = columns;
+    return best;
 }
 
 Window tile_size(const Evaluation& what, int width, int height, size_t tests) {
@@ -31,7 +49,7 @@ Window tile_size(const Evaluation& what, int width, int height, size_t tests) {
     const int columns = tests >= kNarrowFrom ? kNarrowTileWidth : kTileWidth;
     const int rows =
         what.most_tile_rows > 0 ? what.most_tile_rows : std::max(kTileHeight, 8 * halo);
-    return {0, 0, part_size(width, std::max(columns, 16 * halo)), part_size(height, rows)};
+    return {0, 0, tile_width(width, std::max(columns, 16 * halo), halo), part_size(height, rows)};
 }
 
 const kernels::FlipRows& functions_of(const Evaluation& what) {
