@@ -29,8 +29,8 @@ int part_size(int length, int wanted) {
     return parts_of(length, parts_of(length, wanted));
 }
 
-// Tiles have whole strips, also the last one of a row: of the widths up to the wanted one that with
-// which the fewest columns are filtered.
+// Tiles have whole strips, none shorter than the halo, also the last one of a row: of the widths up
+// to the wanted one that with which the fewest columns are filtered.
 int tile_width(int width, int wanted, int halo) {
     constexpr int step = int(kernels::kMostLanes) * kernels::kStripStep;
     const int widest = parts_of(std::min(width, wanted), step) * step;
@@ -38,7 +38,8 @@ int tile_width(int width, int wanted, int halo) {
         return int64_t(parts_of(width, columns)) * (columns + 2 * halo);
     };
     int best = widest;
-    for (int columns = widest - step; columns >= widest / 2; columns -= step)
+    const int narrowest = std::max(widest / 2, int(kernels::kMostLanes) * halo);
+    for (int columns = widest - step; columns >= narrowest; columns -= step)
         if (filtered(columns) < filtered(best))
             best = columns;
     return best;

@@ -153,6 +153,7 @@ void expect_short_roots() {
         const double mantissa = std::frexp(root, &exponent) * 256;
         EXPECT_EQ(mantissa, std::round(mantissa)) << i;
         const double cube = root * root * root;
+        EXPECT_EQ(table.inverse[i], float(1 / cube)) << i;
         EXPECT_NEAR(double(table.inverse[i]) * cube, 1, 1.3e-8) << i;
         // Over its part of a binade x / cube - 1 stays where the series is exact.
         const double part = std::ldexp(1.0, i / kParts - 7) / kParts;
