@@ -5,6 +5,7 @@
 #include <OpenImageIO/strutil.h>
 #include <algorithm>
 #include <cstring>
+#include <memory>
 
 #include "imagebuf/guard.h"
 #include "imagebuf/output_target.h"
@@ -29,7 +30,9 @@ bool write_pixels(const OIIO::ImageBuf& image, OIIO::ImageOutput& out) {
     return true;
 }
 
-bool write_through(OIIO::ImageOutput& out, const std::vector<OutputImage>& images,
+// Takes the writer, to destroy it before its proxy: that of EXR files leaves those of MIP levels
+// open when they are closed, and writes where their tiles lie only then.
+bool write_through(std::unique_ptr<OIIO::ImageOutput> out, const std::vector<OutputImage>& images,
                    const std::string& filename, std::string& error) {
     std::vector<OIIO::ImageSpec> specs;
     for (const OutputImage& image : images)
@@ -37,25 +40,25 @@ bool write_through(OIIO::ImageOutput& out, const std::vector<OutputImage>& image
             specs.push_back(image.spec);
     for (size_t i = 0; i < images.size(); ++i) {
         const bool opened =
-            i > 0 ? out.open(filename, images[i].spec,
-                             images[i].mip_level ? OIIO::ImageOutput::AppendMIPLevel
-                                                 : OIIO::ImageOutput::AppendSubimage)
-                  : (specs.size() > 1 ? out.open(filename, int(specs.size()), specs.data())
-                                      : out.open(filename, specs[0]));
+            i > 0 ? out->open(filename, images[i].spec,
+                              images[i].mip_level ? OIIO::ImageOutput::AppendMIPLevel
+                                                  : OIIO::ImageOutput::AppendSubimage)
+                  : (specs.size() > 1 ? out->open(filename, int(specs.size()), specs.data())
+                                      : out->open(filename, specs[0]));
         if (!opened) {
-            error = out.geterror();
+            error = out->geterror();
             return false;
         }
-        if (!write_pixels(*images[i].pixels, out)) {
+        if (!write_pixels(*images[i].pixels, *out)) {
             error = images[i].pixels->geterror();
             if (error.empty())
-                error = out.geterror();
+                error = out->geterror();
             return false;
         }
     }
-    if (out.close())
+    if (out->close())
         return true;
-    error = out.geterror();
+    error = out->geterror();
     return false;
 }
 
@@ -144,7 +147,7 @@ bool takes_proxy(const OIIO::ImageOutput& out) {
 bool write_checked(const std::vector<OutputImage>& images, const std::string& filename,
                    std::string& error) {
     const std::string kind = images.empty() ? "" : images.front().format_name;
-    const auto out = OIIO::ImageOutput::create(kind.empty() ? filename : kind);
+    auto out = OIIO::ImageOutput::create(kind.empty() ? filename : kind);
     if (!out) {
         error = OIIO::geterror();
         return false;
@@ -161,7 +164,7 @@ bool write_checked(const std::vector<OutputImage>& images, const std::string& fi
         error = format("{} files cannot be written to a device or pipe", out->format_name());
         return false;
     }
-    const bool written = write_through(*out, images, target.path(), error);
+    const bool written = write_through(std::move(out), images, target.path(), error);
     if (!proxy.failure().empty())
         error = proxy.failure();
     if (!written || !proxy.failure().empty())

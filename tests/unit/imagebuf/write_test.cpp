@@ -116,6 +116,33 @@ TEST_F(Write, SeveralSubimagesGoIntoOneExr) {
     EXPECT_THAT(files(), ElementsAre("two.exr"));
 }
 
+// Such a file ends with where its tiles lie, which a reader would else have to search for.
+TEST_F(Write, MipLevelsAreWrittenToTheirEnd) {
+    std::vector<ImageBuf> levels;
+    std::vector<OutputImage> images;
+    for (const int size : {16, 8, 4, 2, 1})
+        levels.push_back(noise(size, size, size));
+    for (const ImageBuf& level : levels) {
+        OutputImage image{&level, level.spec()};
+        image.spec.tile_width = image.spec.tile_height = 8;
+        image.spec.attribute("textureformat", "Plain Texture");
+        image.mip_level = !images.empty();
+        images.push_back(image);
+    }
+    ASSERT_TRUE(write_images(images, in("ours.exr"), m_error)) << m_error;
+    {
+        const auto out = OIIO::ImageOutput::create("exr");
+        for (const OutputImage& image : images)
+            ASSERT_TRUE(out->open(in("plain.exr"), image.spec,
+                                  image.mip_level ? OIIO::ImageOutput::AppendMIPLevel
+                                                  : OIIO::ImageOutput::Create) &&
+                        image.pixels->write(out.get()))
+                << out->geterror();
+    }
+    EXPECT_EQ(ImageBuf(in("ours.exr")).nmiplevels(), 5);
+    EXPECT_TRUE(contents(in("ours.exr")) == contents(in("plain.exr")));
+}
+
 TEST_F(Write, RefusalsChangeNothing) {
     const auto image = noise(9, 7, 1);
     const ImageBuf empty;
