@@ -28,12 +28,30 @@ class Ran:
         return values[0]
 
 
+def for_hosts(environment):
+    """The environment of stock programs that load the plugin. One that was built with a sanitizer
+    needs the sanitizer's library first; what the host never frees is not ours to report."""
+    runtime = os.environ.get("SANITIZER_RUNTIME")
+    if not runtime:
+        return environment
+    options = environment.get("ASAN_OPTIONS", "")
+    return {**environment, "LD_PRELOAD": runtime,
+            "ASAN_OPTIONS": f"{options}:detect_leaks=0".lstrip(":")}
+
+
 def call(program, words, cwd, **options):
     options.setdefault("stdout", subprocess.PIPE)
     options.setdefault("timeout", 120)
     done = subprocess.run([program, *map(str, words)], cwd=cwd, stderr=subprocess.PIPE,
                           text=True, check=False, **options)
     return Ran(done)
+
+
+@pytest.fixture
+def plain_memory():
+    """For tests that measure memory: a sanitizer takes several times as much for itself."""
+    if os.environ.get("SANITIZER_RUNTIME"):
+        pytest.skip("built with a sanitizer, which has a memory of its own")
 
 
 @pytest.fixture

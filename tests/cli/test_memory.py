@@ -85,6 +85,7 @@ def test_same_output(tonetool, tmp_path):
         assert same_pixels(tmp_path / name, tmp_path / ("plain_" + name))
 
 
+@pytest.mark.usefixtures("plain_memory")
 def test_peak_memory(program, tmp_path):
     """Beyond what a small pair takes, a large one takes its map and little more."""
     folder = tmp_path / "small"
@@ -101,6 +102,7 @@ def test_peak_memory(program, tmp_path):
     assert bound - base < ((168 - 105) << 20) + 12e6
 
 
+@pytest.mark.usefixtures("plain_memory")
 def test_only_the_compared_channels_are_kept(program, tmp_path):
     names = [f"aov{i:02}.{c}" for i in range(40) for c in "RGB"]
     files = write_pair(tmp_path, 800, 600, "half", ["R", "G", "B", *names])

@@ -10,6 +10,7 @@ from pathlib import Path
 import numpy as np
 import OpenImageIO as oiio
 import pytest
+from conftest import for_hosts
 
 ROOT = Path(__file__).resolve().parents[2]
 README = (ROOT / "README.md").read_text(encoding="utf-8")
@@ -30,15 +31,16 @@ def folder(tmp_path):
 def run(line, program, cwd):
     words = shlex.split(line)
     plugin = Path(program).resolve().parents[1] / "tone.imageio"
+    environment = {**os.environ, "OIIO_LIBRARY_PATH": str(plugin)}
     if words[0] in ("oiiotool", "iinfo", "maketx"):
+        environment = for_hosts(environment)
         program = shutil.which(words[0], path="/usr/bin")
         if not program or not (plugin / "tone.imageio.so").exists():
             pytest.skip(f"no {words[0]}, or no plugin for it")
     else:
         assert words[0] == "tonetool", line
     return subprocess.run([program, *words[1:]], cwd=cwd, capture_output=True, text=True,
-                          timeout=120, check=False,
-                          env={**os.environ, "OIIO_LIBRARY_PATH": str(plugin)})
+                          timeout=120, check=False, env=environment)
 
 
 def test_there_are_commands():

@@ -8,6 +8,7 @@ from pathlib import Path
 import numpy as np
 import OpenImageIO as oiio
 import pytest
+from conftest import for_hosts
 
 RECIPES = ("flip", "exposures", "cgtmo", "curve", "view", "nested")
 ROOT = Path(__file__).resolve().parents[2]
@@ -30,13 +31,16 @@ def host(tmp_path):
     if not (plugin_folder() / "tone.imageio.so").exists():
         pytest.skip("tone.imageio.so is not built")
 
+    slower = 10 if "SANITIZER_RUNTIME" in os.environ else 1
+
     def run(*words, status=0, seconds=20):
         program = shutil.which(words[0], path="/usr/bin")
         if not program:
             pytest.skip(f"no {words[0]} here")
-        done = subprocess.run(["timeout", str(seconds), program, *map(str, words[1:])],
+        done = subprocess.run(["timeout", str(seconds * slower), program, *map(str, words[1:])],
                               cwd=tmp_path, capture_output=True, text=True, check=False,
-                              env=environment(OIIO_LIBRARY_PATH=str(plugin_folder())))
+                              env=for_hosts(environment(
+                                  OIIO_LIBRARY_PATH=str(plugin_folder()))))
         if status is not None:
             assert done.returncode == status, (words, done.stdout, done.stderr)
         return done
@@ -424,6 +428,7 @@ print(oiio.ImageBufAlgo.computePixelStats(oiio.ImageBufAlgo.resize(image, roi=oi
     assert python(code) == "True False"
 
 
+@pytest.mark.usefixtures("plain_memory")
 def test_opening_often_needs_no_memory(python, recipe):
     name = recipe("small.tone", "$value = 1\n--pattern constant:color=$value 64x64 4")
     recipe("wrong.tone", "$value = 1\nnosuch.exr")
@@ -467,7 +472,7 @@ print(image.spec_dimensions(0).width, image.read_image(), 'truncated.exr' in ima
 # ---- --doctor
 
 def doctor(tonetool, status, **variables):
-    ran = tonetool("--doctor", status=status, env=environment(**variables))
+    ran = tonetool("--doctor", status=status, env=for_hosts(environment(**variables)))
     return ran.out + ran.err
 
 
@@ -479,7 +484,8 @@ def test_doctor(tonetool, host, tmp_path):
     assert "OIIO_LIBRARY_PATH is not set; this line mends it:" in said
     (line,) = [line for line in said.splitlines() if line.startswith("export ")]
     mended = subprocess.run(["sh", "-c", f"{line}\n{os.environ['TONETOOL']} --doctor"],
-                            env=environment(), capture_output=True, text=True, check=False)
+                            env=for_hosts(environment()), capture_output=True, text=True,
+                            check=False)
     assert mended.returncode == 0, mended.stderr
     assert "no tone.imageio.so in" in doctor(tonetool, 1, OIIO_LIBRARY_PATH=str(tmp_path))
     assert '"/no/such" is no folder' in doctor(tonetool, 1, OIIO_LIBRARY_PATH="/no/such")
