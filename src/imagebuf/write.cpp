@@ -144,6 +144,19 @@ bool takes_proxy(const OIIO::ImageOutput& out) {
     return out.supports("ioproxy") && std::strcmp(out.format_name(), "tiff") != 0;
 }
 
+// OpenImageIO (2.4) fills the place of a description that an SGI file does not have with whatever
+// lies in memory.
+bool lacks_description(const OIIO::ImageOutput& out, const OIIO::ImageSpec& spec) {
+    return std::strcmp(out.format_name(), "sgi") == 0 &&
+           spec.get_string_attribute("ImageDescription").empty();
+}
+
+void clear_description(CheckedProxy& proxy) {
+    constexpr int64_t place = 24; // of the format
+    constexpr char none[80] = {};
+    proxy.pwrite(none, sizeof none, place);
+}
+
 bool write_checked(const std::vector<OutputImage>& images, const std::string& filename,
                    std::string& error) {
     const std::string kind = images.empty() ? "" : images.front().format_name;
@@ -164,6 +177,7 @@ bool write_checked(const std::vector<OutputImage>& images, const std::string& fi
         error = format("{} files cannot be written to a device or pipe", out->format_name());
         return false;
     }
+    const bool undescribed = lacks_description(*out, images.front().spec);
     const bool written = write_through(std::move(out), images, target.path(), error);
     if (!proxy.failure().empty())
         error = proxy.failure();
@@ -173,7 +187,10 @@ bool write_checked(const std::vector<OutputImage>& images, const std::string& fi
     // opened the file by its name.
     if (proxy.size() == 0 && !reads_back(target.path(), count_subimages(images), error))
         return false;
-    return target.commit(error);
+    if (undescribed)
+        clear_description(proxy);
+    error = proxy.failure();
+    return error.empty() && target.commit(error);
 }
 
 // Runs a write; an error names the file.

@@ -8,11 +8,11 @@ TYPES = [f"type-{name}: in/unit.exr " + " ".join(f"-d {kind} -o {kind}.{name}" f
              ("exr", ("half", "float", "uint32", "uint8")), ("dpx", ("uint8", "uint10", "uint12")),
              ("png", ("uint8", "uint16", "half")), ("jpg", ("uint8", "uint16")))]
 FORMATS = ["formats: in/unit.exr " + " ".join(
-    f"-o out.{name}" for name in ("bmp", "tga", "hdr", "gif", "ppm", "sgi", "fits", "rla", "iff",
-                                  "webp"))]
+    f"-o out.{name}" for name in ("bmp", "tga", "hdr", "gif", "ppm", "fits", "rla", "iff", "webp"))]
 
 WRITE = """
 copy: in/rgb.exr -o out.exr
+formats-sgi: in/unit.exr --caption "described, for else it writes what lies in memory" -o out.sgi
 copy-meta: in/meta.exr -o out.exr
 type-of-channels: in/layers.exr -d float -d R=half -d G=half -o out.exr
 type-one-channel: in/rgba.exr -d half -d A=float -o out.exr

@@ -116,6 +116,17 @@ TEST_F(Write, SeveralSubimagesGoIntoOneExr) {
     EXPECT_THAT(files(), ElementsAre("two.exr"));
 }
 
+// The writer of this format would leave 80 bytes as they happen to be in memory.
+TEST_F(Write, AnSgiFileWithoutADescriptionHasZerosThere) {
+    const auto image = noise(9, 7, 1);
+    ASSERT_TRUE(write_image(image, in("a.sgi"), m_error)) << m_error;
+    EXPECT_TRUE(contents(in("a.sgi")).substr(24, 80) == std::string(80, '\0'));
+    OutputImage described{&image, image.spec()};
+    described.spec.attribute("ImageDescription", "noise");
+    ASSERT_TRUE(write_images({described}, in("b.sgi"), m_error)) << m_error;
+    EXPECT_EQ(ImageBuf(in("b.sgi")).spec().get_string_attribute("ImageDescription"), "noise");
+}
+
 // Such a file ends with where its tiles lie, which a reader would else have to search for.
 TEST_F(Write, MipLevelsAreWrittenToTheirEnd) {
     std::vector<ImageBuf> levels;
