@@ -2,6 +2,7 @@
 #include <OpenImageIO/strutil.h>
 
 #include "chain/ops.h"
+#include "imagebuf/oiio_compat.h"
 
 namespace tonetool::chain {
 
@@ -128,7 +129,7 @@ void run_kernel_command(Session& session, const Call& call) {
 
 void run_capture(Session& session, const Call& call) {
     OIIO::ImageBuf image;
-    push_created(session, IBA::capture_image(Op{session, call, image, {}}.integer("camera", 0)));
+    push_created(session, oiio::capture_image(Op{session, call, image, {}}.integer("camera", 0)));
 }
 
 // The positions of the argument: at least `least` numbers, in pairs.

@@ -35,7 +35,7 @@ bool look(Op& op) {
 
 void check_view(Session& session, const std::string& display, const std::string& view) {
     const OIIO::ColorConfig& config = color_config(session);
-    if (!config.error() && config.getNumDisplays() > 0) {
+    if (!config.has_error() && config.getNumDisplays() > 0) {
         check_choice("display", display, config.getDisplayNames());
         check_choice("view", view, config.getViewNames(display));
     }
@@ -51,9 +51,9 @@ bool display(Op& op) {
         throw CommandError("looks= has no effect with OpenImageIO " OIIO_VERSION_STRING
                            " (valid: --ociolook before --ociodisplay)");
     }
-    return IBA::ociodisplay(op.dst, op.a(), name, view, space_of(op, op.text("from")),
-                            op.text("looks"), op.flag("unpremult"), op.text("key"),
-                            op.text("value"), &color_config(op.session));
+    return oiio::ociodisplay(op.dst, op.a(), name, view, space_of(op, op.text("from")),
+                             op.text("looks"), op.flag("unpremult"), op.text("key"),
+                             op.text("value"), color_config(op.session));
 }
 
 bool matrix(Op& op) {

@@ -5,7 +5,8 @@
 //   resize, fit     3.0 takes their parameters as KWArgs; the lists of parameters of 2.x are on
 //                   their way out.
 //   thread pool     2.4 does not look at the number of threads for chunks of one.
-//   ociodisplay     2.4 drops `looks` without a word.
+//   ociodisplay     2.4 drops `looks` without a word; 2.5 adds `inverse`.
+//   capture_image   3.0 leaves it to programs that are linked with OpenCV themselves.
 //   supports()      of readers and writers: an int in all of them, a string_view goes in.
 //   plugins         OIIO_PLUGIN_VERSION is 25 in 2.4 and 2.5, 27 in 3.x; the macros name it. The
 //                   folders are in OIIO_LIBRARY_PATH, for 3.x in OPENIMAGEIO_PLUGIN_PATH.
@@ -13,6 +14,7 @@
 //                   string_view are spelt the same in all of them.
 #pragma once
 
+#include <OpenImageIO/color.h>
 #include <OpenImageIO/imagebuf.h>
 #include <OpenImageIO/imagebufalgo.h>
 #include <OpenImageIO/imagecache.h>
@@ -100,6 +102,32 @@ inline bool resize(OIIO::ImageBuf& dst, const OIIO::ImageBuf& src, const std::st
     return OIIO::ImageBufAlgo::resize(dst, src, {{"filtername", filter}}, roi, nthreads);
 #else
     return OIIO::ImageBufAlgo::resize(dst, src, filter, 0.0f, roi, nthreads);
+#endif
+}
+
+/// ImageBufAlgo::ociodisplay, forwards.
+inline bool ociodisplay(OIIO::ImageBuf& dst, const OIIO::ImageBuf& src, const std::string& display,
+                        const std::string& view, const std::string& from, const std::string& looks,
+                        bool unpremult, const std::string& key, const std::string& value,
+                        OIIO::ColorConfig& config) {
+#if OIIO_VERSION >= 20500
+    return OIIO::ImageBufAlgo::ociodisplay(dst, src, display, view, from, looks, unpremult, false,
+                                           key, value, &config);
+#else
+    return OIIO::ImageBufAlgo::ociodisplay(dst, src, display, view, from, looks, unpremult, key,
+                                           value, &config);
+#endif
+}
+
+/// An image of a camera, or an image that holds an error.
+inline OIIO::ImageBuf capture_image(int camera) {
+#if OIIO_VERSION >= 30000
+    OIIO::ImageBuf none;
+    none.errorfmt("no image of camera {}: OpenImageIO {} does not read cameras", camera,
+                  OIIO_VERSION_STRING);
+    return none;
+#else
+    return OIIO::ImageBufAlgo::capture_image(camera);
 #endif
 }
 

@@ -1,11 +1,12 @@
 #include "sequence/reduced.h"
 
-#include <OpenImageIO/imagebufalgo.h>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <stdexcept>
 #include <vector>
+
+#include "imagebuf/oiio_compat.h"
 
 namespace tonetool::sequence {
 
@@ -13,7 +14,6 @@ namespace {
 
 using OIIO::ImageBuf;
 using OIIO::ROI;
-namespace IBA = OIIO::ImageBufAlgo;
 
 ColorChoice color_of(const ImageBuf& image, const PixelOptions& options) {
     ColorChoice choice;
@@ -124,7 +124,7 @@ ImageBuf resized(const ImageBuf& image, const Side& side) {
     }
     ImageBuf result;
     const ROI to(0, side.width, 0, side.height, 0, 1, 0, image.nchannels());
-    if (!IBA::resize(result, image, "box", 0.0f, to)) {
+    if (!oiio::resize(result, image, "box", to)) {
         throw std::runtime_error(result.geterror());
     }
     return result;

@@ -4,10 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <OpenImageIO/filesystem.h>
-#include <OpenImageIO/imagecache.h>
-#include <memory>
 #include <string>
 
+#include "imagebuf/oiio_compat.h"
 #include "images.h"
 
 namespace tonetool {
@@ -52,9 +51,8 @@ inline std::string write_file(const std::string& name, const ImageBuf& image,
 class UnreadFile {
 public:
     explicit UnreadFile(const std::string& name, int subimage = 0)
-        : m_cache(OIIO::ImageCache::create(false),
-                  [](OIIO::ImageCache* cache) { OIIO::ImageCache::destroy(cache); }),
-          image(name, subimage, 0, m_cache.get()) {}
+        : m_cache(oiio::make_header_cache()),
+          image(oiio::unread_file(name, subimage, m_cache)) {}
     /// Bytes of pixels that went through the cache.
     int64_t cached_bytes() const {
         long long bytes = 0;
@@ -63,7 +61,7 @@ public:
     }
 
 private:
-    std::shared_ptr<OIIO::ImageCache> m_cache;
+    oiio::HeaderCache m_cache;
 
 public:
     ImageBuf image;

@@ -413,7 +413,7 @@ TEST(GBuffer, OfRenderedScenes) {
         EXPECT_TRUE(g.has_position() && g.has_normal() && g.has_albedo() && g.has_depth()) << name;
         EXPECT_THAT(g.warnings, IsEmpty()) << name;
         EXPECT_EQ(g.nonfinite, 0);
-        const ImageBuf whole = read_whole(file.image.name().c_str());
+        const ImageBuf whole = read_whole(std::string(file.image.name()));
         const int z = whole.spec().channelindex("ViewLayer.Depth.Z");
         size_t i = 0;
         int far = 0;
