@@ -1,3 +1,4 @@
+#include <OpenImageIO/imagebufalgo.h>
 #include <OpenImageIO/imageio.h>
 #include <filesystem>
 #include <gmock/gmock.h>
@@ -27,9 +28,7 @@ std::vector<float> values_of(const OIIO::ImageBuf& image) {
 
 OIIO::ImageBuf grey(float value) {
     OIIO::ImageBuf image(OIIO::ImageSpec(4, 3, 3, OIIO::TypeFloat));
-    for (OIIO::ImageBuf::Iterator<float> p(image); !p.done(); ++p) {
-        p[0] = p[1] = p[2] = value;
-    }
+    OIIO::ImageBufAlgo::fill(image, {value, value, value});
     return image;
 }
 
