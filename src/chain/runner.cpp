@@ -324,6 +324,11 @@ void Runner::finish() {
         throw CommandError("--" + m_session.flow.blocks.back().kind + " without its --end" +
                            m_session.flow.blocks.back().kind);
     }
+    if (!m_session.diff.waiting.empty()) {
+        m_where = m_session.diff.waiting;
+        throw CommandError("no --diff ran after it, so nothing was held to this limit (other "
+                           "measurements have their own, as --hdrflip:fail=X)");
+    }
     check_outputs(m_session);
     warn_of_unused();
     if (!m_session.produced && !m_session.wrote && !m_session.for_images) {

@@ -44,6 +44,7 @@ struct Frame {
 struct DiffLimits {
     float fail = 1e-6f, fail_percent = 0, hard_fail = 1e30f;
     float warn = 1e-6f, warn_percent = 0, hard_warn = 1e30f;
+    std::string waiting; ///< the option that set one which no --diff has looked at yet
 };
 
 /// An --if, --while or --for that is not ended yet.

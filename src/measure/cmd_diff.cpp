@@ -1,8 +1,11 @@
-// --diff and --pdiff, with oiiotool's report and exit status.
+// --diff and --pdiff, with oiiotool's report and exit status, but for images with values that are
+// no numbers: oiiotool lets some of them pass (files/unlike.h).
 #include <OpenImageIO/imagebufalgo.h>
 #include <OpenImageIO/strutil.h>
+#include <limits>
 #include <ostream>
 
+#include "files/unlike.h"
 #include "measure/check_part.h"
 #include "measure/color_input.h"
 #include "measure/commands.h"
@@ -115,25 +118,50 @@ void complete_record(Session& session, const Call& call, size_t before, Verdict 
     }
 }
 
-// Once something differs, all that follows is reported.
-void compare_pixels(Session& session, const OIIO::ImageBuf& a, const OIIO::ImageBuf& b,
-                    bool perceptual, const std::string& heading, Verdict& worst) {
+Results results_of(const OIIO::ImageBuf& a, const OIIO::ImageBuf& b, const DiffLimits& limits,
+                   bool perceptual) {
     Results found{};
     if (perceptual) {
         found.nfail = OIIO::imagesize_t(OIIO::ImageBufAlgo::compare_Yee(a, b, found));
     } else {
-        found = OIIO::ImageBufAlgo::compare(a, b, session.diff.fail, session.diff.warn);
+        found = OIIO::ImageBufAlgo::compare(a, b, limits.fail, limits.warn);
     }
     if (a.has_error() || b.has_error()) {
         throw CommandError(a.has_error() ? a.geterror() : b.geterror());
     }
+    return found;
+}
+
+// No limit is as large as the error of the first unlike pixel.
+void add(Results& found, const files::Unlike& unlike) {
+    found.maxerror = std::numeric_limits<double>::infinity();
+    found.maxx = unlike.x;
+    found.maxy = unlike.y;
+    found.maxz = unlike.z;
+    found.maxc = unlike.channel;
+}
+
+// Once something differs, all that follows is reported.
+void compare_pixels(Session& session, const OIIO::ImageBuf& a, const OIIO::ImageBuf& b,
+                    bool perceptual, const std::string& heading, Verdict& worst) {
     const double pixels = double(std::max(a.spec().image_pixels(), b.spec().image_pixels()));
-    const Verdict verdict = judge(found, session.diff, pixels);
+    Results found = results_of(a, b, session.diff, perceptual);
+    Verdict verdict = judge(found, session.diff, pixels);
+    const files::Unlike unlike = files::unlike_values(a, b);
+    if (unlike.pixels > 0 && !(session.compat && verdict == Verdict::Failure)) {
+        add(found, unlike);
+        verdict = judge(found, session.diff, pixels);
+    }
     record(session, found, pixels, verdict);
     worst = std::max(worst, verdict);
     if (worst != Verdict::Pass || session.verbose) {
         session.out << heading;
         print_report(session, a, b, found, perceptual);
+        if (unlike.pixels > 0 && !session.compat) {
+            session.print(
+                format("  {} pixel(s) are NaN, Inf or -Inf in one image and not in the other",
+                       unlike.pixels));
+        }
     }
 }
 
@@ -180,6 +208,7 @@ void run_diff(Session& session, const Call& call) {
     session.print(format("Computing {}diff of \"{}\" vs \"{}\"", perceptual ? "perceptual " : "",
                          a.name(), b.name()));
     const size_t before = result_of(session) ? result_of(session)->measurements.size() : 0;
+    session.diff.waiting.clear();
     Verdict verdict = compare_images(session, a, b, perceptual);
     complete_record(session, call, before, verdict);
     session.print(verdict == Verdict::Pass      ? "PASS"
@@ -197,6 +226,7 @@ Command limit_row(const char* name, const char* argument, const char* help) {
     return setting(Group::Compare, {name}, {argument}, help,
                    [](Session& session, const Call& call) {
                        session.diff.*Limit = float(call.number_argument(0, {0, 1e30}));
+                       session.diff.waiting = call.row().label();
                    });
 }
 
