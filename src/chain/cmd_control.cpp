@@ -102,7 +102,7 @@ void nothing(Session&, const Call&) {}
 } // namespace
 
 std::vector<Command> control_commands() {
-    const auto row = [](const char* name, Strings args, const char* help, Run run,
+    const auto row = [](const char* name, Strings args, const char* help, const Run& run,
                         bool control = true) {
         Command made = setting(Group::Control, {name}, std::move(args), help, run);
         made.control = control;

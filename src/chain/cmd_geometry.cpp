@@ -101,8 +101,10 @@ bool pixelaspect(Op& op) {
     const OIIO::ImageSpec& spec = op.a().spec();
     const float factor = spec.get_float_attribute("PixelAspectRatio", 1) / wanted;
     const float x = factor > 1 ? factor : 1, y = factor < 1 ? 1 / factor : 1;
+    // NOLINTBEGIN(bugprone-incorrect-roundings): as oiiotool rounds
     const OIIO::ROI display(0, int(float(spec.full_width) * x + 0.5F), 0,
                             int(float(spec.full_height) * y + 0.5F));
+    // NOLINTEND(bugprone-incorrect-roundings)
     bool done = scale_to(op, display, false);
     if (done && !op.unchanged) {
         op.dst.specmod().attribute("PixelAspectRatio", wanted);

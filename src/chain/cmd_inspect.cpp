@@ -83,12 +83,12 @@ void run_list_formats(Session& session, const Call&) {
 } // namespace
 
 std::vector<Command> inspect_commands() {
-    const auto row = [](const char* name, Strings args, const char* help, Run run,
+    const auto row = [](const char* name, Strings args, const char* help, const Run& run,
                         std::vector<Modifier> modifiers = {}) {
         return setting(Group::Print, {name}, std::move(args), help, run, std::move(modifiers));
     };
     const Modifier format{"format", "text|xml", "how it is printed (text)"};
-    const auto image_row = [&](const char* name, const char* help, Run run,
+    const auto image_row = [&](const char* name, const char* help, const Run& run,
                                std::vector<Modifier> modifiers) {
         modifiers.push_back({"allsubimages", "0|1", "of all subimages and MIP levels (-a)"});
         Command made = row(name, {}, help, run, std::move(modifiers));

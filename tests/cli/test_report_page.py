@@ -17,6 +17,7 @@ from selenium.webdriver.chrome.service import Service  # noqa: E402
 from selenium.webdriver.common.action_chains import ActionChains  # noqa: E402
 from selenium.webdriver.common.by import By  # noqa: E402
 from selenium.webdriver.common.keys import Keys  # noqa: E402
+from selenium.webdriver.support.wait import WebDriverWait  # noqa: E402
 
 ANIM = TESTIMAGES / "anim"
 CHECK = ("--hdrflip:exposures=shot:fail=0.7:quantity=p99",)
@@ -71,6 +72,10 @@ class Page:
 
     def ask(self, script, *arguments):
         return self.driver.execute_script(f"return {script}", *arguments)
+
+    def until(self, script, *arguments):
+        """Waits for what the page does with its next frames, as for a chart that takes a new size."""
+        WebDriverWait(self.driver, 20).until(lambda _: self.ask(script, *arguments), script)
 
     def all(self, selector):
         return self.driver.find_elements(By.CSS_SELECTOR, selector)
@@ -326,7 +331,7 @@ def test_a_status_is_a_word_and_a_shape(page):
 def test_nothing_is_wider_than_the_window(page, width):
     page.size(width, 900)
     select(page, 5)
-    assert page.ask("document.documentElement.scrollWidth") <= width
+    page.until("document.documentElement.scrollWidth <= arguments[0]", width)
     assert page.one("#stage").rect["width"] > width * 0.4
 
 
