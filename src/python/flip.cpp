@@ -114,7 +114,7 @@ py::object hdr_several(const InputImage& reference, const std::vector<py::object
     py::list all;
     for (size_t i = 0; i < maps.size(); ++i)
         all.append(flip_object(std::move(maps[i]), std::move(results[i]), reference));
-    return std::move(all);
+    return py::object(std::move(all));
 }
 
 py::object hdr(std::vector<py::object>& images, const On<HdrFlipOptions>& options) {

@@ -108,7 +108,7 @@ py::object list_of(const Items& items) {
     py::list list;
     for (const auto& item : items)
         list.append(Python<std::decay_t<decltype(item)>>::to(item));
-    return std::move(list);
+    return py::object(std::move(list));
 }
 
 template <class T>
@@ -146,7 +146,7 @@ struct Python<std::map<std::string, double>> {
         py::dict dict;
         for (const auto& [key, value] : v)
             dict[py::str(key)] = value;
-        return std::move(dict);
+        return py::object(std::move(dict));
     }
 };
 
@@ -165,7 +165,7 @@ struct Python<std::vector<std::pair<std::string, std::string>>> {
         py::dict dict;
         for (const auto& [key, value] : v)
             dict[py::str(key)] = value;
-        return std::move(dict);
+        return py::object(std::move(dict));
     }
 };
 
@@ -176,7 +176,7 @@ struct Python<std::map<std::string, std::string>> {
         py::dict dict;
         for (const auto& [key, value] : v)
             dict[py::str(key)] = value;
-        return std::move(dict);
+        return py::object(std::move(dict));
     }
 };
 

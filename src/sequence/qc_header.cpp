@@ -187,20 +187,18 @@ std::string shortened(const std::vector<std::string>& names) {
     return shown < names.size() ? format("{} and {} more", text, names.size() - shown) : text;
 }
 
-// The facts of the first frame that has the usual value of a run.
-const QcFacts& usual_facts(const std::vector<QcFrame*>& frames, const OddRun& run,
+// The first frame that has the usual value of a run.
+const QcFrame* usual_frame(const std::vector<QcFrame*>& frames, const OddRun& run,
                            const ValueOf& value_of) {
-    const auto usual = std::find_if(frames.begin(), frames.end(), [&](const QcFrame* frame) {
-        return value_of(frame->facts) == run.usual;
-    });
-    return (*usual)->facts;
+    return *std::find_if(frames.begin(), frames.end(),
+                         [&](const QcFrame* frame) { return value_of(frame->facts) == run.usual; });
 }
 
 void find_odd_channels(QcShot& shot) {
     const std::vector<QcFrame*> frames = shot.measured();
     for (const OddRun& run : odd_runs(frames, channel_names, false)) {
         QcFrame& frame = *frames[run.first];
-        const QcFacts& usual = usual_facts(frames, run, channel_names);
+        const QcFacts& usual = usual_frame(frames, run, channel_names)->facts;
         if (lacks_only_layers(frame.facts, usual)) {
             continue;
         }
@@ -230,7 +228,7 @@ void find_odd_types(QcShot& shot) {
     };
     for (const OddRun& run : odd_runs(frames, value_of, false)) {
         QcFrame& frame = *frames[run.first];
-        const Types usual = types_of(usual_facts(frames, run, value_of));
+        const Types usual = types_of(usual_frame(frames, run, value_of)->facts);
         std::vector<std::string> names;
         for (const auto& [name, type] : types_of(frame.facts)) {
             const auto other = usual.find(name);

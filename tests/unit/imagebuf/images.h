@@ -84,7 +84,8 @@ inline std::vector<float> pixel_of(const ImageBuf& image, int x, int y) {
 /// All values, pixel by pixel.
 inline std::vector<float> values(const ImageBuf& image) {
     std::vector<float> out(size_t(image.spec().image_pixels()) * size_t(image.nchannels()));
-    image.get_pixels(image.roi(), OIIO::TypeFloat, out.data());
+    if (image.initialized()) // OpenImageIO 2.5 ends the program else
+        image.get_pixels(image.roi(), OIIO::TypeFloat, out.data());
     return out;
 }
 

@@ -150,7 +150,8 @@ TEST_F(Write, MipLevelsAreWrittenToTheirEnd) {
                         image.pixels->write(out.get()))
                 << out->geterror();
     }
-    EXPECT_EQ(ImageBuf(in("ours.exr")).nmiplevels(), 5);
+    const auto ours = OIIO::ImageInput::open(in("ours.exr"));
+    EXPECT_TRUE(ours->seek_subimage(0, 4) && !ours->seek_subimage(0, 5));
     EXPECT_TRUE(contents(in("ours.exr")) == contents(in("plain.exr")));
 }
 
