@@ -45,7 +45,8 @@ int64_t to_integer(py::handle value, const std::string& where, int64_t low, int6
 
 bool to_bool(py::handle value, const std::string& where) {
     const std::string type = py::str(py::type::handle_of(value).attr("__name__"));
-    if (!PyBool_Check(value.ptr()) && type != "bool_")
+    // The others are those of NumPy 1 and 2.
+    if (!PyBool_Check(value.ptr()) && type != "bool_" && type != "bool")
         wrong_type(where, value, "a bool");
     return PyObject_IsTrue(value.ptr()) == 1;
 }

@@ -67,6 +67,10 @@ def test_fields_are_described(name):
     assert fields and all(re.match(r".+: .+[.,]$", field.__doc__) for field in fields)
 
 
+def bare(text):
+    return re.sub(r"\s", "", text).lower()
+
+
 def test_pydoc():
     done = subprocess.run([sys.executable, "-m", "pydoc", "tonetool"], capture_output=True, text=True,
                           check=True)
@@ -75,7 +79,8 @@ def test_pydoc():
         assert re.search(rf"^    {name}\(", text, re.M), name
     for word in ("tonetool - HDR image comparison", "hdr_flip(reference, test, *, pixels=None",
                  "class FlipSummary", "CurveOptions: A tone curve", "white_percentile : float | None", "pixels per degree", "Eurographics 2021"):
-        assert word.lower() in text.lower(), word
+        # Python 3.13 breaks long signatures into lines.
+        assert bare(word) in bare(text), word
     assert not re.search(r"^    \w+\(.*\*args", text, re.M)
     assert max(len(line) for line in pydoc.plain(text).splitlines() if "(" not in line) <= 120
 
