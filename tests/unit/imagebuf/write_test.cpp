@@ -151,6 +151,7 @@ TEST_F(Write, MipLevelsAreWrittenToTheirEnd) {
                 << out->geterror();
     }
     const auto ours = OIIO::ImageInput::open(in("ours.exr"));
+    ASSERT_TRUE(ours);
     EXPECT_TRUE(ours->seek_subimage(0, 4) && !ours->seek_subimage(0, 5));
     EXPECT_TRUE(contents(in("ours.exr")) == contents(in("plain.exr")));
 }
