@@ -10,10 +10,21 @@ namespace tonetool::chain {
 
 namespace {
 
+// --if, --for and --while that may be within one another.
+constexpr size_t most_nested_blocks = 100;
+
+void push_block(Session& session, const Block& block) {
+    if (session.flow.blocks.size() == most_nested_blocks) {
+        throw CommandError("nested deeper than " + std::to_string(most_nested_blocks) +
+                           ", the most that --if, --for and --while may be");
+    }
+    session.flow.blocks.push_back(block);
+}
+
 void begin_block(Session& session, const std::string& kind, const Call& call) {
-    Flow& flow = session.flow;
-    bool outside = flow.running();
-    flow.blocks.push_back({kind, flow.command, outside && is_true(call.argument(0)), outside});
+    bool outside = session.flow.running();
+    push_block(session,
+               {kind, session.flow.command, outside && is_true(call.argument(0)), outside});
 }
 
 Block& innermost(Session& session, const std::string& end, const std::string& kind) {
@@ -67,7 +78,7 @@ void run_for(Session& session, const Call& call) {
         }
         set_loop_variable(session, block, call.argument(0));
     }
-    session.flow.blocks.push_back(block);
+    push_block(session, block);
 }
 
 void run_endfor(Session& session, const Call&) {

@@ -82,20 +82,40 @@ std::string value_or_text(Session& session, const std::string& text) {
     }
 }
 
+// Values of variables that hold variables grow without an end.
+void check_size(size_t size) {
+    if (size > most_bytes_of_a_word) {
+        throw CommandError("expression : a word with the values of its {expressions} is longer "
+                           "than " +
+                           OIIO::Strutil::memformat(most_bytes_of_a_word) +
+                           ", the most that it may be");
+    }
+}
+
 } // namespace
 
 std::string with_values(Session& session, const std::string& word) {
     if (!session.evaluate || word.find('{') == std::string::npos) {
         return word;
     }
-    OIIO::string_view rest = OIIO::string_view(word).substr(word.find('{'));
-    const std::string before = word.substr(0, word.size() - rest.size());
-    const OIIO::string_view nested = OIIO::Strutil::parse_nested(rest);
-    if (nested.empty()) {
-        return word;
+    Strings plain, nested; // a plain text, an expression, a plain text, ...
+    OIIO::string_view rest = word;
+    for (size_t brace = rest.find('{'); brace != OIIO::string_view::npos; brace = rest.find('{')) {
+        OIIO::string_view behind = rest.substr(brace);
+        const OIIO::string_view inner = OIIO::Strutil::parse_nested(behind);
+        if (inner.empty()) {
+            break;
+        }
+        plain.push_back(rest.substr(0, brace));
+        nested.push_back(inner.substr(1, inner.size() - 2));
+        rest = behind;
     }
-    const std::string after = with_values(session, rest); // the order of oiiotool's messages
-    return before + value_or_text(session, nested.substr(1, nested.size() - 2)) + after;
+    std::string text = rest;
+    for (size_t i = nested.size(); i-- > 0;) { // the order of oiiotool's messages
+        text = plain[i] + value_or_text(session, nested[i]) + text;
+        check_size(text.size());
+    }
+    return text;
 }
 
 } // namespace tonetool::chain

@@ -1,8 +1,8 @@
 // Tables of lights in JSON.
 #include <OpenImageIO/strutil.h>
 #include <algorithm>
-#include <nlohmann/json.hpp>
 
+#include "imagebuf/json_reading.h"
 #include "imagebuf/light_table.h"
 
 namespace tonetool {
@@ -52,11 +52,12 @@ private:
             return true;
         if (entry.contains("index")) {
             if (!entry["index"].is_number_integer())
-                return fail(place + "/index", entry["index"].dump() + " is not a whole number");
+                return fail(place + "/index",
+                            shown_json(entry["index"]) + " is not a whole number");
             key = entry["index"].dump();
         } else if (listed && entry.contains("name")) {
             if (!entry["name"].is_string())
-                return fail(place + "/name", entry["name"].dump() + " is not a text");
+                return fail(place + "/name", shown_json(entry["name"]) + " is not a text");
             key = entry["name"].get<std::string>();
         }
         return true;
@@ -149,7 +150,7 @@ private:
             from.is_array() && from.size() == 3 &&
             std::all_of(from.begin(), from.end(), [](const json& v) { return v.is_number(); });
         if (!color && !from.is_number())
-            return fail(place, from.dump() + " is neither a number nor three");
+            return fail(place, shown_json(from) + " is neither a number nor three");
         double rgb[3] = {0, 0, 0};
         for (size_t c = 0; c < 3; ++c) {
             rgb[c] = color ? from[c].get<double>() : from.get<double>();
@@ -169,11 +170,9 @@ private:
 bool read_json_lights(const std::string& text, LightTable& table, std::string& error) {
     json all;
     try {
-        all = json::parse(text);
-    } catch (const json::exception& e) {
-        // "[json.exception...] parse error at line 1, column 2: ..."
-        const std::string what = e.what();
-        error = format("\"{}\": {}", table.file(), what.substr(what.find("] ") + 2));
+        all = parse_json<json>(text);
+    } catch (const std::runtime_error& problem) {
+        error = format("\"{}\": {}", table.file(), problem.what());
         return false;
     }
     Reader reader(table, error);

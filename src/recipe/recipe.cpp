@@ -115,7 +115,12 @@ private:
             if (quote && !more()) {
                 fail(std::string("unfinished quotation, no closing ") + quote);
             }
+            if (m_made + out.size() > most_made) {
+                fail("with the values of its parameters it is longer than 16 MB, the most that "
+                     "the words of a recipe may be");
+            }
         }
+        m_made += out.size();
         return out;
     }
 
@@ -165,11 +170,15 @@ private:
         }
     }
 
+    // Parameters that hold parameters grow without an end.
+    static constexpr size_t most_made = 16 << 20;
+
     const std::string& m_text;
     Parameters m_values;
     std::set<std::string> m_known;
     Strings m_words;
     size_t m_at = 0;
+    size_t m_made = 0; ///< bytes of all words and values up to here
     bool m_line_begins = false;
 };
 

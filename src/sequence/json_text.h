@@ -1,10 +1,11 @@
 // What all JSON files of checks have in common: their first keys, their errors, their layout.
 #pragma once
 
-#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <string>
+
+#include "imagebuf/json_reading.h"
 
 namespace tonetool::sequence {
 
@@ -20,10 +21,35 @@ void check_format(const nlohmann::ordered_json& from, const std::string& format,
 template <class Read>
 auto parsed(const std::string& text, const Read& read) {
     try {
-        return read(nlohmann::ordered_json::parse(text));
+        return read(parse_json<nlohmann::ordered_json>(text));
     } catch (const nlohmann::json::exception& problem) {
-        const std::string what = problem.what(); // "[json.exception.type_error.302] type must ..."
-        throw std::runtime_error(what.substr(std::min(what.size(), what.find("] ") + 2)));
+        throw std::runtime_error(reason_of(problem));
+    }
+}
+
+/// Null where the text is no JSON.
+inline nlohmann::ordered_json parsed_or_null(const std::string& text) {
+    try {
+        return parse_json<nlohmann::ordered_json>(text);
+    } catch (const std::runtime_error&) {
+        return nullptr;
+    }
+}
+
+/// read(item) for each item of a list or object; an error in it says where, "frames/3: ...".
+template <class Read>
+void each_of(const nlohmann::ordered_json& list, const std::string& key, const Read& read) {
+    if (!list.is_array() && !list.is_object()) {
+        throw std::runtime_error("\"" + key + "\" is " + shown_json(list) + ", not a list");
+    }
+    for (const auto& item : list.items()) {
+        try {
+            read(item.value(), item.key());
+        } catch (const nlohmann::json::exception& problem) {
+            throw std::runtime_error(key + "/" + item.key() + ": " + reason_of(problem));
+        } catch (const std::runtime_error& problem) {
+            throw std::runtime_error(key + "/" + item.key() + ": " + problem.what());
+        }
     }
 }
 

@@ -1,7 +1,8 @@
 #include "sequence/qc_json.h"
 
-#include <nlohmann/json.hpp>
 #include <stdexcept>
+
+#include "sequence/json_text.h"
 
 namespace tonetool {
 
@@ -9,13 +10,30 @@ namespace {
 
 using nlohmann::ordered_json;
 
+template <class Int>
+void read_whole(const ordered_json& from, const char* key, Int& to) {
+    to = whole_number<Int>(from.at(key), key);
+}
+
+void read_real(const ordered_json& from, const char* key, double& to) {
+    to = finite_number(from.at(key), key);
+}
+
+template <class Ints>
+void read_whole_numbers(const ordered_json& from, const char* key, Ints& to) {
+    to = from.at(key).get<Ints>();
+    for (size_t i = 0; i < to.size(); ++i) {
+        to[i] = whole_number<int>(from[key].at(i), key);
+    }
+}
+
 ordered_json json_of(const QcSpot& spot) {
     return {spot.x, spot.y, spot.value, spot.around};
 }
 
 QcSpot spot_of(const ordered_json& from) {
-    return {from.at(0).get<int>(), from.at(1).get<int>(), from.at(2).get<double>(),
-            from.at(3).get<double>()};
+    return {whole_number<int>(from.at(0), "x"), whole_number<int>(from.at(1), "y"),
+            finite_number(from.at(2), "value"), finite_number(from.at(3), "around")};
 }
 
 ordered_json json_of(const std::vector<QcSpot>& spots) {
@@ -44,7 +62,7 @@ void put(ordered_json& to, const char* key, const QcCount& count) {
 QcCount count_of(const ordered_json& from, const char* key) {
     QcCount count;
     if (from.contains(key)) {
-        count.pixels = from[key].at("pixels").get<int64_t>();
+        read_whole(from[key], "pixels", count.pixels);
         count.first = spots_of(from[key].at("first"));
     }
     return count;
@@ -59,9 +77,13 @@ ordered_json json_of(const QcPart& part) {
 }
 
 QcPart part_of(const ordered_json& from) {
-    return {from.at("name").get<std::string>(), from.at("data").get<std::array<int, 4>>(),
-            from.at("display").get<std::array<int, 4>>(), from.at("compression").get<std::string>(),
-            from.at("metadata").get<std::map<std::string, std::string>>()};
+    QcPart part;
+    from.at("name").get_to(part.name);
+    read_whole_numbers(from, "data", part.data);
+    read_whole_numbers(from, "display", part.display);
+    from.at("compression").get_to(part.compression);
+    from.at("metadata").get_to(part.metadata);
+    return part;
 }
 
 ordered_json json_of(const QcLayer& layer) {
@@ -78,11 +100,11 @@ QcLayer layer_of(const ordered_json& from) {
     QcLayer layer;
     from.at("name").get_to(layer.name);
     from.at("kind").get_to(layer.kind);
-    from.at("lit").get_to(layer.lit);
+    read_whole(from, "lit", layer.lit);
     from.at("constant").get_to(layer.constant);
-    from.at("min").get_to(layer.min);
-    from.at("max").get_to(layer.max);
-    from.at("mean").get_to(layer.mean);
+    read_real(from, "min", layer.min);
+    read_real(from, "max", layer.max);
+    read_real(from, "mean", layer.mean);
     layer.nan = count_of(from, "nan");
     layer.inf = count_of(from, "inf");
     layer.negative = count_of(from, "negative");
@@ -109,7 +131,8 @@ ordered_json json_of(const QcPicture& picture) {
 }
 
 std::vector<int> cells_of(const ordered_json& from, const char* key) {
-    auto cells = from.at(key).get<std::vector<int>>();
+    std::vector<int> cells;
+    read_whole_numbers(from, key, cells);
     if (cells.size() != size_t(QcPicture::kWide) * QcPicture::kHigh) {
         throw std::runtime_error(std::string(key) + " has " + std::to_string(cells.size()) +
                                  " values, not " + std::to_string(QcPicture::kWide) + " x " +
@@ -125,15 +148,15 @@ QcPicture picture_of(const ordered_json& from) {
     from.at("hash").get_to(picture.hash);
     picture.thumbnail = cells_of(from, "thumbnail");
     picture.peaks = cells_of(from, "peaks");
-    from.at("spike_count").get_to(picture.spike_count);
+    read_whole(from, "spike_count", picture.spike_count);
     picture.spikes = spots_of(from.at("spikes"));
     picture.alpha_low = count_of(from, "alpha_low");
     picture.alpha_high = count_of(from, "alpha_high");
     if (from.contains("groups")) {
         const ordered_json& groups = from["groups"];
-        groups.at("count").get_to(picture.groups);
-        groups.at("sum").get_to(picture.group_sum);
-        groups.at("difference").get_to(picture.group_difference);
+        read_whole(groups, "count", picture.groups);
+        read_real(groups, "sum", picture.group_sum);
+        read_real(groups, "difference", picture.group_difference);
         picture.group_worst = spot_of(groups.at("worst"));
     }
     return picture;
@@ -188,11 +211,13 @@ std::string to_json(const QcRecord& record) {
 QcRecord qc_from_json(const std::string& text) {
     QcRecord record;
     try {
-        const ordered_json from = ordered_json::parse(text);
+        const auto from = parse_json<ordered_json>(text);
         record.facts = facts_of(from);
         for (const auto& [code, limit] : from.at("limits").items()) {
             record.limits.set(code, limit.get<std::string>());
         }
+    } catch (const nlohmann::json::exception& problem) {
+        throw std::runtime_error("not what --qc measured: " + reason_of(problem));
     } catch (const std::exception& problem) {
         throw std::runtime_error(std::string("not what --qc measured: ") + problem.what());
     }

@@ -3,12 +3,13 @@
 #include <OpenImageIO/strutil.h>
 #include <algorithm>
 #include <array>
+#include <exception>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <set>
 #include <vector>
 
 #include "include/tonetool/tonetool.h"
+#include "sequence/json_text.h"
 #include "sequence/page/files.h"
 #include "sequence/report_text.h"
 #include "sequence/results_json.h"
@@ -45,22 +46,31 @@ struct Kept {
     size_t small = 0;
 };
 
-// Without spots that turned out to be no fault. Empty where the text is no JSON: that would be a
-// page that does not work.
+bool is_found(const Position& at, const FrameResult& frame) {
+    return std::any_of(frame.faults.begin(), frame.faults.end(),
+                       [&](const Fault& fault) { return fault.position == at; }) ||
+           std::any_of(frame.measurements.begin(), frame.measurements.end(),
+                       [&](const Measurement& one) { return one.worst == at; });
+}
+
+// Without spots that turned out to be no fault. Empty where the text is not what a store wrote:
+// that would be a page that does not work.
 std::string trimmed(const std::string& text, const FrameResult& frame) {
-    ordered_json pictures = ordered_json::parse(text, nullptr, false);
+    ordered_json pictures = parsed_or_null(text);
     if (!pictures.is_object() || !pictures.contains("spots")) {
         return "";
     }
     ordered_json spots = ordered_json::array();
-    for (const ordered_json& spot : pictures["spots"]) {
-        const Position at{spot["x"].get<int>(), spot["y"].get<int>()};
-        const auto of_fault = [&](const Fault& fault) { return fault.position == at; };
-        const auto of_error = [&](const Measurement& one) { return one.worst == at; };
-        if (std::any_of(frame.faults.begin(), frame.faults.end(), of_fault) ||
-            std::any_of(frame.measurements.begin(), frame.measurements.end(), of_error)) {
-            spots.push_back(spot);
+    try {
+        for (const ordered_json& spot : pictures["spots"]) {
+            if (is_found(
+                    {whole_number<int>(spot.at("x"), "x"), whole_number<int>(spot.at("y"), "y")},
+                    frame)) {
+                spots.push_back(spot);
+            }
         }
+    } catch (const std::exception&) {
+        return "";
     }
     pictures["spots"] = spots;
     pictures.erase("of");
@@ -164,7 +174,7 @@ void trim(ordered_json& result, const Kept& kept, const PageLimits& limits) {
 }
 
 std::string data_of(const ShotResult& shot, const Kept& kept, const PageLimits& limits) {
-    ordered_json result = ordered_json::parse(to_json(shot));
+    ordered_json result = parse_json<ordered_json>(to_json(shot));
     result["worst"] = shot.worst; // indices here
     trim(result, kept, limits);
     const ordered_json page{

@@ -5,11 +5,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <stdexcept>
 
 #include "sequence/encoded.h"
+#include "sequence/json_text.h"
 
 namespace tonetool::sequence {
 
@@ -61,8 +61,8 @@ std::vector<size_t> shown_frames(const ShotResult& shot, std::string& warning) {
 
 std::optional<ImageBuf> thumbnail(const FrameResult& frame, const PictureStore& pictures) {
     const std::string text = pictures.small(frame);
-    const auto json = nlohmann::json::parse(text, nullptr, false);
-    if (!json.is_object() || !json.contains("test")) {
+    const auto json = parsed_or_null(text);
+    if (!json.is_object() || !json.contains("test") || !json["test"].is_string()) {
         return std::nullopt;
     }
     return picture_of(json["test"].get<std::string>());

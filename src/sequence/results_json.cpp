@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "sequence/json_text.h"
+#include "sequence/trust.h"
 
 namespace tonetool::sequence {
 
@@ -46,7 +47,8 @@ ordered_json of(const std::vector<double>& values) {
     return list;
 }
 
-double number(const ordered_json& from) {
+// What is infinite or no number is a text; the numbers themselves are finite.
+double number(const ordered_json& from, const std::string& key) {
     if (from.is_string()) {
         const auto text = from.get<std::string>();
         if (text == "nan") {
@@ -56,7 +58,7 @@ double number(const ordered_json& from) {
             return text == "inf" ? HUGE_VAL : -HUGE_VAL;
         }
     }
-    return from.get<double>();
+    return finite_number(from, key);
 }
 
 template <class List>
@@ -84,21 +86,22 @@ std::string text(const ordered_json& from, const char* key) {
 }
 
 std::optional<double> maybe_number(const ordered_json& from, const char* key) {
-    return from.contains(key) ? std::optional<double>(number(from[key])) : std::nullopt;
+    return from.contains(key) ? std::optional<double>(number(from[key], key)) : std::nullopt;
 }
 
 std::optional<Position> maybe_position(const ordered_json& from, const char* key) {
     if (!from.contains(key)) {
         return std::nullopt;
     }
-    return Position{from[key].at(0).get<int>(), from[key].at(1).get<int>()};
+    const ordered_json& at = from[key];
+    return Position{whole_number<int>(at.at(0), key), whole_number<int>(at.at(1), key)};
 }
 
 Numbers numbers(const ordered_json& from, const char* key) {
     Numbers list;
     if (from.contains(key)) {
         for (const auto& item : from[key].items()) {
-            list.emplace_back(item.key(), number(item.value()));
+            list.emplace_back(item.key(), number(item.value(), item.key()));
         }
     }
     return list;
@@ -166,7 +169,7 @@ ordered_json json_of(const Threshold& threshold) {
 }
 
 Threshold threshold_of(const ordered_json& from) {
-    return {from.at("quantity").get<std::string>(), number(from.at("value")),
+    return {from.at("quantity").get<std::string>(), number(from.at("value"), "value"),
             from.at("higher_is_better").get<bool>(), maybe_number(from, "fail"),
             maybe_number(from, "warn")};
 }
@@ -204,11 +207,13 @@ Measurement measurement_of(const ordered_json& from) {
         measured.threshold = threshold_of(from["threshold"]);
     }
     measured.quantities = numbers(from, "quantities");
-    measured.histogram = values<long long>(from, "histogram");
+    for (const ordered_json& bucket : from.value("histogram", ordered_json::array())) {
+        measured.histogram.push_back(whole_number<long long>(bucket, "histogram"));
+    }
     measured.worst = maybe_position(from, "worst");
-    measured.pixels = from.at("pixels").get<long long>();
+    measured.pixels = whole_number<long long>(from.at("pixels"), "pixels");
     for (const ordered_json& stops : from.value("exposures", ordered_json::array())) {
-        measured.exposures.push_back(number(stops));
+        measured.exposures.push_back(number(stops, "exposures"));
     }
     measured.parameters = numbers(from, "parameters");
     measured.settings = texts(from, "settings");
@@ -233,27 +238,31 @@ ordered_json json_of(const FrameResult& frame) {
         to["warnings"] = frame.warnings;
     }
     if (!frame.qc.empty()) {
-        to["qc"] = ordered_json::parse(frame.qc);
+        to["qc"] = parse_json<ordered_json>(frame.qc);
     }
     return to;
 }
 
 FrameResult frame_of(const ordered_json& from) {
     FrameResult frame;
-    frame.frame = from.at("frame").get<int>();
+    frame.frame = whole_number<int>(from.at("frame"), "frame");
     frame.view = text(from, "view");
     frame.status = status(from);
     frame.message = text(from, "message");
     frame.reference = text(from, "reference");
     frame.test = text(from, "test");
-    for (const ordered_json& measured : from.value("measurements", ordered_json::array())) {
-        frame.measurements.push_back(measurement_of(measured));
-    }
-    for (const ordered_json& fault : from.value("faults", ordered_json::array())) {
-        frame.faults.push_back(fault_of(fault));
-    }
+    const ordered_json none = ordered_json::array();
+    each_of(from.contains("measurements") ? from["measurements"] : none, "measurements",
+            [&](const ordered_json& one, const std::string&) {
+                frame.measurements.push_back(measurement_of(one));
+            });
+    each_of(from.contains("faults") ? from["faults"] : none, "faults",
+            [&](const ordered_json& one, const std::string&) {
+                frame.faults.push_back(fault_of(one));
+            });
     frame.warnings = values<std::string>(from, "warnings");
     frame.qc = from.contains("qc") ? from["qc"].dump() : "";
+    judge_from_numbers(frame);
     return frame;
 }
 
@@ -264,8 +273,9 @@ ordered_json json_of(const ShotExposures& exposures) {
 }
 
 ShotExposures exposures_of(const ordered_json& from) {
-    return {number(from.at("max_luminance")), number(from.at("median_luminance")),
-            from.at("frames").get<int>()};
+    return {number(from.at("max_luminance"), "max_luminance"),
+            number(from.at("median_luminance"), "median_luminance"),
+            whole_number<int>(from.at("frames"), "frames")};
 }
 
 ordered_json worst_of(const ShotResult& shot) {
@@ -297,7 +307,7 @@ void check_format(const ordered_json& from, const std::string& format, int versi
     if (!from.is_object() || text(from, "format") != format) {
         throw std::runtime_error("has no \"format\": \"" + format + "\"");
     }
-    const int found = from.at("version").get<int>();
+    const int found = whole_number<int>(from.at("version"), "version");
     if (found != version) {
         throw std::runtime_error(
             OIIO::Strutil::fmt::format("is of version {}, this program reads {}", found, version));
@@ -330,9 +340,10 @@ ShotResult shot_from_json(const std::string& from) {
         if (json.contains("exposures")) {
             shot.exposures = exposures_of(json["exposures"]);
         }
-        for (const ordered_json& frame : json.at("frames")) {
-            shot.frames.push_back(frame_of(frame));
-        }
+        each_of(json.at("frames"), "frames", [&](const ordered_json& one, const std::string&) {
+            shot.frames.push_back(frame_of(one));
+        });
+        check_limits(shot);
         conclude(shot);
         return shot;
     });
@@ -349,7 +360,7 @@ FrameResult frame_from_json(const std::string& from) {
 std::string valid_utf8(const std::string& text) {
     const auto quoted =
         ordered_json(text).dump(-1, ' ', false, ordered_json::error_handler_t::replace);
-    return ordered_json::parse(quoted).get<std::string>();
+    return parse_json<ordered_json>(quoted).get<std::string>();
 }
 
 } // namespace tonetool::sequence

@@ -92,11 +92,12 @@ ExposureSamples samples_from_json(const std::string& text) {
     return parsed(text, [](const ordered_json& json) {
         check_format(json, exposures_format, exposures_version);
         ExposureSamples samples;
-        for (const ordered_json& one : json.at("samples")) {
-            samples.push_back({one.at("frame").get<int>(), one.value("view", std::string()),
-                               one.at("max_luminance").get<double>(),
-                               one.at("median_luminance").get<double>()});
-        }
+        each_of(json.at("samples"), "samples", [&](const ordered_json& one, const std::string&) {
+            samples.push_back({whole_number<int>(one.at("frame"), "frame"),
+                               one.value("view", std::string()),
+                               finite_number(one.at("max_luminance"), "max_luminance"),
+                               finite_number(one.at("median_luminance"), "median_luminance")});
+        });
         return samples;
     });
 }
@@ -109,9 +110,10 @@ ShotExposures read_exposures(const std::string& file) {
                 check_format(json, exposures_format, exposures_version);
             }
             const ordered_json& from = json.at("exposures");
-            const ShotExposures range{from.at("max_luminance").get<double>(),
-                                      from.at("median_luminance").get<double>(),
-                                      from.at("frames").get<int>()};
+            const ShotExposures range{
+                finite_number(from.at("max_luminance"), "max_luminance"),
+                finite_number(from.at("median_luminance"), "median_luminance"),
+                whole_number<int>(from.at("frames"), "frames")};
             if (!(range.max_luminance > 0) || !(range.median_luminance > 0)) {
                 throw std::runtime_error("has luminances that are not above 0");
             }

@@ -14,6 +14,12 @@ namespace {
 
 namespace Strutil = OIIO::Strutil;
 
+// The begin of a text that may be long, for a message.
+std::string shortened(const std::string& text) {
+    constexpr size_t most = 200;
+    return text.size() > most ? text.substr(0, most) + "..." : text;
+}
+
 bool find_global(const std::string& name, OIIO::ParamValue& value) {
     if (int number = 0; OIIO::getattribute(name, number)) {
         value = {name, number};
@@ -55,13 +61,14 @@ private:
     static const std::vector<Operator>& operators();
 
     [[noreturn]] void fail(const std::string& why) const {
-        throw CommandError(Strutil::fmt::format("{} at char {} of '{}'", why,
-                                                m_text.size() - m_rest.size() + 1, m_text));
+        throw CommandError(Strutil::fmt::format(
+            "{} at char {} of '{}'", why, m_text.size() - m_rest.size() + 1, shortened(m_text)));
     }
 
     std::string binary(int level);
     std::string combined(const std::string& left, const Operator& with, const std::string& right);
     std::string atom();
+    std::string value_of_atom();
     std::string function(const std::string& name);
     std::string named(const std::string& name);
     std::string image_attribute(bool found);
@@ -71,6 +78,7 @@ private:
     ExpressionNames& m_names;
     const bool m_lenient;
     const std::string m_text;
+    int m_depth = 0; ///< of the parentheses and signs around the atom here
     OIIO::string_view m_rest;
 };
 
@@ -136,7 +144,20 @@ std::string Evaluator::binary(int level) {
     return left;
 }
 
+// Text from a file must not exhaust the stack of the program that reads it.
 std::string Evaluator::atom() {
+    if (m_depth == most_nested_expressions) {
+        throw CommandError(Strutil::fmt::format(
+            "nested deeper than {}, the most that parentheses and signs may be, at char {} of '{}'",
+            most_nested_expressions, m_text.size() - m_rest.size() + 1, shortened(m_text)));
+    }
+    ++m_depth;
+    std::string value = value_of_atom();
+    --m_depth;
+    return value;
+}
+
+std::string Evaluator::value_of_atom() {
     Strutil::skip_whitespace(m_rest);
     if (Strutil::parse_char(m_rest, '(')) {
         std::string inner = binary(0);

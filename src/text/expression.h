@@ -20,7 +20,11 @@ public:
     virtual std::optional<std::string> attribute(const std::string& name) = 0;
 };
 
-/// The value, as text; what is not understood is a CommandError. If `lenient`, text in place of a
+/// Parentheses and signs that may be within one another.
+inline constexpr int most_nested_expressions = 100;
+
+/// The value, as text; what is not understood is a CommandError, as is what is nested deeper than
+/// `most_nested_expressions`. If `lenient`, text in place of a
 /// number and unknown global attributes are let pass as oiiotool does.
 std::string evaluated(const std::string& text, ExpressionNames& names, bool lenient);
 

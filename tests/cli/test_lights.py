@@ -329,6 +329,9 @@ BAD_TABLES = [
     ("t.json", {"groups": {"key": {"lights": [{"luminance": -2}]}}},
      ["/groups/key/lights/0/luminance", "-2"]),
     ("t.json", {"key": {"colour": 1}}, ["/key", "power"]), ("t.json", [[1, 2]], ["/0", "[1,2]"]),
+    ("t.json", '{"key": 1e999}', ["t.json", "1e999"]), ("t.json", '{"key": NaN}', ["line 1"]),
+    ("t.json", '[{"index": 1e99, "luminance": 1}]', ["/0/index", "1e+99"]),
+    ("t.json", '{"key": ' * 101 + "1" + "}" * 101, ["t.json", "nested deeper than 100"]),
     ("t.txt", "key,1", [".csv"]), ("", "", ["missing.csv", "no such file"]),
 ]
 

@@ -86,6 +86,46 @@ TEST_F(Expression, IsLenientWithCompat) {
     EXPECT_THAT(err.str(), HasSubstr("expression : syntax error"));
 }
 
+std::string repeated(const std::string& text, int times) {
+    std::string all;
+    for (int i = 0; i < times; ++i) {
+        all += text;
+    }
+    return all;
+}
+
+TEST_F(Expression, IsBoundedInItsDepth) {
+    const int most = most_nested_expressions;
+    EXPECT_EQ(value("{" + repeated("!", most - 1) + "1}"), "0");
+    EXPECT_EQ(value("{" + repeated("(", most - 1) + "7" + repeated(")", most - 1) + "}"), "7");
+    const std::string deep[] = {
+        repeated("!", most) + "1",
+        repeated("!", 10000) + "1",
+        repeated("-+", 10000) + "1",
+        repeated("(", 10000) + "1" + repeated(")", 10000),
+        repeated("not(", 10000) + "1" + repeated(")", 10000),
+        repeated("eq(1,", 10000) + "1" + repeated(")", 10000),
+        repeated("1+(", 10000) + "1" + repeated(")", 10000),
+    };
+    for (const std::string& text : deep) {
+        EXPECT_THAT(problem("{" + text + "}"), HasSubstr("nested deeper than 100")) << text;
+    }
+}
+
+TEST_F(Expression, MayHaveAnyLengthBesideOneAnother) {
+    EXPECT_EQ(value(repeated("{1}", 20000)), repeated("1", 20000));
+    EXPECT_EQ(value("{0" + repeated("+1", 2000) + "}"), "2000");
+    session.compat = true;
+    EXPECT_EQ(value("{1+}{" + repeated("!", 300) + "1}"), "1+" + repeated("!", 300) + "1");
+    EXPECT_EQ(session.errors, 2);
+}
+
+TEST_F(Expression, DoesNotGrowWithoutAnEnd) {
+    session.variables.attribute("x", repeated("abcdefgh", 100000));
+    EXPECT_EQ(value("{x}").size(), 800000U);
+    EXPECT_THAT(problem("{x}{x}"), HasSubstr("longer than 1.0 MB"));
+}
+
 TEST(IsTrue, NeitherEmptyNorZeroNorFalse) {
     for (const char* word : {"1", "-0.5", "yes", "hello"}) {
         EXPECT_TRUE(is_true(word)) << word;

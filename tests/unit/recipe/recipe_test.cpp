@@ -53,6 +53,17 @@ TEST(Recipe, Parameters) {
     EXPECT_THAT(words("x $a = 1", {{"a", "y"}}), ElementsAre("x", "y", "=", "1"));
 }
 
+// "A billion laughs."
+TEST(Recipe, ParametersDoNotGrowWithoutAnEnd) {
+    std::string text = "$a0 = 0123456789\n";
+    for (int i = 1; i < 40; ++i) {
+        const std::string before = "$a" + std::to_string(i - 1);
+        text += "$a" + std::to_string(i) + " = " + before + before + "\n";
+    }
+    EXPECT_THAT(error_of(text + "$a39"), HasSubstr("longer than 16 MB"));
+    EXPECT_EQ(words("$a = 0123456789\n$a$a$a").front().size(), 30U);
+}
+
 TEST(Recipe, ParametersThatAreNotThere) {
     EXPECT_THAT(error_of("a\nb $frame"), HasSubstr("line 3: parameter \"frame\" has no value"));
     EXPECT_THAT(error_of("$frame = 1", {{"fram", "2"}}),

@@ -47,6 +47,21 @@ TEST(Evaluate, LeavesTheStackWithItsTopLast) {
     EXPECT_EQ(values_of(done.stack[0].subimages.at(0)), expected);
 }
 
+TEST(Evaluate, BoundsTheNestingOfBlocks) {
+    for (const char* kind : {"--if", "--while", "--for"}) {
+        Strings words;
+        for (int i = 0; i < 101; ++i) {
+            words.insert(words.end(), {kind, std::string(kind) == "--for" ? "i" : "1"});
+            if (std::string(kind) == "--for") {
+                words.emplace_back("1");
+            }
+        }
+        const Evaluation done = evaluate(words, {}, in_testimages);
+        EXPECT_EQ(done.status, 1) << kind;
+        EXPECT_THAT(done.error, HasSubstr("nested deeper than 100")) << kind;
+    }
+}
+
 TEST(Evaluate, TakesImagesAndTheirFormat) {
     OIIO::ImageBuf image = grey(0.25f);
     std::vector<OIIO::ImageBuf> images;

@@ -137,6 +137,7 @@ TEST(Json, Comes_back_to_the_byte) {
     second.view = "left";
     second.faults = {{"odd", Severity::Warning, "NaN.", "R", Position{1, 2}, -HUGE_VAL, 1e-310}};
     second.qc = qc_text();
+    judge(second);
     ShotResult result = shot({frame(1, std::nan("")), second, missing(7)});
     result.exposures = ShotExposures{1.0 / 3, 0.1, 8};
     const std::string text = to_json(result);

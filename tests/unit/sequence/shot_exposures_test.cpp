@@ -39,5 +39,27 @@ TEST(ShotExposures, Files_come_back_to_the_bit_sorted) {
     EXPECT_THROW(to_json({samples[0], samples[0]}), std::runtime_error);
 }
 
+TEST(ShotExposures, Numbers_that_do_not_fit_are_named) {
+    const auto refusal = [](const std::string& frame, const std::string& maximum) {
+        try {
+            samples_from_json(R"({"format":"tonetool-exposures","version":1,"samples":[{"frame":)" +
+                              frame + R"(,"max_luminance":)" + maximum +
+                              R"(,"median_luminance":1}]})");
+        } catch (const std::runtime_error& problem) {
+            return std::string(problem.what());
+        }
+        return std::string("accepted");
+    };
+    EXPECT_EQ(refusal("1", "2"), "accepted");
+    for (const char* frame : {"1e99", "1099511627776", "-2147483649", "1.5", "\"nan\"", "null"}) {
+        EXPECT_THAT(refusal(frame, "2"), testing::HasSubstr("samples/0: \"frame\" is ")) << frame;
+    }
+    for (const char* maximum : {"\"nan\"", "null", "[1]", "true"}) {
+        EXPECT_THAT(refusal("1", maximum), testing::HasSubstr("\"max_luminance\" is ")) << maximum;
+    }
+    EXPECT_THAT(refusal("1", "1e999"), testing::HasSubstr("1e999"));
+    EXPECT_THAT(refusal("1", "NaN"), testing::HasSubstr("parse error"));
+}
+
 } // namespace
 } // namespace tonetool::sequence

@@ -1,0 +1,18 @@
+// What a file of results says of itself, held against the numbers and faults in it.
+#pragma once
+
+#include "sequence/results.h"
+
+namespace tonetool::sequence {
+
+/// Draws the status of a frame that was read from a file anew. Where the file calls the frame
+/// better than its numbers and faults do, they are believed, and a warning of the frame says so. A
+/// runtime_error where it is called worse, or passed without a limit that held: the numbers are not
+/// those of the check that was run.
+void judge_from_numbers(FrameResult& frame);
+
+/// A runtime_error unless every measurement of a command that the check gives a limit has a
+/// threshold, of the quantity's own value and, where the word has one plain number, of that limit.
+void check_limits(const ShotResult& shot);
+
+} // namespace tonetool::sequence
