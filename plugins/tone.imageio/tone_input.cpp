@@ -212,7 +212,7 @@ bool ToneInput::seek_subimage(int subimage, int miplevel) {
 
 // The picture anew, where an input is another than when it was made.
 bool ToneInput::renew() {
-    if (recipe::is_current(m_picture->inputs)) {
+    if (sequence::is_current(m_picture->inputs)) {
         return true;
     }
     const PicturePtr before = m_picture;

@@ -82,9 +82,7 @@ std::string Session::file(const std::string& name) {
     std::string path = as_it_is || policy.directory.empty()
                            ? name
                            : (std::filesystem::path(policy.directory) / name).string();
-    if (std::find(files.begin(), files.end(), path) == files.end()) {
-        files.push_back(path);
-    }
+    files.note(path);
     return path;
 }
 

@@ -15,6 +15,7 @@
 #include "chain/policy.h"
 #include "files/inspect.h"
 #include "files/output.h"
+#include "sequence/file_stamp.h"
 #include "text/text.h"
 
 namespace tonetool::measure {
@@ -79,7 +80,7 @@ struct Session {
     OIIO::ParamValueList variables; ///< of --set and --for
     Frame frame;
     Policy policy{false, "", 0};
-    Strings files; ///< that were read or looked for, as they were opened
+    sequence::FileLog files; ///< that were read or looked for, as they were opened
     /// The words at one place of the command line in all frames.
     std::function<Strings(size_t at)> in_all_frames;
     Flow flow;

@@ -63,7 +63,9 @@ std::string resolve(const std::string& name) {
 
 } // namespace
 
-OutputTarget::OutputTarget(const std::string& name) : m_final(resolve(name)) {}
+OutputTarget::OutputTarget(const std::string& name, Links links)
+    : m_final(links == Links::Follow ? resolve(name) : name),
+      m_links(links) {}
 
 OutputTarget::~OutputTarget() {
     if (m_fd >= 0)
@@ -75,7 +77,12 @@ OutputTarget::~OutputTarget() {
 
 bool OutputTarget::open(std::string& error) {
     struct stat info {};
-    const bool exists = ::stat(m_final.c_str(), &info) == 0;
+    const bool exists = ::lstat(m_final.c_str(), &info) == 0;
+    if (exists && S_ISLNK(info.st_mode)) {
+        error = m_links == Links::Refuse ? "is a symbolic link, which is not followed here"
+                                         : "is a circle of symbolic links";
+        return false;
+    }
     if (exists && S_ISDIR(info.st_mode)) {
         error = "is a directory";
         return false;

@@ -5,13 +5,15 @@
 #include <string>
 #include <sys/types.h>
 
+#include "include/tonetool/write.h"
+
 namespace tonetool {
 
 /// The descriptor a file is written through, and where it ends up: a temporary file beside the
 /// target, or the device or pipe itself.
 class OutputTarget {
 public:
-    explicit OutputTarget(const std::string& name);
+    explicit OutputTarget(const std::string& name, Links links = Links::Follow);
     OutputTarget(const OutputTarget&) = delete;
     OutputTarget& operator=(const OutputTarget&) = delete;
     ~OutputTarget();
@@ -30,6 +32,7 @@ private:
     bool open_temporary(mode_t mode, std::string& error);
 
     std::string m_final, m_temporary;
+    Links m_links;
     int m_fd = -1, m_slot = -1;
 };
 

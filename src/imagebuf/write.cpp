@@ -215,9 +215,10 @@ bool write_image(const OIIO::ImageBuf& image, const std::string& filename, std::
     return write_images({{&image, image.spec()}}, filename, error);
 }
 
-bool write_bytes(const std::string& bytes, const std::string& filename, std::string& error) {
+bool write_bytes(const std::string& bytes, const std::string& filename, std::string& error,
+                 Links links) {
     return named(filename, error, [&](std::string& why) {
-        OutputTarget target(filename);
+        OutputTarget target(filename, links);
         if (!target.open(why))
             return false;
         CheckedProxy proxy(target);

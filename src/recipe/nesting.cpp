@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "recipe/picture.h"
+#include "sequence/file_stamp.h"
 
 namespace tonetool::recipe {
 
@@ -44,6 +45,7 @@ Nesting::Nesting(const std::string& file) {
 }
 
 Nesting::~Nesting() {
+    sequence::note_files_behind(running.back().name, running.back().files);
     running.pop_back();
 }
 

@@ -120,21 +120,21 @@ PicturePtr find_or_make(const Source& source, Nesting& nesting) {
     Shelf::Place place(key_of(source, words), nesting.is_outermost());
     if (PicturePtr known = place.picture()) {
         Strings files;
-        for (const Stamp& stamp : known->inputs) {
+        for (const sequence::Stamp& stamp : known->inputs) {
             files.push_back(stamp.file);
         }
         nesting.note_files(files);
         return known;
     }
-    const int64_t begun = now_in_nanoseconds();
+    const int64_t begun = sequence::now_in_nanoseconds();
     std::shared_ptr<Picture> picture = make_picture(source, words, nesting);
     Strings files = nesting.files();
     std::sort(files.begin(), files.end());
     files.erase(std::unique(files.begin(), files.end()), files.end());
     for (const std::string& file : files) {
-        picture->inputs.push_back(stamp_of(file));
+        picture->inputs.push_back(sequence::stamp_of(file));
     }
-    if (are_older(picture->inputs, begun)) {
+    if (sequence::are_older(picture->inputs, begun)) {
         place.keep(picture);
     }
     return picture;

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "recipe/recipe.h"
-#include "recipe/stamp.h"
+#include "sequence/file_stamp.h"
 
 namespace tonetool::recipe {
 
@@ -25,7 +25,7 @@ struct Picture {
     /// Those of the top of the stack, then of the images below it from the top down, in the data
     /// types that they would be written with.
     std::vector<OIIO::ImageBuf> subimages;
-    Stamps inputs; ///< the recipe and all that was read for it
+    sequence::Stamps inputs; ///< the recipe and all that was read for it
     size_t bytes = 0;
 };
 using PicturePtr = std::shared_ptr<const Picture>;

@@ -67,7 +67,7 @@ Shelf::Place::Place(const std::string& key, bool waits)
 
 PicturePtr Shelf::Place::picture() const {
     const bool known = m_lock.owns_lock() && m_entry->picture;
-    return known && is_current(m_entry->picture->inputs) ? m_entry->picture : nullptr;
+    return known && sequence::is_current(m_entry->picture->inputs) ? m_entry->picture : nullptr;
 }
 
 void Shelf::Place::keep(const PicturePtr& picture) {

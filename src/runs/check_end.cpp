@@ -32,15 +32,20 @@ std::string picture_folder(const CheckPlan& check) {
 }
 
 int conclude_check(const sequence::ShotResult& shot, const FramePlan& plan,
-                   const sequence::PictureStore& pictures, std::ostream& out) {
-    write_results(shot, plan.check.words);
-    for (const std::string& complaint : write_reports(shot, pictures, plan.check.words)) {
-        out << "check: " << complaint << '\n';
-    }
+                   const sequence::PictureStore& pictures, std::ostream& out, std::ostream& err) {
     out << sequence::faults_text(shot);
-    out << "check: " << status_name(shot.verdict) << ", " << shot.sentence << '\n';
-    const int status = exit_status(shot.verdict, plan.warnings_exit);
-    return plan.compat && status == 3 ? 1 : status;
+    out << "check: " << status_name(shot.verdict) << ", " << shot.sentence << std::endl;
+    Strings errors = sequence::write_results(shot, plan.check.words);
+    for (const std::string& complaint :
+         sequence::write_reports(shot, pictures, plan.check.words, errors)) {
+        err << "tonetool WARNING: " << complaint << '\n';
+    }
+    for (const std::string& error : errors) {
+        err << "tonetool ERROR: " << error << '\n';
+    }
+    const int verdict = exit_status(shot.verdict, plan.warnings_exit);
+    const int status = plan.compat && verdict == 3 ? 1 : verdict;
+    return errors.empty() ? status : 1;
 }
 
 int merge_parts(const Strings& words, const FramePlan& plan, std::ostream& out, std::ostream& err) {
@@ -65,7 +70,7 @@ int merge_parts(const Strings& words, const FramePlan& plan, std::ostream& out, 
         throw CommandError("--pictures: there is no folder \"" + check.argument("pictures") + "\"");
     }
     const sequence::PictureStore pictures(picture_folder(check));
-    return worse(session.exit_status(), conclude_check(shot, plan, pictures, out));
+    return worse(session.exit_status(), conclude_check(shot, plan, pictures, out, err));
 }
 
 } // namespace tonetool::runs

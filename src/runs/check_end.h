@@ -18,9 +18,10 @@ bool draws(const CheckPlan& check);
 /// Where they are kept; empty: in memory.
 std::string picture_folder(const CheckPlan& check);
 
-/// Writes the files of the check and prints its verdict. The exit status.
+/// Prints the verdict of a check, then writes its files, those that can be written. The exit
+/// status.
 int conclude_check(const sequence::ShotResult& shot, const FramePlan& plan,
-                   const sequence::PictureStore& pictures, std::ostream& out);
+                   const sequence::PictureStore& pictures, std::ostream& out, std::ostream& err);
 
 /// --merge: the results of parts of a shot as one.
 int merge_parts(const Strings& words, const FramePlan& plan, std::ostream& out, std::ostream& err);

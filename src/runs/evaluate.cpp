@@ -109,7 +109,7 @@ Evaluation evaluate(const Strings& words, std::vector<OIIO::ImageBuf> images,
     result.out = out.str();
     result.err = err.str();
     result.warnings = session.warning_texts;
-    result.files = session.files;
+    result.files = session.files.names();
     if (session.errors > 0) {
         result.stack.clear();
     }

@@ -1,42 +1,136 @@
 #include "runs/loop.h"
 
+#include <OpenImageIO/imageio.h>
 #include <OpenImageIO/timer.h>
 #include <algorithm>
 #include <ostream>
 #include <sstream>
 #include <thread>
 
+#include "runs/packed.h"
+#include "runs/workers.h"
+
 namespace tonetool::runs {
+
+namespace {
+
+using sequence::Status;
+
+// The exception that is being handled, in words.
+std::string what_was_thrown() {
+    try {
+        throw;
+    } catch (const std::bad_alloc&) {
+        return "not enough memory";
+    } catch (const std::exception& problem) {
+        return problem.what();
+    } catch (...) {
+        return "unknown error";
+    }
+}
+
+int library_threads() {
+    return OIIO::get_int_attribute("threads");
+}
+
+} // namespace
 
 int worse(int a, int b) {
     const auto rank = [](int status) { return status == 1 ? 4 : status; };
     return rank(a) > rank(b) ? a : b;
 }
 
+int Loop::jobs() const {
+    return std::max(1, std::min(m_plan.parallel, int(m_plan.runs.size())));
+}
+
 int Loop::run() {
-    const int jobs = std::min(m_plan.parallel, int(m_plan.runs.size()));
-    if (jobs > 1) {
-        std::vector<std::thread> threads;
-        for (int i = 0; i < jobs; ++i) {
-            threads.emplace_back([this] { work(); });
-        }
-        for (std::thread& thread : threads) {
-            thread.join();
-        }
-        return m_status;
-    }
-    for (size_t i = 0; i < m_plan.runs.size() && !ends(); ++i) {
-        OIIO::Timer time;
-        const Ran ran = m_run(i, m_out, m_err);
-        finished(i, ran, time());
+    if (m_place == Place::WorkerProcesses) {
+        run_in_workers();
+    } else if (jobs() > 1) {
+        run_on_threads();
+    } else {
+        run_streaming();
     }
     return m_status;
+}
+
+// What a frame prints is seen as it is printed.
+void Loop::run_streaming() {
+    for (size_t i = 0; i < m_plan.runs.size() && !ends(); ++i) {
+        OIIO::Timer time;
+        Ran ran;
+        try {
+            ran = m_job.run(i, m_out, m_err);
+        } catch (...) {
+            ran = m_job.failed(i, Status::Error, what_was_thrown(), m_err);
+        }
+        take(i, ran, m_err);
+        finished(i, ran, time());
+    }
+}
+
+Loop::Done Loop::failed(size_t index, Status status, const std::string& why) {
+    std::ostringstream err;
+    Done done;
+    done.ran = m_job.failed(index, status, why, err);
+    done.err = err.str();
+    return done;
+}
+
+Loop::Done Loop::run_frame(size_t index) {
+    OIIO::Timer time;
+    Done done;
+    try {
+        std::ostringstream out, err;
+        done.ran = m_job.run(index, out, err);
+        done.out = out.str();
+        done.err = err.str();
+    } catch (...) {
+        done = failed(index, Status::Error, what_was_thrown());
+    }
+    done.seconds = time();
+    return done;
+}
+
+void Loop::take(size_t index, Ran& ran, std::ostream& err) {
+    try {
+        m_job.take(index, ran);
+    } catch (...) {
+        ran = m_job.failed(index, Status::Error, what_was_thrown(), err);
+        m_job.take(index, ran);
+    }
+}
+
+void Loop::deliver(size_t index, Done done) {
+    std::ostringstream err;
+    take(index, done.ran, err);
+    done.err += err.str();
+    m_aborted |= done.ran.aborted;
+    m_done[index] = std::move(done);
+    for (auto next = m_done.find(m_printed); next != m_done.end();
+         next = m_done.find(++m_printed)) {
+        m_out << next->second.out << std::flush;
+        m_err << next->second.err << std::flush;
+        finished(next->first, next->second.ran, next->second.seconds);
+        m_done.erase(next);
+    }
 }
 
 void Loop::finished(size_t index, const Ran& ran, double seconds) {
     m_status = worse(m_status, ran.status);
     m_aborted |= ran.aborted;
     m_progress.done(m_plan.runs[index], ran.status, ran.words, seconds);
+}
+
+void Loop::run_on_threads() {
+    std::vector<std::thread> threads;
+    for (int i = 0; i < jobs(); ++i) {
+        threads.emplace_back([this] { work(); });
+    }
+    for (std::thread& thread : threads) {
+        thread.join();
+    }
 }
 
 void Loop::work() {
@@ -49,20 +143,50 @@ void Loop::work() {
             }
             index = m_next++;
         }
-        OIIO::Timer time;
-        std::ostringstream out, err;
-        const Ran ran = m_run(index, out, err);
+        Done done = run_frame(index);
         std::lock_guard<std::mutex> lock(m_mutex);
-        m_aborted |= ran.aborted;
-        m_done[index] = {out.str(), err.str(), ran, time()};
-        for (auto done = m_done.find(m_printed); done != m_done.end();
-             done = m_done.find(++m_printed)) {
-            m_out << done->second.out << std::flush;
-            m_err << done->second.err << std::flush;
-            finished(done->first, done->second.ran, done->second.seconds);
-            m_done.erase(done);
-        }
+        deliver(index, std::move(done));
     }
+}
+
+// In a worker process: what the frame came to, and how many threads --threads has asked for.
+std::string Loop::reply_of(size_t index) {
+    const int before = library_threads();
+    const Done done = run_frame(index);
+    const int threads = library_threads();
+    return packed({done.out, done.err, done.ran.words, done.ran.found,
+                   std::to_string(done.ran.status), done.ran.aborted ? "1" : "",
+                   std::to_string(done.seconds), threads == before ? "" : std::to_string(threads)});
+}
+
+void Loop::run_in_workers() {
+    const int processes = jobs();
+    // Each has a pool of threads: together as many as one process would have.
+    const auto begin = [processes] {
+        OIIO::attribute("threads", std::max(1, library_threads() / processes));
+    };
+    const auto next = [this]() -> std::optional<size_t> {
+        return m_next == m_plan.runs.size() || ends() ? std::nullopt
+                                                      : std::optional<size_t>(m_next++);
+    };
+    const auto done = [this](size_t index, const TaskResult& result) {
+        if (!result.crash.empty()) {
+            deliver(index, failed(index, Status::Crashed, result.crash));
+            return;
+        }
+        const Strings texts = unpacked(result.reply, 8);
+        Done frame{texts[0],
+                   texts[1],
+                   {std::stoi(texts[4]), texts[2], !texts[5].empty(), texts[3]},
+                   std::stod(texts[6])};
+        m_threads = texts[7].empty() ? m_threads : std::stoi(texts[7]);
+        deliver(index, std::move(frame));
+    };
+    m_out.flush();
+    Workers(
+        processes, [this](size_t index) { return reply_of(index); },
+        processes > 1 ? std::function<void()>(begin) : nullptr)
+        .run(next, done);
 }
 
 } // namespace tonetool::runs

@@ -21,7 +21,7 @@ void know_all_commands() {
     });
 }
 
-int run(const Strings& words, std::ostream& out, std::ostream& err) {
+int run(const Strings& words, std::ostream& out, std::ostream& err, bool workers) {
     know_all_commands();
     if (words.empty()) {
         err << manual::usage_text();
@@ -33,7 +33,7 @@ int run(const Strings& words, std::ostream& out, std::ostream& err) {
     whole.compat = compat;
     try {
         const FramePlan plan = plan_frames(words);
-        status = run_plan(words, plan, out, err);
+        status = run_plan(words, plan, out, err, workers);
         if (plan.runs.empty() && !plan.check.has("merge")) {
             whole.warning("", chain::no_output);
         }

@@ -18,7 +18,10 @@ void know_all_commands();
 /// Run the words of a command line (without the program's name) from left to right. Returns the
 /// exit status: 0 passed; 1 an error; 2 only warnings, with --warnings-exit; 3 a threshold was
 /// exceeded. No exception leaves it.
-int run(const Strings& words, std::ostream& out, std::ostream& err);
+///
+/// `workers`: frames of a check run in processes of their own, copies of this one, so that a crash
+/// in a library loses one frame. Not for programs that have started threads.
+int run(const Strings& words, std::ostream& out, std::ostream& err, bool workers = false);
 
 /// An image that a chain has left.
 struct Left {

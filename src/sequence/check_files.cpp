@@ -50,12 +50,23 @@ void check_places(const CheckFiles& files) {
     }
 }
 
-void write_results(const ShotResult& shot, const CheckFiles& files) {
-    for (const auto& [command, file] : files) {
-        const auto text = texts().find(command);
+std::vector<std::string> write_results(const ShotResult& shot, const CheckFiles& files) {
+    std::vector<std::string> errors;
+    for (const auto& item : files) {
+        const std::string& file = item.second;
+        const auto text = texts().find(item.first);
         if (text != texts().end()) {
-            write_text(text->second(shot), file);
+            attempt(errors, [&] { write_text(text->second(shot), file); });
         }
+    }
+    return errors;
+}
+
+void attempt(std::vector<std::string>& errors, const std::function<void()>& write) {
+    try {
+        write();
+    } catch (const std::exception& problem) {
+        errors.emplace_back(problem.what());
     }
 }
 

@@ -1,8 +1,10 @@
 // The files that a check writes at its end.
 #pragma once
 
+#include <functional>
 #include <map>
 #include <string>
+#include <vector>
 
 #include "sequence/results.h"
 
@@ -14,8 +16,11 @@ using CheckFiles = std::map<std::string, std::string>;
 /// A runtime_error for files that could not be written anyway: before the work and not after it.
 void check_places(const CheckFiles& files);
 
-/// Each is written whole or not at all; a runtime_error names the first that could not be.
-void write_results(const ShotResult& shot, const CheckFiles& files);
+/// Each is written whole or not at all. Why some could not be, naming them.
+std::vector<std::string> write_results(const ShotResult& shot, const CheckFiles& files);
+
+/// Runs `write`; what it throws is added to the errors.
+void attempt(std::vector<std::string>& errors, const std::function<void()>& write);
 
 /// A text as a file; a runtime_error says why not.
 void write_text(const std::string& text, const std::string& file);

@@ -9,9 +9,9 @@
 
 namespace tonetool::sequence {
 
-/// "report" and "contactsheet", each whole or not at all; a runtime_error names the first that
-/// could not be. What a person must know of them otherwise is returned.
+/// "report" and "contactsheet", each whole or not at all; `errors` gets why one could not be
+/// written. What a person must know of them otherwise is returned.
 std::vector<std::string> write_reports(const ShotResult& shot, const PictureStore& pictures,
-                                       const CheckFiles& files);
+                                       const CheckFiles& files, std::vector<std::string>& errors);
 
 } // namespace tonetool::sequence

@@ -4,6 +4,8 @@
 #include <OpenImageIO/strutil.h>
 #include <algorithm>
 #include <cctype>
+#include <filesystem>
+#include <iterator>
 #include <stdexcept>
 #include <utility>
 
@@ -64,11 +66,19 @@ PictureStore::Rank PictureStore::rank_of(const FrameResult& frame) {
 
 bool PictureStore::wants_full(const FrameResult& frame) const {
     const std::lock_guard<std::mutex> lock(m_mutex);
-    return m_worst.size() < m_full_frames || rank_of(frame) < *m_worst.rbegin();
+    return m_known.size() < m_full_frames || rank_of(frame) < *m_known.rbegin();
+}
+
+void PictureStore::know(const FrameResult& frame) {
+    m_known.insert(rank_of(frame));
+    if (m_known.size() > m_full_frames) {
+        m_known.erase(std::prev(m_known.end()));
+    }
 }
 
 bool PictureStore::insert(const FrameResult& frame) {
     const Rank rank = rank_of(frame);
+    know(frame);
     m_worst.insert(rank);
     if (m_worst.size() > m_full_frames) {
         const Rank best = *m_worst.rbegin();
@@ -87,15 +97,27 @@ void PictureStore::drop(const std::string& key, const char* size) {
     }
 }
 
-void PictureStore::add(const FrameResult& frame, const FramePictures& pictures) {
+PictureTexts PictureStore::texts(const FrameResult& frame, const FramePictures& pictures) {
+    const std::string start = beginning(frame);
+    PictureTexts texts;
+    texts.small = start + small_json(pictures).substr(1);
+    if (!pictures.exposures.empty()) {
+        texts.full = start + full_json(pictures).substr(1);
+        const std::lock_guard<std::mutex> lock(m_mutex);
+        know(frame);
+    }
+    return texts;
+}
+
+void PictureStore::add(const FrameResult& frame, const PictureTexts& pictures) {
     const std::lock_guard<std::mutex> lock(m_mutex);
-    const std::string key = key_of(frame), start = beginning(frame);
-    if (!pictures.exposures.empty() && insert(frame)) {
-        write(key, full_size, start + full_json(pictures).substr(1));
+    const std::string key = key_of(frame);
+    if (!pictures.full.empty() && insert(frame)) {
+        write(key, full_size, pictures.full);
     } else {
         drop(key, full_size);
     }
-    write(key, small_size, start + small_json(pictures).substr(1));
+    write(key, small_size, pictures.small);
 }
 
 void PictureStore::forget(const FrameResult& frame) {
@@ -139,7 +161,7 @@ void PictureStore::write(const std::string& key, const char* size, const std::st
     std::string why;
     if (m_folder.empty()) {
         m_texts[key + size] = text;
-    } else if (!write_bytes(text, file(key, size), why)) {
+    } else if (!write_bytes(text, file(key, size), why, Links::Refuse)) {
         throw std::runtime_error(why);
     }
 }
@@ -150,7 +172,8 @@ std::string PictureStore::read(const FrameResult& frame, const char* size) const
     if (m_folder.empty()) {
         const auto found = m_texts.find(key + size);
         text = found == m_texts.end() ? "" : found->second;
-    } else if (const std::string name = file(key, size); OIIO::Filesystem::is_regular(name)) {
+    } else if (const std::string name = file(key, size);
+               std::filesystem::is_regular_file(std::filesystem::symlink_status(name))) {
         OIIO::Filesystem::read_text_file(name, text);
     }
     return text.rfind(beginning(frame), 0) == 0 ? text : "";

@@ -14,6 +14,12 @@
 
 namespace tonetool::sequence {
 
+/// The pictures of a frame as the page and the folder hold them.
+struct PictureTexts {
+    std::string full; ///< empty where only the thumbnails were drawn
+    std::string small;
+};
+
 /// Keeps the full pictures of the worst frames and the thumbnails of all, so that memory and disk
 /// are bounded; which they are does not depend on the order in which frames come. With a folder
 /// they are files there ("0005.full.json", "0005.small.json"), so that a run that is continued, or
@@ -26,8 +32,14 @@ public:
     /// Whether a frame like this, by its status and measurements so far, would be kept in full.
     bool wants_full(const FrameResult& frame) const;
 
+    /// What `add` takes, maybe in another process; this one counts the frame among those that
+    /// wants_full() knows.
+    PictureTexts texts(const FrameResult& frame, const FramePictures& pictures);
     /// In place of what was kept of the frame before. A runtime_error if a file cannot be written.
-    void add(const FrameResult& frame, const FramePictures& pictures);
+    void add(const FrameResult& frame, const PictureTexts& pictures);
+    void add(const FrameResult& frame, const FramePictures& pictures) {
+        add(frame, texts(frame, pictures));
+    }
     /// A frame without pictures: what an earlier run has kept of it is not this frame's.
     void forget(const FrameResult& frame);
 
@@ -47,6 +59,7 @@ private:
     using Rank = std::tuple<int, double, int, std::string>; ///< the worst first
     static Rank rank_of(const FrameResult& frame);
     bool insert(const FrameResult& frame);
+    void know(const FrameResult& frame);
     void drop(const std::string& key, const char* size);
     std::string file(const std::string& key, const char* size) const;
     void write(const std::string& key, const char* size, const std::string& text);
@@ -56,6 +69,7 @@ private:
     size_t m_full_frames;
     mutable std::mutex m_mutex;
     std::set<Rank> m_worst; ///< the frames that are kept in full
+    std::set<Rank> m_known; ///< the worst of all that were drawn in full
     std::map<std::string, std::string> m_texts;
 };
 

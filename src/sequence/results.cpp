@@ -15,8 +15,9 @@ namespace {
 
 using OIIO::Strutil::fmt::format;
 
-constexpr std::array<const char*, 8> status_names{
-    "passed", "measured", "warning", "failed", "size mismatch", "missing", "unreadable", "error"};
+constexpr std::array<const char*, 9> status_names{"passed",     "measured",      "warning",
+                                                  "failed",     "size mismatch", "missing",
+                                                  "unreadable", "error",         "crashed"};
 constexpr std::array<const char*, 3> severity_names{"info", "warning", "error"};
 
 template <class Enum, size_t N>

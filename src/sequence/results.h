@@ -22,9 +22,11 @@ enum class Status {
     SizeMismatch, ///< reference and test differ in size
     Missing,      ///< a file of the frame does not exist
     Unreadable,   ///< a file of the frame cannot be read, or not to its end
-    Error         ///< anything else that kept the frame from being checked
+    Error,        ///< anything else that kept the frame from being checked
+    Crashed       ///< the process that checked it was ended by a signal
 };
-/// "passed", "measured", "warning", "failed", "size mismatch", "missing", "unreadable", "error".
+/// "passed", "measured", "warning", "failed", "size mismatch", "missing", "unreadable", "error",
+/// "crashed".
 std::string status_name(Status status);
 std::optional<Status> status_of_name(const std::string& name);
 /// Of the program: 0, 2 for a warning if `warnings_exit`, 3 for a failure, 1 for all that is worse.

@@ -292,7 +292,8 @@ ordered_json worst_of(const ShotResult& shot) {
 ordered_json counts_of(const ShotResult& shot) {
     ordered_json counts = ordered_json::object();
     for (Status one : {Status::Passed, Status::Measured, Status::Warning, Status::Failed,
-                       Status::SizeMismatch, Status::Missing, Status::Unreadable, Status::Error}) {
+                       Status::SizeMismatch, Status::Missing, Status::Unreadable, Status::Error,
+                       Status::Crashed}) {
         counts[status_name(one)] = 0;
     }
     for (const FrameResult& frame : shot.frames) {

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <stdexcept>
 
+#include "include/tonetool/tonemap.h"
 #include "include/tonetool/tonetool.h"
 #include "include/tonetool/write.h"
 #include "sequence/json_text.h"
@@ -21,43 +22,61 @@ using OIIO::Strutil::fmt::format;
 namespace fs = std::filesystem;
 
 constexpr char state_format[] = "tonetool-state";
-constexpr int state_version = 1;
+constexpr int state_version = 2;
 
-// [name, size, time] of a regular file; null for anything else.
-ordered_json stamp(const std::string& name) {
-    std::error_code none;
-    if (!fs::is_regular_file(name, none)) {
-        return nullptr;
-    }
-    const auto written = fs::last_write_time(name, none).time_since_epoch().count();
-    return {name, fs::file_size(name, none), written};
+ordered_json json_of(const Stamp& stamp) {
+    return {stamp.file, stamp.device, stamp.inode, stamp.size, stamp.written, stamp.changed};
 }
 
-// The word, and what stands behind the = of its modifiers.
-std::vector<std::string> names_in(const std::string& word) {
-    std::vector<std::string> names{word};
-    for (const std::string& piece : OIIO::Strutil::splits(word, ":")) {
-        const size_t equals = piece.find('=');
-        if (equals != std::string::npos) {
-            std::string value = piece.substr(equals + 1);
-            value = std::string(OIIO::Strutil::strip(value, "'\""));
-            names.push_back(value);
+Stamp stamp_from(const ordered_json& from) {
+    return {from.at(0).get<std::string>(), from.at(1).get<uint64_t>(), from.at(2).get<uint64_t>(),
+            from.at(3).get<uint64_t>(),    from.at(4).get<int64_t>(),  from.at(5).get<int64_t>()};
+}
+
+ordered_json json_of(const Stamps& stamps) {
+    ordered_json all = ordered_json::array();
+    for (const Stamp& stamp : stamps) {
+        all.push_back(json_of(stamp));
+    }
+    return all;
+}
+
+bool are_current(const ordered_json& stamps) {
+    return std::all_of(stamps.begin(), stamps.end(), [](const ordered_json& from) {
+        const Stamp stamp = stamp_from(from);
+        return stamp_of(stamp.file) == stamp;
+    });
+}
+
+// LUTs are read behind the back of the chain, with the configuration that refers to them.
+void note_luts(const std::string& config) {
+    std::vector<std::string> files;
+    std::string why;
+    if (files_behind(config).empty() && ToneAlgo::color_config_files(config, files, why)) {
+        files.push_back(config);
+        note_files_behind(config, files);
+    }
+}
+
+// What was read for the files of a run: recipes and configurations stand for others.
+Stamps stamps_behind(const Stamps& inputs) {
+    Stamps all;
+    std::vector<std::string> names;
+    for (const Stamp& input : inputs) {
+        names.push_back(input.file);
+    }
+    for (size_t i = 0; i < names.size(); ++i) {
+        if (OIIO::Strutil::iends_with(names[i], ".ocio")) {
+            note_luts(names[i]);
         }
-    }
-    return names;
-}
-
-ordered_json stamps_of(const std::vector<std::string>& words) {
-    ordered_json stamps = ordered_json::array();
-    for (const std::string& word : words) {
-        for (const std::string& name : names_in(word)) {
-            const ordered_json one = stamp(name);
-            if (!one.is_null()) {
-                stamps.push_back(one);
+        for (const std::string& name : files_behind(names[i])) {
+            if (std::find(names.begin(), names.end(), name) == names.end()) {
+                names.push_back(name);
+                all.push_back(stamp_of(name));
             }
         }
     }
-    return stamps;
+    return all;
 }
 
 std::string safe(const std::string& view) {
@@ -69,6 +88,17 @@ std::string safe(const std::string& view) {
         name += plain ? std::string(1, c) : format("%{:02X}", int(static_cast<unsigned char>(c)));
     }
     return name;
+}
+
+std::string ocio_variable() {
+    return std::string(OIIO::Sysutil::getenv("OCIO"));
+}
+
+std::string key_of(const Origin& origin) {
+    return dumped({{"program", TONETOOL_VERSION},
+                   {"words", origin.words},
+                   {"rest", origin.rest},
+                   {"ocio", ocio_variable()}});
 }
 
 } // namespace
@@ -85,40 +115,22 @@ State::State(std::string folder, std::string kind)
     }
 }
 
-std::string State::key(const Origin& origin) {
-    const std::string config(OIIO::Sysutil::getenv("OCIO"));
-    std::vector<std::string> words = origin.words;
-    words.push_back(config);
-    // Outputs are no inputs, though the words name them.
-    for (const std::string& output : origin.outputs) {
-        words.erase(std::remove(words.begin(), words.end(), output), words.end());
-    }
-    return dumped({{"program", TONETOOL_VERSION},
-                   {"words", origin.words},
-                   {"rest", origin.rest},
-                   {"ocio", config},
-                   {"inputs", stamps_of(words)}});
-}
-
 std::string State::file(const Item& item) const {
     return m_folder + "/" + m_kind + format(".{:04d}", item.frame) +
            (item.view.empty() ? "" : "." + safe(item.view)) + ".json";
 }
 
-std::optional<Kept> State::find(const Item& item, const std::string& key) const {
-    if (!OIIO::Filesystem::is_regular(file(item))) {
+std::optional<Kept> State::find(const Item& item, const Origin& origin) const {
+    std::error_code none;
+    if (fs::symlink_status(file(item), none).type() != fs::file_type::regular) {
         return std::nullopt;
     }
     try {
         return parsed(read_text(file(item)), [&](const ordered_json& from) -> std::optional<Kept> {
             check_format(from, state_format, state_version);
-            if (from.at("key").get<std::string>() != key) {
+            if (from.at("key").get<std::string>() != key_of(origin) ||
+                !are_current(from.at("inputs")) || !are_current(from.at("outputs"))) {
                 return std::nullopt;
-            }
-            for (const ordered_json& output : from.at("outputs")) {
-                if (stamp(output.at(0).get<std::string>()) != output) {
-                    return std::nullopt;
-                }
             }
             return Kept{from.at("result").get<std::string>(), from.at("out").get<std::string>(),
                         from.at("err").get<std::string>(), from.at("status").get<int>()};
@@ -128,18 +140,34 @@ std::optional<Kept> State::find(const Item& item, const std::string& key) const 
     }
 }
 
-void State::keep(const Item& item, const std::string& key, const Origin& origin,
+void State::keep(const Item& item, const Origin& origin, const FileLog& inputs,
                  const Kept& kept) const {
+    FileLog log = inputs;
+    if (!ocio_variable().empty()) {
+        log.note(ocio_variable());
+    }
+    const Stamps behind = stamps_behind(log.stamps());
+    // A file that was written while the frame was checked may have been read before or after.
+    if (!is_current(log.stamps()) || !are_older(behind, inputs.begun())) {
+        return;
+    }
+    Stamps all = log.stamps();
+    all.insert(all.end(), behind.begin(), behind.end());
+    Stamps outputs;
+    for (const std::string& output : origin.outputs) {
+        outputs.push_back(stamp_of(output));
+    }
     const std::string text = dumped({{"format", state_format},
                                      {"version", state_version},
-                                     {"key", key},
-                                     {"outputs", stamps_of(origin.outputs)},
+                                     {"key", key_of(origin)},
+                                     {"inputs", json_of(all)},
+                                     {"outputs", json_of(outputs)},
                                      {"status", kept.status},
                                      {"out", kept.out},
                                      {"err", kept.err},
                                      {"result", kept.result}});
     std::string why;
-    if (!write_bytes(text, file(item), why)) {
+    if (!write_bytes(text, file(item), why, Links::Refuse)) {
         throw std::runtime_error("--state: " + why);
     }
 }

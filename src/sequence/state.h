@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "sequence/file_sequence.h"
+#include "sequence/file_stamp.h"
 
 namespace tonetool::sequence {
 
@@ -23,19 +24,21 @@ struct Origin {
     std::vector<std::string> outputs; ///< files that the run has written
 };
 
-/// A folder of one file per frame, each written beside its place and renamed.
+/// A folder of one file per frame, each written beside its place and renamed. A symbolic link in
+/// place of such a file is not followed: reading takes it for none, writing refuses it.
 class State {
 public:
     /// Makes the folder if it is not there; a runtime_error if that fails. `kind` begins the names
     /// of the files: "frame", "exposures".
     State(std::string folder, std::string kind);
 
-    /// Sizes and times of all files that the words name, before the run: `key` for the other two.
-    static std::string key(const Origin& origin);
-    /// What was kept of the frame under that key, if its outputs are as the run left them.
-    std::optional<Kept> find(const Item& item, const std::string& key) const;
-    /// A runtime_error if it cannot be written.
-    void keep(const Item& item, const std::string& key, const Origin& origin,
+    /// What was kept of the frame, if it came of the same words and all files that its run opened
+    /// and wrote are as they were: by device, inode, size and times.
+    std::optional<Kept> find(const Item& item, const Origin& origin) const;
+    /// `inputs`: what the run has opened, what stands behind recipes and configurations is added.
+    /// Nothing is kept where one of them has changed since the run began. A runtime_error if it
+    /// cannot be written.
+    void keep(const Item& item, const Origin& origin, const FileLog& inputs,
               const Kept& kept) const;
 
     /// The file of a frame: always in the folder, whatever its view is called.

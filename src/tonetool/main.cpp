@@ -40,7 +40,7 @@ int main(int argc, char** argv) {
         tonetool::runs::know_all_commands();
         tonetool::chain::add_commands(tonetool::doctor_commands());
         tonetool::Strings words(argv + (argc > 0 ? 1 : 0), argv + argc);
-        return tonetool::runs::run(words, std::cout, std::cerr);
+        return tonetool::runs::run(words, std::cout, std::cerr, true);
     } catch (const std::exception& problem) {
         std::fprintf(stderr, "tonetool ERROR: %s\n", problem.what());
     } catch (...) {

@@ -152,5 +152,12 @@ TONETOOL_API bool tone_curve_response(std::vector<double>& response, const Curve
 /// Encodings of `TonemapOptions::encode`.
 TONETOOL_API std::vector<std::string> display_encodings();
 
+/// The files that an OpenColorIO configuration refers to (LUTs, CDLs), by the context that the
+/// environment gives: what its results depend on beside its own text. Where a name needs a context
+/// variable that is not set, all files of the search path. False with a reason in `error` where the
+/// configuration cannot be read.
+TONETOOL_API bool color_config_files(const std::string& config, std::vector<std::string>& files,
+                                     std::string& error);
+
 } // namespace ToneAlgo
 } // namespace tonetool

@@ -33,9 +33,12 @@ TONETOOL_API bool write_images(const std::vector<OutputImage>& images, const std
 TONETOOL_API bool write_image(const OIIO::ImageBuf& image, const std::string& filename,
                               std::string& error);
 
+/// What is done where the target is a symbolic link: its file is replaced, or it is an error.
+enum class Links { Follow, Refuse };
+
 /// The same promise for a text or any other bytes.
 TONETOOL_API bool write_bytes(const std::string& bytes, const std::string& filename,
-                              std::string& error);
+                              std::string& error, Links links = Links::Follow);
 
 /// Remove what processes that were killed while they wrote these files have left beside them; not
 /// what a process still writes.

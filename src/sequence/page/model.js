@@ -45,7 +45,8 @@ function make(tag, properties = {}, ...children) {
 }
 
 const SIGNS = { passed: "passed", measured: "measured", warning: "warning", failed: "failed",
-  "size mismatch": "error", missing: "missing", unreadable: "error", error: "error", info: "info" };
+  "size mismatch": "error", missing: "missing", unreadable: "error", error: "error",
+  crashed: "error", info: "info" };
 const CLASSES = { passed: "passed", measured: "measured", warning: "warning", failed: "failed",
   info: "info" };
 const classOf = (status) => CLASSES[status] || "error";

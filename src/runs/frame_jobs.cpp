@@ -1,0 +1,306 @@
+#include "runs/frame_jobs.h"
+
+#include <OpenImageIO/sysutil.h>
+#include <algorithm>
+#include <ostream>
+#include <sstream>
+
+#include "chain/runner.h"
+#include "include/tonetool/write.h"
+#include "manual/help.h"
+#include "runs/check_end.h"
+#include "runs/packed.h"
+#include "sequence/probe.h"
+#include "sequence/results_json.h"
+
+namespace tonetool::runs {
+
+namespace {
+
+using chain::Runner;
+using chain::Session;
+using sequence::FrameResult;
+using sequence::State;
+using sequence::Status;
+
+std::string in_words(const FrameResult& result) {
+    return status_name(result.status) + (result.message.empty() ? "" : " (" + result.message + ")");
+}
+
+// Of what one comparison alone would take, half of the computer's memory; --memory says otherwise.
+uint64_t share_of_memory(int parallel) {
+    constexpr uint64_t enough = uint64_t(1) << 29;
+    return parallel < 2
+               ? 0
+               : std::max(enough, OIIO::Sysutil::physical_memory() / 2 / uint64_t(parallel));
+}
+
+std::string crashed(const std::string& how) {
+    return "the libraries that read or compare its files crashed: " + how;
+}
+
+} // namespace
+
+sequence::Item FrameContext::item(size_t index) const {
+    const Frame& frame = plan.runs[index].frame;
+    return {frame.number, frame.view};
+}
+
+measure::CheckPart FrameContext::part() const {
+    measure::CheckPart part;
+    part.shot = shot ? &*shot : nullptr;
+    return part;
+}
+
+Session FrameContext::session(size_t index, std::ostream& out, std::ostream& err) const {
+    const FrameRun& run = plan.runs[index];
+    Session session(out, err, full_command_line(run.words, plan.compat));
+    session.compat = plan.compat;
+    session.frame = run.frame;
+    session.in_all_frames = [this](size_t at) {
+        Strings names;
+        for (const FrameRun& other : plan.runs) {
+            names.push_back(other.words.at(at));
+        }
+        return names;
+    };
+    session.parallel = plan.parallel;
+    session.memory = share_of_memory(plan.parallel);
+    return session;
+}
+
+void FrameContext::run_commands(Session& session, size_t index) const {
+    const FrameRun& run = plan.runs[index];
+    const sequence::Probe gone = sequence::missing_of(words_at(run.words, plan.sequences));
+    if (gone.status == Status::Missing) {
+        session.error("", gone.message);
+    } else {
+        Runner(session, run.words).run_all();
+        if (session.misused) {
+            session.out << manual::help_text();
+        }
+    }
+}
+
+// ---- plain frames
+
+Ran PlainFrames::run(size_t index, std::ostream& out, std::ostream& err) {
+    Session session = m_context.session(index, out, err);
+    measure::CheckPart part = m_context.part();
+    session.check = &part;
+    m_context.run_commands(session, index);
+    static const char* const words[] = {"done", "error", "warnings", "a threshold was exceeded"};
+    const int status = session.exit_status();
+    return {status, words[status], session.aborted};
+}
+
+Ran PlainFrames::failed(size_t index, Status status, const std::string& why, std::ostream& err) {
+    std::ostringstream nowhere;
+    Session session = m_context.session(index, nowhere, err);
+    session.error("", status == Status::Crashed ? crashed(why) : why);
+    return {1, "error", true};
+}
+
+// ---- exposures of the shot
+
+ExposureFrames::ExposureFrames(const FrameContext& context, const std::optional<State>& state)
+    : m_context(context),
+      m_state(state),
+      m_samples(context.plan.runs.size()),
+      m_errors(context.plan.runs.size()) {}
+
+sequence::ExposureSamples ExposureFrames::measure(size_t index, std::ostream& err,
+                                                  std::string& error) const {
+    const FrameRun& run = m_context.plan.runs[index];
+    const CheckPlan& check = m_context.plan.check;
+    const sequence::Item item = m_context.item(index);
+    const sequence::Origin origin{words_at(run.words, check.essence_at), "exposures", {}};
+    if (m_state) {
+        if (const auto kept = m_state->find(item, origin)) {
+            return sequence::samples_from_json(kept->result);
+        }
+    }
+    sequence::ExposureSample found{run.frame.number, run.frame.view, -1, 0};
+    std::ostringstream nowhere;
+    Session session = m_context.session(index, nowhere, err);
+    measure::CheckPart part = m_context.part();
+    part.sample = &found;
+    session.check = &part;
+    session.dry_run = true;
+    m_context.run_commands(session, index);
+    if (session.errors > 0 || found.max_luminance < 0) {
+        error = session.first_error;
+        return {};
+    }
+    if (m_state) {
+        m_state->keep(item, origin, session.files, {sequence::to_json({found}), "", "", 0});
+    }
+    return {found};
+}
+
+Ran ExposureFrames::run(size_t index, std::ostream&, std::ostream& err) {
+    std::string error;
+    const sequence::ExposureSamples found = measure(index, err, error);
+    return {found.empty() ? 1 : 0, found.empty() ? "no exposures" : "exposures", false,
+            packed({found.empty() ? "" : sequence::to_json(found), error})};
+}
+
+Ran ExposureFrames::failed(size_t index, Status status, const std::string& why, std::ostream& err) {
+    const std::string error = status == Status::Crashed ? crashed(why) : why;
+    std::ostringstream nowhere;
+    m_context.session(index, nowhere, err).error("", error);
+    return {1, "no exposures", false, packed({"", error})};
+}
+
+void ExposureFrames::take(size_t index, Ran& ran) {
+    const Strings texts = unpacked(ran.found, 2);
+    if (!texts[0].empty()) {
+        m_samples[index] = sequence::samples_from_json(texts[0]).at(0);
+    }
+    m_errors[index] = texts[1];
+}
+
+sequence::ExposureSamples ExposureFrames::samples() const {
+    sequence::ExposureSamples all;
+    for (const auto& found : m_samples) {
+        if (found) {
+            all.push_back(*found);
+        }
+    }
+    return all;
+}
+
+std::string ExposureFrames::first_error() const {
+    const auto first = std::find_if(m_errors.begin(), m_errors.end(),
+                                    [](const std::string& error) { return !error.empty(); });
+    return first == m_errors.end() ? "" : *first;
+}
+
+// ---- the check
+
+CheckedFrames::CheckedFrames(const FrameContext& context, const std::optional<State>& state,
+                             sequence::PictureStore& pictures)
+    : m_context(context),
+      m_state(state),
+      m_pictures(pictures),
+      m_results(context.plan.runs.size()) {}
+
+FrameResult CheckedFrames::unchecked(size_t index) const {
+    const FramePlan& plan = m_context.plan;
+    const FrameRun& run = plan.runs[index];
+    const Strings names =
+        words_at(run.words, plan.sequences.empty() ? plan.check.inputs : plan.sequences);
+    FrameResult result;
+    result.frame = run.frame.number;
+    result.view = run.frame.view;
+    result.reference = names.size() > 1 ? names[0] : "";
+    result.test = names.empty() ? "" : names[names.size() > 1 ? 1 : 0];
+    return result;
+}
+
+CheckedFrames::Checked CheckedFrames::check(size_t index) const {
+    const FramePlan& plan = m_context.plan;
+    const FrameRun& run = plan.runs[index];
+    Checked checked{unchecked(index), "", ""};
+    FrameResult& result = checked.result;
+    std::ostringstream out, err;
+    Session session = m_context.session(index, out, err);
+    sequence::FramePainter painter{m_pictures, {}};
+    measure::CheckPart part = m_context.part();
+    part.result = &result;
+    part.painter = draws(plan.check) ? &painter : nullptr;
+    session.check = &part;
+    m_context.run_commands(session, index);
+    result.warnings = session.warning_texts;
+    if (session.warnings > int(result.warnings.size())) {
+        result.warnings.push_back("there were warnings, see what the frame printed");
+    }
+    const std::string error = session.errors > 0 && session.first_error.empty()
+                                  ? "the command line cannot be run"
+                                  : session.first_error;
+    sequence::settle(result, error, words_at(run.words, plan.check.inputs));
+    if (painter.drawn) {
+        checked.pictures = m_pictures.texts(result, *painter.drawn);
+    }
+    // Warnings are the verdict's matter: whether they count may differ when the result is found.
+    const int status = session.exit_status();
+    checked.status = status == 2 ? 0 : status;
+    checked.out = out.str();
+    checked.err = err.str();
+    checked.files = session.files;
+    return checked;
+}
+
+CheckedFrames::Checked CheckedFrames::check_or_find(size_t index) const {
+    if (!m_state) {
+        return check(index);
+    }
+    const FramePlan& plan = m_context.plan;
+    const Strings& words = plan.runs[index].words;
+    const sequence::Item item = m_context.item(index);
+    const sequence::Origin origin{words_at(words, plan.check.essence_at),
+                                  m_context.shot ? sequence::exposures_text(*m_context.shot) : "",
+                                  words_at(words, plan.check.outputs)};
+    if (auto kept = m_state->find(item, origin)) {
+        FrameResult found = sequence::frame_from_json(kept->result);
+        if (!draws(plan.check) || m_pictures.restore(found)) {
+            return {std::move(found), std::move(kept->out), std::move(kept->err), kept->status,
+                    true};
+        }
+    }
+    Checked made = check(index);
+    if (made.result.status <= Status::SizeMismatch) {
+        try {
+            m_state->keep(item, origin, made.files,
+                          {sequence::to_json(made.result), made.out, made.err, made.status});
+        } catch (const std::exception& problem) {
+            // What was measured stays in the result.
+            made.result.status = Status::Error;
+            made.result.message = problem.what();
+            made.status = 1;
+        }
+    }
+    return made;
+}
+
+Ran CheckedFrames::run(size_t index, std::ostream& out, std::ostream& err) {
+    const Checked checked = check_or_find(index);
+    out << checked.out;
+    err << checked.err;
+    const auto& pictures = checked.pictures;
+    return {checked.status, in_words(checked.result), false,
+            packed({sequence::to_json(checked.result), checked.known ? "known" : "",
+                    pictures ? pictures->full : "", pictures ? pictures->small : ""})};
+}
+
+Ran CheckedFrames::failed(size_t index, Status status, const std::string& why, std::ostream& err) {
+    FrameResult result = unchecked(index);
+    result.status = status;
+    result.message = status == Status::Crashed ? crashed(why) : why;
+    std::ostringstream nowhere;
+    m_context.session(index, nowhere, err).error("", result.message);
+    return {1, in_words(result), false, packed({sequence::to_json(result), "", "", ""})};
+}
+
+void CheckedFrames::take(size_t index, Ran& ran) {
+    Strings texts = unpacked(ran.found, 4);
+    FrameResult& result = m_results[index];
+    result = sequence::frame_from_json(texts[0]);
+    if (result.status == Status::Crashed) {
+        // What the process had begun to write.
+        remove_abandoned_outputs(
+            words_at(m_context.plan.runs[index].words, m_context.plan.check.outputs));
+    }
+    if (!draws(m_context.plan.check)) {
+        return;
+    }
+    if (!texts[1].empty()) {
+        m_pictures.restore(result);
+    } else if (!texts[3].empty()) {
+        m_pictures.add(result, sequence::PictureTexts{std::move(texts[2]), std::move(texts[3])});
+    } else {
+        m_pictures.forget(result);
+    }
+}
+
+} // namespace tonetool::runs

@@ -1,0 +1,97 @@
+// What is done with each frame of a command line: run plainly, looked at for the exposures of the
+// shot, or checked.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "measure/check_part.h"
+#include "runs/loop.h"
+#include "sequence/report_store.h"
+#include "sequence/shot_exposures.h"
+#include "sequence/state.h"
+
+namespace tonetool::runs {
+
+/// What the frames of a plan have in common.
+struct FrameContext {
+    const FramePlan& plan;
+    std::optional<sequence::ShotExposures> shot; ///< of exposures=
+
+    chain::Session session(size_t index, std::ostream& out, std::ostream& err) const;
+    measure::CheckPart part() const;
+    sequence::Item item(size_t index) const;
+    /// Runs the words of the frame, if its files are there.
+    void run_commands(chain::Session& session, size_t index) const;
+};
+
+/// A frame whose commands do what they do.
+class PlainFrames final : public FrameJob {
+public:
+    explicit PlainFrames(const FrameContext& context) : m_context(context) {}
+    Ran run(size_t index, std::ostream& out, std::ostream& err) override;
+    Ran failed(size_t index, sequence::Status status, const std::string& why,
+               std::ostream& err) override;
+    void take(size_t, Ran&) override {}
+
+private:
+    const FrameContext& m_context;
+};
+
+/// Measures what exposures=shot needs.
+class ExposureFrames final : public FrameJob {
+public:
+    ExposureFrames(const FrameContext& context, const std::optional<sequence::State>& state);
+    Ran run(size_t index, std::ostream& out, std::ostream& err) override;
+    Ran failed(size_t index, sequence::Status status, const std::string& why,
+               std::ostream& err) override;
+    void take(size_t index, Ran& ran) override;
+
+    sequence::ExposureSamples samples() const;
+    /// Of the first frame that could not be measured; empty where all could.
+    std::string first_error() const;
+
+private:
+    sequence::ExposureSamples measure(size_t index, std::ostream& err, std::string& error) const;
+
+    const FrameContext& m_context;
+    const std::optional<sequence::State>& m_state;
+    std::vector<std::optional<sequence::ExposureSample>> m_samples;
+    Strings m_errors; ///< one for each frame
+};
+
+/// Checks frames: what is wrong with one is its result.
+class CheckedFrames final : public FrameJob {
+public:
+    CheckedFrames(const FrameContext& context, const std::optional<sequence::State>& state,
+                  sequence::PictureStore& pictures);
+    Ran run(size_t index, std::ostream& out, std::ostream& err) override;
+    Ran failed(size_t index, sequence::Status status, const std::string& why,
+               std::ostream& err) override;
+    void take(size_t index, Ran& ran) override;
+
+    std::vector<sequence::FrameResult>& results() { return m_results; }
+
+private:
+    // A frame's result, what it has printed, and its pictures.
+    struct Checked {
+        sequence::FrameResult result;
+        std::string out, err;
+        int status = 0;
+        bool known = false; ///< from an earlier run
+        std::optional<sequence::PictureTexts> pictures{};
+        sequence::FileLog files{}; ///< that its run has opened
+    };
+
+    sequence::FrameResult unchecked(size_t index) const;
+    Checked check(size_t index) const;
+    Checked check_or_find(size_t index) const;
+
+    const FrameContext& m_context;
+    const std::optional<sequence::State>& m_state;
+    sequence::PictureStore& m_pictures;
+    std::vector<sequence::FrameResult> m_results;
+};
+
+} // namespace tonetool::runs
