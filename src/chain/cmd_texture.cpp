@@ -1,9 +1,9 @@
 // Commands that write textures.
 #include <OpenImageIO/imagebufalgo.h>
 #include <map>
-#include <sstream>
 
 #include "chain/ops.h"
+#include "include/tonetool/texture.h"
 #include "text/error.h"
 
 namespace tonetool::chain {
@@ -60,10 +60,10 @@ void run_texture(Session& session, const Call& call) {
     const auto mode = label == "oenv"    ? IBA::MakeTxEnvLatl
                       : label == "obump" ? IBA::MakeTxBumpWithSlopes
                                          : IBA::MakeTxTexture;
-    std::ostringstream told;
+    std::string why;
     const OIIO::ImageBuf& pixels = call.images[0]->part().pixels();
-    if (!IBA::make_texture(mode, pixels, call.argument(0), texture_config(session, call), &told)) {
-        throw CommandError("Could not make texture: " + OIIO::geterror(), call.text());
+    if (!write_texture(mode, pixels, call.argument(0), texture_config(session, call), why)) {
+        throw CommandError("Could not make texture: " + why, call.text());
     }
     session.wrote = call.images[0]->written = true;
     session.push(call.images[0]);

@@ -1,11 +1,14 @@
 // What writers that were killed have left behind.
-#include <OpenImageIO/filesystem.h>
-#include <algorithm>
+#include "imagebuf/abandoned.h"
+
+#include <ctime>
 #include <fcntl.h>
 #include <filesystem>
 #include <map>
+#include <mutex>
 #include <set>
 #include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include "imagebuf/temporary_names.h"
@@ -16,39 +19,64 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// A writer holds a lock on its file as long as it lives, on whatever machine.
-void remove_if_unlocked(const std::string& path) {
-    const int fd = ::open(path.c_str(), O_RDWR | O_CLOEXEC | O_NOFOLLOW);
+// A writer holds a lock on its file as long as it lives. Some network file systems keep locks to
+// one machine: a file of another one must also have been left alone for a while.
+constexpr long kSecondsOfOthers = 3600;
+
+bool is_left_alone(int fd) {
+    struct stat info {};
+    return ::fstat(fd, &info) == 0 && S_ISREG(info.st_mode) &&
+           std::time(nullptr) - info.st_mtime > kSecondsOfOthers;
+}
+
+void remove_if_unlocked(const std::string& path, const std::string& machine) {
+    const int fd = ::open(path.c_str(), O_RDWR | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK);
     if (fd < 0)
         return;
-    if (::flock(fd, LOCK_EX | LOCK_NB) == 0)
+    if ((machine == machine_tag() || is_left_alone(fd)) && ::flock(fd, LOCK_EX | LOCK_NB) == 0)
         ::unlink(path.c_str());
     ::close(fd);
+}
+
+// Of these files, or of all if there are none.
+void remove_abandoned(const fs::path& folder, const std::set<std::string>& names) {
+    std::error_code why;
+    for (fs::directory_iterator entry(folder, why), end; !why && entry != end;
+         entry.increment(why)) {
+        const TemporaryName name = parse_temporary_name(entry->path().filename().string());
+        if (!name.base.empty() && (names.empty() || names.count(name.base) > 0))
+            remove_if_unlocked(entry->path().string(), name.machine);
+    }
+}
+
+fs::path folder_of(const std::string& filename) {
+    const fs::path path(filename);
+    return path.has_parent_path() ? path.parent_path() : ".";
 }
 
 } // namespace
 
 void remove_abandoned_outputs(const std::vector<std::string>& filenames) {
     std::map<fs::path, std::set<std::string>> bases;
-    for (const std::string& filename : filenames) {
-        const fs::path path(filename);
-        bases[path.has_parent_path() ? path.parent_path() : "."].insert(path.filename().string());
+    for (const std::string& filename : filenames)
+        bases[folder_of(filename)].insert(fs::path(filename).filename().string());
+    for (const auto& [folder, names] : bases)
+        remove_abandoned(folder, names);
+}
+
+void remove_abandoned_once(const std::string& filename) {
+    static std::mutex lock;
+    static std::set<std::pair<dev_t, ino_t>> done;
+    const fs::path folder = folder_of(filename);
+    struct stat info {};
+    if (::stat(folder.c_str(), &info) != 0)
+        return;
+    {
+        const std::lock_guard<std::mutex> hold(lock);
+        if (!done.emplace(info.st_dev, info.st_ino).second)
+            return;
     }
-    for (const auto& [folder, names] : bases) {
-        std::error_code why;
-        for (fs::directory_iterator entry(folder, why), end; !why && entry != end;
-             entry.increment(why)) {
-            // ".BASE.1-2.exr": BASE is all but the ends, so that one look-up tells.
-            const std::string name = entry->path().filename().string();
-            const size_t numbers = name.rfind('-');
-            const size_t dot = numbers == std::string::npos ? numbers : name.rfind('.', numbers);
-            if (dot == std::string::npos || dot < 2)
-                continue;
-            const std::string base = name.substr(1, dot - 1);
-            if (names.count(base) > 0 && is_temporary_of(name, base))
-                remove_if_unlocked(entry->path().string());
-        }
-    }
+    remove_abandoned(folder, {});
 }
 
 } // namespace tonetool

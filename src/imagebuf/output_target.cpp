@@ -11,6 +11,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "imagebuf/abandoned.h"
 #include "imagebuf/temporary_names.h"
 #include "include/tonetool/write.h"
 
@@ -61,6 +62,17 @@ std::string resolve(const std::string& name) {
     return path;
 }
 
+// So that the new name outlives a crash of the machine. Not all file systems know how to.
+void sync_folder_of(const std::string& path) {
+    const auto slash = path.rfind('/');
+    const std::string folder = slash == std::string::npos ? "." : path.substr(0, slash + 1);
+    const int fd = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    if (fd < 0)
+        return;
+    ::fsync(fd);
+    ::close(fd);
+}
+
 } // namespace
 
 OutputTarget::OutputTarget(const std::string& name, Links links)
@@ -96,7 +108,23 @@ bool OutputTarget::open(std::string& error) {
         error = reason();
         return false;
     }
-    return open_temporary(exists ? info.st_mode & 0777 : 0, error);
+    remove_abandoned_once(m_final);
+    return open_temporary(error) && (!exists || take_rights(info, error));
+}
+
+// A replaced file keeps its rights, and its owner and group where this user may give it to them; a
+// new one has 0666 less the umask.
+bool OutputTarget::take_rights(const struct stat& old, std::string& error) {
+    struct stat own {};
+    const bool same =
+        ::fstat(m_fd, &own) == 0 && own.st_uid == old.st_uid && own.st_gid == old.st_gid;
+    const bool given = same || ::fchown(m_fd, old.st_uid, old.st_gid) == 0 ||
+                       ::fchown(m_fd, uid_t(-1), old.st_gid) == 0;
+    (void)given; // where that is not allowed it is this user's
+    if (::fchmod(m_fd, old.st_mode & 0777) == 0)
+        return true;
+    error = reason();
+    return false;
 }
 
 bool OutputTarget::commit(std::string& error) {
@@ -112,6 +140,8 @@ bool OutputTarget::commit(std::string& error) {
         return false;
     }
     m_temporary.clear();
+    if (regular)
+        sync_folder_of(m_final);
     return true;
 }
 
@@ -126,14 +156,16 @@ bool OutputTarget::hold() {
     return false;
 }
 
-bool OutputTarget::open_temporary(mode_t mode, std::string& error) {
-    const auto slash = m_final.rfind('/');
-    const std::string folder = slash == std::string::npos ? "" : m_final.substr(0, slash + 1);
-    const std::string base = m_final.substr(slash == std::string::npos ? 0 : slash + 1);
-    // 0666 less the umask for a new file, the old file's rights for a replaced one.
+std::string OutputTarget::unused_name() const {
     static std::atomic<unsigned> counter{0};
+    const auto slash = m_final.rfind('/');
+    const size_t begin = slash == std::string::npos ? 0 : slash + 1;
+    return m_final.substr(0, begin) + temporary_name(m_final.substr(begin), ::getpid(), counter++);
+}
+
+bool OutputTarget::open_temporary(std::string& error) {
     for (int attempt = 0; attempt < 100 && m_fd < 0; ++attempt) {
-        m_temporary = folder + temporary_name(base, ::getpid(), counter++);
+        m_temporary = unused_name();
         m_fd = ::open(m_temporary.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
         if (m_fd < 0 && errno != EEXIST)
             break;
@@ -142,14 +174,13 @@ bool OutputTarget::open_temporary(mode_t mode, std::string& error) {
     }
     if (m_fd < 0) {
         m_temporary.clear();
-        error = "cannot create a file in \"" + (folder.empty() ? "." : folder) + "\": " + reason();
+        const auto slash = m_final.rfind('/');
+        error = "cannot create a file in \"" +
+                (slash == std::string::npos ? "." : m_final.substr(0, slash + 1)) +
+                "\": " + reason();
         return false;
     }
     m_slot = remember(m_temporary);
-    if (mode != 0 && ::fchmod(m_fd, mode) != 0) {
-        error = reason();
-        return false;
-    }
     return true;
 }
 

@@ -3,6 +3,7 @@
 
 #include <OpenImageIO/filesystem.h>
 #include <string>
+#include <sys/stat.h>
 #include <sys/types.h>
 
 #include "include/tonetool/write.h"
@@ -19,7 +20,7 @@ public:
     ~OutputTarget();
 
     bool open(std::string& error);
-    /// Everything to the disk, then the new name in one step.
+    /// Everything to the disk, then the new name in one step, then the folder to the disk.
     bool commit(std::string& error);
 
     int fd() const { return m_fd; }
@@ -27,9 +28,13 @@ public:
     /// What a writer is told to open: never the final name of a file.
     const std::string& path() const { return is_device() ? m_final : m_temporary; }
 
+    /// A name beside the target that no other writer uses.
+    std::string unused_name() const;
+
 private:
     bool hold();
-    bool open_temporary(mode_t mode, std::string& error);
+    bool open_temporary(std::string& error);
+    bool take_rights(const struct stat& old, std::string& error);
 
     std::string m_final, m_temporary;
     Links m_links;

@@ -3,30 +3,62 @@
 
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/strutil.h>
-#include <algorithm>
+#include <cstdint>
 #include <string>
+#include <unistd.h>
 
 namespace tonetool {
 
-/// ".shot.exr.4711-0.exr": the extension stays, some writers look at it.
-inline std::string temporary_name(const std::string& base, long process, unsigned counter) {
-    return "." + base + OIIO::Strutil::fmt::format(".{}-{}", process, counter) +
+/// Eight digits that tell this machine's temporary files from those of others that write to the
+/// same folder: their processes cannot be looked for here.
+inline const std::string& machine_tag() {
+    static const std::string tag = [] {
+        char name[256] = "";
+        (void)::gethostname(name, sizeof name - 1);
+        uint32_t hash = 2166136261U; // FNV-1a
+        for (const char* c = name; *c; ++c)
+            hash = (hash ^ static_cast<unsigned char>(*c)) * 16777619U;
+        return OIIO::Strutil::fmt::format("{:08x}", hash);
+    }();
+    return tag;
+}
+
+/// ".shot.exr.4711-0-89abcdef.exr": the extension stays, some writers look at it.
+inline std::string temporary_name(const std::string& base, long process, unsigned counter,
+                                  const std::string& machine = machine_tag()) {
+    return "." + base + OIIO::Strutil::fmt::format(".{}-{}-{}", process, counter, machine) +
            OIIO::Filesystem::extension(base);
 }
 
-inline bool is_temporary_of(const std::string& name, const std::string& base) {
-    const std::string start = "." + base + ".", end = OIIO::Filesystem::extension(base);
-    if (name.size() < start.size() + end.size() || name.compare(0, start.size(), start) != 0 ||
-        name.compare(name.size() - end.size(), end.size(), end) != 0)
-        return false;
-    const std::string numbers = name.substr(start.size(), name.size() - start.size() - end.size());
-    const size_t dash = numbers.find('-');
-    const auto digits = [](const std::string& text) {
-        return !text.empty() &&
-               std::all_of(text.begin(), text.end(), [](char c) { return c >= '0' && c <= '9'; });
+/// What a temporary file's name says.
+struct TemporaryName {
+    std::string base; ///< "shot.exr"; empty where it is the name of another file
+    std::string machine;
+};
+
+inline TemporaryName parse_temporary_name(const std::string& name) {
+    const auto all_of = [](const std::string& text, const char* valid) {
+        return !text.empty() && text.find_first_not_of(valid) == std::string::npos;
     };
-    return dash != std::string::npos && digits(numbers.substr(0, dash)) &&
-           digits(numbers.substr(dash + 1));
+    const std::string tail = OIIO::Filesystem::extension(name);
+    // Without an extension of its base what looks like one is the numbers.
+    for (const std::string& extension : {tail, std::string()}) {
+        const std::string stem = name.substr(0, name.size() - extension.size());
+        const size_t dot = stem.rfind('.');
+        if (dot == std::string::npos || dot < 2 || stem[0] != '.')
+            continue;
+        const std::string base = stem.substr(1, dot - 1), numbers = stem.substr(dot + 1);
+        const size_t first = numbers.find('-'), second = numbers.rfind('-');
+        if (first == std::string::npos || first == second ||
+            OIIO::Filesystem::extension(base) != extension)
+            continue;
+        const std::string machine = numbers.substr(second + 1);
+        if (all_of(numbers.substr(0, first), "0123456789") &&
+            all_of(numbers.substr(first + 1, second - first - 1), "0123456789") &&
+            machine.size() == 8 && all_of(machine, "0123456789abcdef"))
+            return {base, machine};
+    }
+    return {};
 }
 
 } // namespace tonetool

@@ -9,6 +9,8 @@
 
 #include "imagebuf/guard.h"
 #include "imagebuf/output_target.h"
+#include "imagebuf/sure_file.h"
+#include "imagebuf/write_checks.h"
 
 namespace tonetool {
 namespace {
@@ -95,11 +97,11 @@ bool check_images(const std::vector<OutputImage>& images, const OIIO::ImageOutpu
 // Rows that are read back at once: whole strips and tiles of most files.
 constexpr int kRowsBack = 256;
 
-bool read_back_rows(OIIO::ImageInput& in, int subimage, const OIIO::ImageSpec& spec) {
+bool read_back_rows(OIIO::ImageInput& in, int subimage, int level, const OIIO::ImageSpec& spec) {
     std::vector<unsigned char> pixels;
     if (spec.depth > 1) {
         pixels.resize(spec.image_bytes(true));
-        return in.read_image(subimage, 0, 0, -1, OIIO::TypeUnknown, pixels.data());
+        return in.read_image(subimage, level, 0, -1, OIIO::TypeUnknown, pixels.data());
     }
     const bool tiled = spec.tile_width > 0;
     const int block = tiled ? spec.tile_height : 1;
@@ -108,40 +110,28 @@ bool read_back_rows(OIIO::ImageInput& in, int subimage, const OIIO::ImageSpec& s
         const int end = std::min(y + step, spec.y + spec.height);
         pixels.resize(size_t(end - y) * spec.scanline_bytes(true));
         const bool read =
-            tiled ? in.read_tiles(subimage, 0, spec.x, spec.x + spec.width, y, end, 0, 1, 0,
+            tiled ? in.read_tiles(subimage, level, spec.x, spec.x + spec.width, y, end, 0, 1, 0,
                                   spec.nchannels, OIIO::TypeUnknown, pixels.data())
-                  : in.read_scanlines(subimage, 0, y, end, 0, 0, spec.nchannels, OIIO::TypeUnknown,
-                                      pixels.data());
+                  : in.read_scanlines(subimage, level, y, end, 0, 0, spec.nchannels,
+                                      OIIO::TypeUnknown, pixels.data());
         if (!read)
             return false;
     }
     return true;
 }
 
-// Reads every pixel of a file back; a writer that buffers may not notice that its last bytes were
-// lost.
-bool reads_back(const std::string& path, size_t subimages, std::string& error) {
-    const auto in = OIIO::ImageInput::open(path);
-    for (int s = 0; in && s < int(subimages); ++s) {
-        const OIIO::ImageSpec spec = in->spec(s, 0);
-        if (spec.undefined())
-            break;
+bool read_back_levels(OIIO::ImageInput& in, int subimage) {
+    for (int level = 0;; ++level) {
+        const OIIO::ImageSpec spec = in.spec(subimage, level);
+        if (spec.undefined()) {
+            (void)in.geterror();
+            return level > 0;
+        }
         OIIO::DeepData deep;
-        const bool read =
-            spec.deep ? in->read_native_deep_image(s, 0, deep) : read_back_rows(*in, s, spec);
-        if (!read)
-            break;
-        if (s + 1 == int(subimages))
-            return true;
+        if (!(spec.deep ? in.read_native_deep_image(subimage, level, deep)
+                        : read_back_rows(in, subimage, level, spec)))
+            return false;
     }
-    error = "the file that was written cannot be read back: " +
-            (in ? in->geterror() : OIIO::geterror());
-    return false;
-}
-
-// TIFF files with Exif data come out corrupt through a proxy (OpenImageIO 2.4, libtiff 4.5).
-bool takes_proxy(const OIIO::ImageOutput& out) {
-    return out.supports("ioproxy") && std::strcmp(out.format_name(), "tiff") != 0;
 }
 
 // OpenImageIO (2.4) fills the place of a description that an SGI file does not have with whatever
@@ -155,6 +145,24 @@ void clear_description(CheckedProxy& proxy) {
     constexpr int64_t place = 24; // of the format
     constexpr char none[80] = {};
     proxy.pwrite(none, sizeof none, place);
+}
+
+// Whether its writer does not come back from a failed write, see SureFile.
+bool needs_sure_file(const OIIO::ImageOutput& out, const std::vector<OutputImage>& images) {
+    return std::strcmp(out.format_name(), "openexr") == 0 && count_subimages(images) > 1 &&
+           std::any_of(images.begin(), images.end(),
+                       [](const OutputImage& image) { return image.spec.tile_width > 0; });
+}
+
+// Of pixels, and of what lies around them. Tiles at the edges are whole.
+int64_t most_bytes(const std::vector<OutputImage>& images) {
+    double bytes = 1 << 20;
+    for (const OutputImage& image : images) {
+        const OIIO::ImageSpec& spec = image.spec;
+        bytes += 1.1 * double(spec.pixel_bytes(true)) * (spec.width + spec.tile_width) *
+                 (spec.height + spec.tile_height);
+    }
+    return int64_t(bytes);
 }
 
 bool write_checked(const std::vector<OutputImage>& images, const std::string& filename,
@@ -178,7 +186,14 @@ bool write_checked(const std::vector<OutputImage>& images, const std::string& fi
         return false;
     }
     const bool undescribed = lacks_description(*out, images.front().spec);
-    const bool written = write_through(std::move(out), images, target.path(), error);
+    SureFile sure;
+    const bool surely = needs_sure_file(*out, images);
+    if (surely && !sure.open(target, most_bytes(images), error))
+        return false;
+    const bool written =
+        write_through(std::move(out), images, surely ? sure.path() : target.path(), error);
+    if (written)
+        sure.copy_to(proxy);
     if (!proxy.failure().empty())
         error = proxy.failure();
     if (!written || !proxy.failure().empty())
@@ -204,6 +219,21 @@ bool named(const std::string& filename, std::string& error, const Run& run) {
 }
 
 } // namespace
+
+bool takes_proxy(const OIIO::ImageOutput& out) {
+    // TIFF files with Exif data come out corrupt through a proxy (OpenImageIO 2.4, libtiff 4.5).
+    return out.supports("ioproxy") && std::strcmp(out.format_name(), "tiff") != 0;
+}
+
+bool reads_back(const std::string& path, size_t subimages, std::string& error) {
+    const auto in = OIIO::ImageInput::open(path);
+    for (int s = 0; in && s < int(subimages) && read_back_levels(*in, s); ++s)
+        if (s + 1 == int(subimages))
+            return true;
+    error = "the file that was written cannot be read back: " +
+            (in ? in->geterror() : OIIO::geterror());
+    return false;
+}
 
 bool write_images(const std::vector<OutputImage>& images, const std::string& filename,
                   std::string& error) {

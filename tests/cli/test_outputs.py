@@ -2,6 +2,7 @@
 
 import os
 import resource
+import subprocess
 
 import numpy as np
 import pytest
@@ -187,6 +188,47 @@ def test_file_size_limit_leaves_the_old_file(tonetool, make_image, tmp_path):
     tonetool(a, "-o", old, status=1, preexec_fn=small_files)
     assert (tmp_path / old).read_bytes() == before
     assert sorted(os.listdir(tmp_path)) == ["a.exr", "x.exr"]
+
+
+@pytest.mark.parametrize("name", ["x.exr", "x.tx"])
+def test_texture_on_a_full_disk(tonetool, make_image, tmp_path, name):
+    a = make_image("a.exr", width=256, height=256)
+    (tmp_path / name).write_bytes(b"old")
+
+    def small_files():
+        resource.setrlimit(resource.RLIMIT_FSIZE, (4096, 4096))
+
+    ran = tonetool(a, "-otex", name, status=1, preexec_fn=small_files)
+    assert "Could not make texture" in ran.err
+    assert (tmp_path / name).read_bytes() == b"old"
+    assert sorted(os.listdir(tmp_path)) == ["a.exr", name]
+
+
+@pytest.mark.parametrize("words", [["-o", "x.exr"], ["-otex", "x.exr"], ["-otex", "x.tx"],
+                                   ["-obump", "x.tx"], ["-oenv", "x.exr"]])
+def test_replaced_file_keeps_its_rights(tonetool, make_image, tmp_path, words):
+    a = make_image("a.exr", width=32, height=16)
+    file = tmp_path / words[-1]
+    file.write_bytes(b"old")
+    file.chmod(0o604)
+    tonetool(a, *(["--ch", "R"] if words[0] == "-obump" else []), *words)
+    assert file.stat().st_mode & 0o7777 == 0o604
+    assert file.read_bytes() != b"old"
+    assert sorted(os.listdir(tmp_path)) == ["a.exr", words[-1]]
+
+
+def test_what_a_killed_run_left_is_cleared_by_the_next(program, tonetool, tmp_path):
+    folder = tmp_path / "out"
+    folder.mkdir()
+    words = [program, "--pattern", "noise", "2048x2048", "3", "-d", "half", "-o", "out/b.exr"]
+    with subprocess.Popen(words, cwd=tmp_path) as running:
+        while running.poll() is None and not os.listdir(folder):
+            pass
+        running.kill()
+    left = os.listdir(folder)
+    assert len(left) == 1 and left[0].startswith(".b.exr."), left
+    tonetool("--create", "4x4", "3", "-o", "out/c.exr")
+    assert os.listdir(folder) == ["c.exr"]
 
 
 def test_output_over_the_input(tonetool, make_image, read):

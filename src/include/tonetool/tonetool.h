@@ -12,6 +12,7 @@
 #include "tonetool/lut.h"
 #include "tonetool/pixels.h"
 #include "tonetool/qc.h"
+#include "tonetool/texture.h"
 #include "tonetool/tmqi.h"
 #include "tonetool/tonemap.h"
 #include "tonetool/write.h"

@@ -1,3 +1,4 @@
+#include "include/tonetool/texture.h"
 #include "include/tonetool/write.h"
 
 #include <gmock/gmock.h>
@@ -264,6 +265,73 @@ TEST_F(Write, AFullDiskKeepsTheOldFile) {
         testing::ExitedWithCode(0), "File too large");
     EXPECT_EQ(contents(in("old.exr")), "old");
     EXPECT_THAT(files(), ElementsAre("old.exr"));
+}
+
+// Their writer waits for ever where a write fails.
+TEST_F(Write, AFullDiskEndsTiledFilesOfSeveralPartsAndTextures) {
+    put("old.exr", "old");
+    EXPECT_EXIT(
+        {
+            ::signal(SIGXFSZ, SIG_IGN);
+            ::alarm(60);
+            struct rlimit limit = {};
+            limit.rlim_cur = limit.rlim_max = 4096;
+            ::setrlimit(RLIMIT_FSIZE, &limit);
+            const ImageBuf image = noise(256, 256, 3);
+            OIIO::ImageSpec spec = image.spec();
+            spec.tile_width = spec.tile_height = 32;
+            std::string error;
+            bool written = write_images({{&image, spec}, {&image, spec}}, in("old.exr"), error);
+            int wrong = expect_failure(written, error, "old.exr");
+            written =
+                write_texture(OIIO::ImageBufAlgo::MakeTxTexture, image, in("old.exr"), {}, error);
+            wrong += expect_failure(written, error, "");
+            written =
+                write_texture(OIIO::ImageBufAlgo::MakeTxTexture, image, in("new.tx"), {}, error);
+            wrong += expect_failure(written, error, "");
+            std::_Exit(wrong);
+        },
+        testing::ExitedWithCode(0), "");
+    EXPECT_EQ(contents(in("old.exr")), "old");
+    EXPECT_THAT(files(), ElementsAre("old.exr"));
+}
+
+TEST_F(Write, TiledFilesOfSeveralPartsAreWhole) {
+    const auto image = noise(70, 50, 3);
+    OIIO::ImageSpec spec = image.spec();
+    spec.tile_width = spec.tile_height = 32;
+    ASSERT_TRUE(write_images({{&image, spec}, {&image, spec}}, in("a.exr"), m_error)) << m_error;
+    EXPECT_EQ(values(ImageBuf(in("a.exr"), 1, 0)), values(image));
+}
+
+TEST_F(Write, TexturesHaveLevelsAndTheRightsOfWhatTheyReplace) {
+    const auto image = noise(64, 64, 3);
+    put("old.exr", "old");
+    ASSERT_EQ(::chmod(in("old.exr").c_str(), 0640), 0);
+    for (const char* name : {"old.exr", "new.tx", "new.exr"}) {
+        ASSERT_TRUE(write_texture(OIIO::ImageBufAlgo::MakeTxTexture, image, in(name), {}, m_error))
+            << m_error;
+        const ImageBuf back(in(name));
+        EXPECT_EQ(values(back), values(image)) << name;
+        EXPECT_EQ(back.nmiplevels(), 7) << name;
+    }
+    struct stat info {};
+    ASSERT_EQ(::stat(in("old.exr").c_str(), &info), 0);
+    EXPECT_EQ(info.st_mode & 0777u, 0640u);
+    EXPECT_THAT(files(), ElementsAre("new.exr", "new.tx", "old.exr"));
+}
+
+TEST_F(Write, ATextureIsNoDeviceAndNoUnknownFormat) {
+    fs::create_symlink("/dev/null", in("null.tx"));
+    const auto image = noise(8, 8, 3);
+    const auto mode = OIIO::ImageBufAlgo::MakeTxTexture;
+    EXPECT_FALSE(write_texture(mode, image, in("null.tx"), {}, m_error));
+    EXPECT_THAT(m_error, HasSubstr("device"));
+    EXPECT_TRUE(fs::is_character_file("/dev/null"));
+    EXPECT_FALSE(write_texture(mode, image, in("a.nosuch"), {}, m_error));
+    EXPECT_FALSE(write_texture(mode, image, in("a.png"), {}, m_error));
+    EXPECT_THAT(m_error, HasSubstr("tile"));
+    EXPECT_THAT(files(), ElementsAre("null.tx"));
 }
 
 constexpr uid_t kNobody = 65534;

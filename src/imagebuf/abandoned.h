@@ -1,0 +1,12 @@
+// What writers that were killed have left behind.
+#pragma once
+
+#include <string>
+
+namespace tonetool {
+
+/// Removes what killed writers of any file have left in the folder of this one, the first time that
+/// this process writes there.
+void remove_abandoned_once(const std::string& filename);
+
+} // namespace tonetool
