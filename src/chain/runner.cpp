@@ -223,7 +223,9 @@ Strings Runner::take_arguments(const Command& row, const Token& token) {
                                    "\" is a command (a file of that name is \"./" + word + "\")");
             }
         }
-        arguments.push_back(m_session.flow.running() ? with_values(m_session, word) : word);
+        // Outputs of checks were taken from the command line as they are, before it ran.
+        const bool evaluated = m_session.flow.running() && row.group != Group::Check;
+        arguments.push_back(evaluated ? with_values(m_session, word) : word);
         ++next;
     }
     return arguments;

@@ -222,6 +222,61 @@ def test_dry_run_prints_the_scripts_and_does_nothing(program, shot):
     assert sorted(os.listdir(shot)) == before
 
 
+# Runs the tasks of a job at once, one after the other.
+FAKE_SBATCH = """#!/bin/bash
+script="${!#}"
+last=$(sed -n 's/^#SBATCH --array=0-\\([0-9]*\\).*/\\1/p' "$script")
+for task in $(seq 0 "${last:-0}"); do
+    SLURM_ARRAY_TASK_ID=$task bash "$script"
+done
+echo 17
+"""
+ODD = ["plain", "a:b", "{FRAME_NUMBER}", "with space", "a#1 @ %04d %V", "it's", 'say "x"',
+       "$HOME `x` & ; * ? \\", "it's {\"x\"}:#"]
+
+
+@pytest.fixture
+def fake_slurm(tmp_path):
+    """An environment with programs that have Slurm's names."""
+    folder = tmp_path / "bin"
+    folder.mkdir()
+    for name, text in (("sbatch", FAKE_SBATCH), ("scontrol", "#!/bin/bash\n"),
+                       ("squeue", "#!/bin/bash\n")):
+        (folder / name).write_text(text)
+        (folder / name).chmod(0o755)
+    return {**os.environ, "PATH": f"{folder}:{os.environ['PATH']}"}
+
+
+@pytest.mark.parametrize("name", ODD)
+def test_folders_of_any_name(program, fake_slurm, tmp_path, name):
+    here = tmp_path / name / "shot"
+    work = tmp_path / name / "work"
+    here.mkdir(parents=True)
+    work.mkdir()
+    for side, value in (("ref", "0.4"), ("test", "0.5")):
+        subprocess.run([program, "--pattern", f"constant:color={value},1,0.1", "8x8", "3",
+                        "-o", "a.exr"], cwd=here, check=True)
+        for number in (1, 2):
+            shutil.copy(here / "a.exr", here / f"{side}.{number}.exr")
+    line = ["--frames", "1-2", "ref.#.exr", "test.#.exr", "--hdrflip:fail=1e-3:exposures=shot",
+            "--json", "check.json", "--csv", "check.csv"]
+    alone, wanted = local(program, here, line)
+    assert alone.returncode == 3, alone.stderr
+    ran = farm(program, here, fake_slurm, "--folder", str(work), "--chunk", "1", "--", *line)
+    logs = "\n".join(log.read_text() for log in work.glob("*/*.log"))
+    assert ran.returncode == 3, (ran.stdout, ran.stderr, logs)
+    for file, text in wanted.items():
+        assert (here / file).read_bytes() == text, file
+
+
+def test_folder_with_a_line_break(program, fake_slurm, tmp_path):
+    folder = tmp_path / "a\nb"
+    folder.mkdir()
+    ran = farm(program, tmp_path, fake_slurm, "--folder", str(folder), "--", *words())
+    assert ran.returncode == 1 and "control characters" in ran.stderr
+    assert not os.listdir(folder)
+
+
 @pytest.mark.parametrize("line, text", [
     (["--", "a.#.exr", "b.#.exr", "--hdrflip", "--json", "c.json"], "need --frames"),
     (["--", "--frames", "1-4", "a.#.exr", "b.#.exr", "--hdrflip"], "no result"),
