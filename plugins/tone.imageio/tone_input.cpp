@@ -10,6 +10,7 @@
 #include "include/tonetool/export.h"
 #include "recipe/picture.h"
 #include "recipe/plan.h"
+#include "text/printable.h"
 
 namespace tonetool {
 
@@ -32,7 +33,7 @@ void say(const std::string& text) {
     const std::lock_guard<std::mutex> hold(lock);
     if (text != last) {
         last = text;
-        std::fprintf(stderr, "%s\n", text.c_str());
+        std::fprintf(stderr, "%s\n", printable_lines(text).c_str());
     }
 }
 

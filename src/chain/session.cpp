@@ -1,5 +1,6 @@
 #include "chain/session.h"
 
+#include <OpenImageIO/strutil.h>
 #include <algorithm>
 #include <filesystem>
 #include <ostream>
@@ -11,6 +12,11 @@ namespace {
 std::string prefix(const char* kind, const std::string& where, bool compat) {
     const char* none = compat ? " : " : ": ";
     return std::string("tonetool ") + kind + (where.empty() ? none : ": " + where + " : ");
+}
+
+// A line break in a name must not begin a line that looks like one of this program.
+std::string indented(const std::string& text, bool compat) {
+    return compat ? text : OIIO::Strutil::replace(text, "\n", "\n  ", true);
 }
 
 std::string of_frame(const Session& session) {
@@ -29,8 +35,9 @@ void Session::error(const std::string& where, const std::string& what, bool ends
         first_error = (where.empty() ? "" : where + " : ") + what;
     }
     out.flush();
-    err << (what.empty() ? "tonetool ERROR: " + where + " (unknown error)"
-                         : prefix("ERROR", where, compat) + what + of_frame(*this))
+    err << (what.empty()
+                ? "tonetool ERROR: " + where + " (unknown error)"
+                : prefix("ERROR", where, compat) + indented(what, compat) + of_frame(*this))
         << "\nFull command line was:\n> " << command_line << std::endl;
 }
 
@@ -38,7 +45,8 @@ void Session::warning(const std::string& where, const std::string& what) {
     ++warnings;
     warning_texts.push_back((where.empty() ? "" : where + " : ") + what);
     out.flush();
-    err << prefix("WARNING", where, compat) << what << of_frame(*this) << std::endl;
+    err << prefix("WARNING", where, compat) << indented(what, compat) << of_frame(*this)
+        << std::endl;
 }
 
 void Session::warn_of_other_parts(const std::string& where, const Image& image) {

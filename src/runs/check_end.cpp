@@ -10,6 +10,7 @@
 #include "sequence/report_files.h"
 #include "sequence/shot_exposures.h"
 #include "text/error.h"
+#include "text/printable.h"
 
 namespace tonetool::runs {
 
@@ -34,14 +35,14 @@ std::string picture_folder(const CheckPlan& check) {
 int conclude_check(const sequence::ShotResult& shot, const FramePlan& plan,
                    const sequence::PictureStore& pictures, std::ostream& out, std::ostream& err) {
     out << sequence::faults_text(shot);
-    out << "check: " << status_name(shot.verdict) << ", " << shot.sentence << std::endl;
+    out << "check: " << status_name(shot.verdict) << ", " << printable(shot.sentence) << std::endl;
     Strings errors = sequence::write_results(shot, plan.check.words);
     for (const std::string& complaint :
          sequence::write_reports(shot, pictures, plan.check.words, errors)) {
-        err << "tonetool WARNING: " << complaint << '\n';
+        err << "tonetool WARNING: " << printable(complaint) << '\n';
     }
     for (const std::string& error : errors) {
-        err << "tonetool ERROR: " << error << '\n';
+        err << "tonetool ERROR: " << printable(error) << '\n';
     }
     const int verdict = exit_status(shot.verdict, plan.warnings_exit);
     const int status = plan.compat && verdict == 3 ? 1 : verdict;

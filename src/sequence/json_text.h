@@ -6,12 +6,15 @@
 #include <string>
 
 #include "imagebuf/json_reading.h"
+#include "text/printable.h"
 
 namespace tonetool::sequence {
 
 /// A line for each value; bytes that are no UTF-8 become U+FFFD.
 inline std::string dumped(const nlohmann::ordered_json& value) {
-    return value.dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+    return printable_json(
+               value.dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace)) +
+           "\n";
 }
 
 /// A runtime_error unless the object says that it is of this format and version.

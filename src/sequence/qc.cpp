@@ -5,6 +5,7 @@
 #include <tuple>
 
 #include "sequence/qc_shot.h"
+#include "text/printable.h"
 
 namespace tonetool::sequence {
 
@@ -105,9 +106,10 @@ std::string faults_text(const ShotResult& shot) {
     std::string text;
     for (const FrameResult& frame : shot.frames) {
         for (const Fault& fault : frame.faults) {
-            text += OIIO::Strutil::fmt::format(
-                "qc: frame {}{}{}: {} {}: {}\n", frame.frame, frame.view.empty() ? "" : " ",
-                frame.view, severity_name(fault.severity), fault.code, fault.sentence);
+            text += OIIO::Strutil::fmt::format("qc: frame {}{}{}: {} {}: {}\n", frame.frame,
+                                               frame.view.empty() ? "" : " ", printable(frame.view),
+                                               severity_name(fault.severity), fault.code,
+                                               printable(fault.sentence));
         }
     }
     return text;

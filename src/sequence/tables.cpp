@@ -7,6 +7,7 @@
 #include <map>
 
 #include "sequence/results_json.h"
+#include "text/printable.h"
 
 namespace tonetool::sequence {
 
@@ -23,7 +24,7 @@ std::string text_of(double value) {
 
 std::string cell(const std::string& text) {
     const bool formula = !text.empty() && std::strchr("=+-@\t\r", text.front()) != nullptr;
-    const std::string safe = (formula ? "'" : "") + valid_utf8(text);
+    const std::string safe = (formula ? "'" : "") + printable_lines(valid_utf8(text));
     if (safe.find_first_of(",\"\r\n") == std::string::npos) {
         return safe;
     }

@@ -1,10 +1,13 @@
 #include "text/text.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <limits>
 #include <locale>
 #include <sstream>
+
+#include "text/printable.h"
 
 namespace tonetool {
 
@@ -132,6 +135,15 @@ std::string shell_quoted(const std::string& argument) {
                               "-_=+:,./%@#";
     if (!argument.empty() && argument.find_first_not_of(plain) == std::string::npos) {
         return argument;
+    }
+    const auto controls = [](char c) { return (c >= 0 && c < ' ') || c == 127; };
+    if (std::any_of(argument.begin(), argument.end(), controls)) {
+        std::string escaped = "$'";
+        for (char c : argument) {
+            escaped += controls(c) ? printable(std::string(1, c))
+                                   : (c == '\'' || c == '\\' ? "\\" : "") + std::string(1, c);
+        }
+        return escaped + "'";
     }
     std::string quoted = "'";
     for (char c : argument) {

@@ -1,11 +1,11 @@
 // The tonetool program: its arguments go to the chain, the chain's status comes back.
 #include <csignal>
-#include <cstdio>
 #include <exception>
 #include <iostream>
 
 #include "include/tonetool/write.h"
 #include "runs/runs.h"
+#include "text/printable.h"
 #include "tone.imageio/tone_input.h"
 #include "tonetool/doctor.h"
 
@@ -34,6 +34,7 @@ void install_signal_handlers() {
 } // namespace
 
 int main(int argc, char** argv) {
+    const tonetool::PrintableStream out(std::cout), err(std::cerr);
     try {
         install_signal_handlers();
         tonetool::register_tone_format();
@@ -42,9 +43,9 @@ int main(int argc, char** argv) {
         tonetool::Strings words(argv + (argc > 0 ? 1 : 0), argv + argc);
         return tonetool::runs::run(words, std::cout, std::cerr, true);
     } catch (const std::exception& problem) {
-        std::fprintf(stderr, "tonetool ERROR: %s\n", problem.what());
+        std::cerr << "tonetool ERROR: " << problem.what() << std::endl;
     } catch (...) {
-        std::fprintf(stderr, "tonetool ERROR: unknown error\n");
+        std::cerr << "tonetool ERROR: unknown error" << std::endl;
     }
     return 1;
 }
