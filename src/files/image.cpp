@@ -5,6 +5,7 @@
 #include <OpenImageIO/imageio.h>
 #include <algorithm>
 
+#include "imagebuf/allocation.h"
 #include "imagebuf/oiio_compat.h"
 #include "text/error.h"
 #include "text/text.h"
@@ -42,8 +43,11 @@ std::unique_ptr<OIIO::ImageInput> open_input(const std::string& filename, const 
     }
     auto input = OIIO::ImageInput::open(filename, &how.config);
     if (!input) {
-        std::string why = OIIO::geterror();
-        throw CommandError(why.empty() ? "cannot read \"" + filename + "\"" : why);
+        const std::string why = OIIO::geterror();
+        const bool named = why.find(filename) != std::string::npos;
+        throw CommandError(why.empty() ? "cannot read \"" + filename + "\""
+                           : named     ? why
+                                       : "\"" + filename + "\": " + why);
     }
     return input;
 }
@@ -55,6 +59,19 @@ std::vector<OIIO::ImageSpec> level_headers(OIIO::ImageInput& input, int subimage
     }
     (void)input.geterror();
     return levels;
+}
+
+OIIO::ImageBuf black_image(const OIIO::ImageSpec& spec, const std::string& file) {
+    try {
+        expect_memory(spec.deep ? 0 : spec.image_bytes());
+        OIIO::ImageBuf image(spec);
+        if (!spec.deep && !image.localpixels()) {
+            throw std::bad_alloc();
+        }
+        return image;
+    } catch (const std::bad_alloc& failure) {
+        throw CommandError("\"" + file + "\": " + memory_text(failure));
+    }
 }
 
 } // namespace
@@ -145,10 +162,7 @@ void Part::read(int level) {
     if (!spec.deep) {
         spec.set_format(m_how.type == OIIO::TypeUnknown ? spec.format : m_how.type);
     }
-    OIIO::ImageBuf buffer(spec);
-    if (!spec.deep && !buffer.localpixels()) {
-        throw CommandError("not enough memory for \"" + m_file + "\"");
-    }
+    OIIO::ImageBuf buffer = black_image(spec, m_file);
     bool done = spec.deep
                     ? oiio::read_deep_pixels(*input, m_subimage, level, *buffer.deepdata())
                     : oiio::read_flat_pixels(*input, m_subimage, level, spec, buffer.localpixels());
@@ -188,8 +202,8 @@ OIIO::ImageBuf Part::color_view(int begin, int end) {
     spec.channelnames = {spec.channelnames.begin() + begin, spec.channelnames.begin() + end};
     spec.alpha_channel = spec.z_channel = -1;
     tag_encoding(spec);
-    OIIO::ImageBuf buffer(spec);
-    if (input->spec(m_subimage, 0).roi() != header().roi() || !buffer.localpixels() ||
+    OIIO::ImageBuf buffer = black_image(spec, m_file);
+    if (input->spec(m_subimage, 0).roi() != header().roi() ||
         !oiio::read_channels(*input, m_subimage, begin, end, buffer.localpixels())) {
         throw ReadError(m_file, input->geterror());
     }

@@ -1,6 +1,5 @@
 #include "imagebuf/calibrate.h"
 
-#include <OpenImageIO/imagebufalgo.h>
 #include <OpenImageIO/strutil.h>
 #include <cmath>
 #include <limits>
@@ -9,6 +8,7 @@
 #include "imagebuf/guard.h"
 #include "imagebuf/measure.h"
 #include "imagebuf/parallel.h"
+#include "imagebuf/row_source.h"
 #include "metrics/order_statistics.h"
 
 namespace tonetool {
@@ -153,13 +153,12 @@ bool scaled(ImageBuf& dst, const ImageBuf& src, const CalibrationOptions& option
         error = "white is of tone curves: it belongs to tonemap";
         return false;
     }
+    ROI part;
     ImageBuf out;
-    if (!calibration.make(src, pixels, options, nthreads, error))
+    if (!part_of(src, roi, part, error) ||
+        !calibration.make(src, pixels, options, nthreads, error) ||
+        !copy_pixels(out, src, part, nthreads, error))
         return false;
-    if (!OIIO::ImageBufAlgo::copy(out, src, OIIO::TypeFloat, roi, nthreads)) {
-        error = out.geterror();
-        return false;
-    }
     const OIIO::ImageSpec& spec = out.spec();
     auto* data = static_cast<float*>(out.localpixels());
     make_parallel(nthreads)(spec.height, [&](int64_t y) {

@@ -33,12 +33,9 @@ public:
     bool run(ImageBuf& dst, ROI roi, std::string& error) {
         if (!check_readable(m_src, "source", error) || !plan_local(m_options, m_plan, error))
             return false;
-        const ROI part = roi.defined() ? OIIO::roi_intersection(roi, m_region) : m_region;
-        if (part.npixels() == 0) {
-            error = "the region holds no pixel of the image";
-            return false;
-        }
-        if (!read_color(error) || !measure(error) || !map(part, error))
+        ROI part;
+        if (!part_of(m_src, roi, part, error) || !read_color(error) || !measure(error) ||
+            !map(part, error))
             return false;
         ImageBuf out;
         if (!copy_pixels(out, m_src, part, m_nthreads, error))

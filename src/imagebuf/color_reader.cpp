@@ -6,6 +6,7 @@
 #include <cstring>
 #include <mutex>
 
+#include "imagebuf/allocation.h"
 #include "imagebuf/parallel.h"
 
 namespace tonetool {
@@ -97,6 +98,10 @@ bool ColorReader::read(int begin, int end, ColorPlanes& planes, std::string& err
     const size_t drop = begin > planes.begin ? planes.at(std::min(begin, planes.end)) : 0;
     const size_t kept = size_t(from - begin) * size_t(planes.width());
     const size_t n = size_t(end - begin) * size_t(planes.width());
+    if (!has_memory(uint64_t(end - begin) * row_bytes(), error)) {
+        error = m_source.named(error);
+        return false;
+    }
     const auto move_rows = [&](auto& array) {
         array.keep(drop, kept);
         array.resize(n);

@@ -11,6 +11,7 @@
 #include "imagebuf/names.h"
 #include "imagebuf/parallel.h"
 #include "imagebuf/planes.h"
+#include "imagebuf/row_source.h"
 
 namespace tonetool {
 namespace {
@@ -19,32 +20,50 @@ using OIIO::ImageBuf;
 using OIIO::ROI;
 namespace IBA = OIIO::ImageBufAlgo;
 
-// Values within [0,1], NaN as 0.
-ImageBuf unit_values(const ImageBuf& src, ROI roi, int nthreads) {
-    const ImageBuf part = IBA::crop(src, roi, nthreads);
-    ImageBuf fixed;
-    const ImageBuf clamped = IBA::clamp(part, 0.0f, 1.0f, false, {}, nthreads);
-    IBA::fixNonFinite(fixed, clamped, IBA::NONFINITE_BLACK, nullptr, {}, nthreads);
-    return fixed;
+// Every value of a float image but those of one channel becomes map(value).
+template <class Map>
+void map_values(ImageBuf& image, int but, int nthreads, const Map& map) {
+    const int channels = image.nchannels();
+    const int64_t row = int64_t(image.spec().width) * channels;
+    auto* pixels = static_cast<float*>(image.localpixels());
+    make_parallel(nthreads)(image.spec().height, [=](int64_t y) {
+        for (int64_t i = 0; i < row; ++i)
+            if (i % channels != but)
+                pixels[y * row + i] = map(pixels[y * row + i]);
+    });
+}
+
+// Within [0,1], NaN as 0.
+float unit_value(float v) {
+    return std::isnan(v) ? 0.0f : std::clamp(v, 0.0f, 1.0f);
+}
+
+bool copy_part(ImageBuf& out, const ImageBuf& src, ROI roi, int nthreads, std::string& error) {
+    ROI part;
+    return part_of(src, roi, part, error) && copy_pixels(out, src, part, nthreads, error);
+}
+
+void encode_pixels(ImageBuf& image, int nthreads) {
+    map_values(image, image.spec().alpha_channel, nthreads,
+               [](float v) { return float(linear_to_srgb(double(unit_value(v)))); });
+    image.specmod().attribute("oiio:ColorSpace", "sRGB");
+}
+
+bool is_linear(const ImageBuf& image, std::string& error) {
+    ColorSpace space;
+    std::string untold;
+    if (!find_space(deciding_spec(image), "", space, untold) || !space.srgb_encoded)
+        return true;
+    error = side_name("source", image) + "is sRGB-encoded already";
+    return false;
 }
 
 bool encode(ImageBuf& dst, const ImageBuf& src, ROI roi, int nthreads, std::string& error) {
     ImageBuf out;
-    if (!check_readable(src, "source", error))
+    if (!check_readable(src, "source", error) || !is_linear(src, error) ||
+        !copy_part(out, src, roi, nthreads, error))
         return false;
-    if (!IBA::copy(out, src, OIIO::TypeFloat, roi, nthreads)) {
-        error = out.geterror();
-        return false;
-    }
-    const int alpha = out.spec().alpha_channel, channels = out.nchannels();
-    const int64_t row = int64_t(out.spec().width) * channels;
-    auto* pixels = static_cast<float*>(out.localpixels());
-    make_parallel(nthreads)(out.spec().height, [=](int64_t y) {
-        for (int64_t i = 0; i < row; ++i)
-            if (float& v = pixels[y * row + i]; i % channels != alpha)
-                v = std::isnan(v) ? 0.0f : float(linear_to_srgb(std::clamp(double(v), 0.0, 1.0)));
-    });
-    out.specmod().attribute("oiio:ColorSpace", "sRGB");
+    encode_pixels(out, nthreads);
     dst = std::move(out);
     return true;
 }
@@ -60,8 +79,11 @@ bool colored(ImageBuf& dst, const ImageBuf& src, int channel, ROI roi, int nthre
                                            src.nchannels());
         return false;
     }
-    ImageBuf linear;
-    if (!map(linear, unit_values(src, roi.defined() ? roi : src.roi(), nthreads))) {
+    ImageBuf values, linear;
+    if (!copy_part(values, src, roi, nthreads, error))
+        return false;
+    map_values(values, -1, nthreads, unit_value);
+    if (!map(linear, values)) {
         error = linear.geterror();
         return false;
     }
@@ -70,7 +92,9 @@ bool colored(ImageBuf& dst, const ImageBuf& src, int channel, ROI roi, int nthre
     spec.channelnames = {"R", "G", "B"};
     spec.alpha_channel = spec.z_channel = -1;
     spec.erase_attribute("chromaticities");
-    return encode(dst, linear, {}, nthreads, error);
+    encode_pixels(linear, nthreads);
+    dst = std::move(linear);
+    return true;
 }
 
 } // namespace

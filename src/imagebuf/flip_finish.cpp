@@ -5,6 +5,7 @@
 #include <atomic>
 #include <cmath>
 
+#include "imagebuf/allocation.h"
 #include "imagebuf/annotate.h"
 #include "imagebuf/pair.h"
 #include "imagebuf/parallel.h"
@@ -86,10 +87,7 @@ ImageBuf FlipMaps::make_image(int channels) const {
     spec.full_y = m_full.ybegin;
     spec.full_width = m_full.width();
     spec.full_height = m_full.height();
-    ImageBuf image(spec, OIIO::InitializePixels::No);
-    if (!image.localpixels())
-        throw std::bad_alloc();
-    return image;
+    return allocated_image(spec);
 }
 
 float* FlipMaps::row(ImageBuf& image, int y) const {

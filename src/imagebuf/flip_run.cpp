@@ -26,7 +26,7 @@ struct Side {
     bool read(int begin, int end, std::string& error) {
         if (reader.read(begin, end, planes, error))
             return true;
-        error = name + error;
+        error = with_side(name, error);
         return false;
     }
 };
@@ -81,7 +81,7 @@ private:
         m_reference.name = side_name("reference", m_image);
         if (!m_reference.reader.open(m_image, m_plan.common.pixels, m_region, m_plan.alpha(),
                                      m_nthreads, error)) {
-            error = m_reference.name + error;
+            error = with_side(m_reference.name, error);
             return false;
         }
         m_reference.planes = m_reference.reader.planes();
@@ -164,7 +164,7 @@ private:
     bool measure_reference(metrics::ExposureStats& stats, std::string& error) {
         PagedArray<float> luminance;
         if (!read_luminance(m_reference.reader, m_reference.planes, m_nthreads, luminance, error)) {
-            error = m_reference.name + error;
+            error = with_side(m_reference.name, error);
             return false;
         }
         stats = metrics::exposure_statistics(luminance.data(), m_region.width(), m_region.height(),

@@ -164,7 +164,7 @@ bool read_gbuffer(const ImageBuf& image, const GBufferNames& names, ROI region, 
         reader.want("albedo", names.albedo, out.albedo, 3);
         reader.want("depth", names.depth, &out.depth, 1);
         if (!reader.read(error)) {
-            error = side_name("guide", *from) + error;
+            error = with_side(side_name("guide", *from), error);
             return false;
         }
     }

@@ -4,23 +4,29 @@
 #include <OpenImageIO/imagebuf.h>
 #include <exception>
 #include <new>
+#include <stdexcept>
 #include <string>
+
+#include "imagebuf/allocation.h"
+#include "imagebuf/utf8.h"
 
 namespace tonetool {
 
-/// Runs `run(error)`, which returns whether it succeeded; every exception becomes an error.
+/// Runs `run(error)`, which returns whether it succeeded; every exception becomes an error, and
+/// every error is UTF-8.
 template <class Run>
 bool contained(std::string& error, const Run& run) noexcept {
     try {
         error.clear();
         if (run(error))
             return true;
-        if (error.empty())
-            error = "failed without a reason";
-    } catch (const std::bad_alloc&) {
+        error = error.empty() ? "failed without a reason" : valid_utf8(error);
+    } catch (const std::bad_alloc& e) {
+        error = memory_text(e);
+    } catch (const std::length_error&) { // a size that no vector or string can have
         error = "not enough memory";
     } catch (const std::exception& e) {
-        error = e.what();
+        error = valid_utf8(e.what());
     } catch (...) {
         error = "unknown exception";
     }

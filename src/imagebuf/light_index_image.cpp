@@ -2,6 +2,7 @@
 #include <OpenImageIO/strutil.h>
 #include <algorithm>
 
+#include "imagebuf/allocation.h"
 #include "imagebuf/guard.h"
 #include "imagebuf/light_index.h"
 
@@ -65,11 +66,9 @@ bool make_index(ImageBuf& dst, const ImageBuf& src, const LightOptions& options,
                 std::string& error) {
     if (!check_readable(src, "source", error))
         return false;
-    const ROI region = roi.defined() ? OIIO::roi_intersection(roi, src.roi()) : src.roi();
-    if (region.width() <= 0 || region.height() <= 0) {
-        error = "the region of interest holds no pixel of the image";
+    ROI region;
+    if (!part_of(src, roi, region, error))
         return false;
-    }
     ColorChoice choice;
     LightTable table;
     const LightTable* lights = options.table.empty() ? nullptr : &table;
@@ -83,7 +82,7 @@ bool make_index(ImageBuf& dst, const ImageBuf& src, const LightOptions& options,
                 OIIO::Strutil::join(ToneAlgo::color_layers(src.spec()), ", ");
         return false;
     }
-    ImageBuf out(index_spec(src.spec(), region, scan));
+    ImageBuf out = allocated_image(index_spec(src.spec(), region, scan));
     auto* to = static_cast<float*>(out.localpixels());
     const auto width = size_t(region.width());
     const auto write = [&](int y, const int* indices) {

@@ -7,6 +7,7 @@
 #include "imagebuf/guard.h"
 #include "imagebuf/measure.h"
 #include "imagebuf/parallel.h"
+#include "imagebuf/row_source.h"
 #include "metrics/luminance.h"
 
 namespace tonetool {
@@ -19,11 +20,9 @@ bool measure(LuminanceStats& stats, const ImageBuf& src, const PixelOptions& opt
              int nthreads, std::string& error) {
     if (!check_readable(src, "source", error))
         return false;
-    const ROI region = roi.defined() ? OIIO::roi_intersection(roi, src.roi()) : src.roi();
-    if (region.width() <= 0 || region.height() <= 0) {
-        error = "the region of interest holds no pixel of the image";
+    ROI region;
+    if (!part_of(src, roi, region, error))
         return false;
-    }
     ColorReader reader;
     if (!reader.open(src, options, region, false, nthreads, error))
         return false;
@@ -65,9 +64,11 @@ bool scale_color(ImageBuf& dst, const ImageBuf& src, double stops, const PixelOp
     for (int channel : {choice.r, choice.g, choice.b})
         factor[size_t(channel)] = float(std::exp2(stops));
     // In float, lest a half overflows or an integer is cut off.
+    ROI part;
     ImageBuf out;
-    if (!OIIO::ImageBufAlgo::copy(out, src, OIIO::TypeFloat, roi, nthreads) ||
-        !OIIO::ImageBufAlgo::mul(out, out, factor, roi, nthreads)) {
+    if (!part_of(src, roi, part, error) || !copy_pixels(out, src, part, nthreads, error))
+        return false;
+    if (!OIIO::ImageBufAlgo::mul(out, out, factor, {}, nthreads)) {
         error = out.geterror();
         return false;
     }

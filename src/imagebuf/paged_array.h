@@ -11,6 +11,8 @@
 #include <unistd.h>
 #include <utility>
 
+#include "imagebuf/allocation.h"
+
 namespace tonetool {
 
 /// An array of plain numbers. Elements are not initialized; shrinking gives whole pages back.
@@ -68,6 +70,7 @@ private:
     void grow(size_t count) {
         if (count > SIZE_MAX / 2 / sizeof(T))
             throw std::bad_alloc();
+        expect_memory(count * sizeof(T));
         void* pages = ::mmap(nullptr, count * sizeof(T), PROT_READ | PROT_WRITE,
                              MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
         if (pages == MAP_FAILED)

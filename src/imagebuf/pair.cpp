@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "imagebuf/allocation.h"
 #include "imagebuf/bands.h"
 #include "imagebuf/oiio_compat.h"
 
@@ -53,10 +54,10 @@ ImageBuf interleaved(const ColorPlanes& planes, const ROI& full) {
     OIIO::ImageSpec spec(planes.width(), planes.region.height(), int(channels), OIIO::TypeFloat);
     spec.x = planes.region.xbegin;
     spec.y = planes.region.ybegin;
-    ImageBuf image(spec, OIIO::InitializePixels::No);
+    ImageBuf image = allocated_image(spec);
     image.set_roi_full(full);
     auto* pixels = static_cast<float*>(image.localpixels());
-    for (size_t i = 0; pixels && i < planes.nonfinite.size(); ++i) {
+    for (size_t i = 0; i < planes.nonfinite.size(); ++i) {
         for (size_t p = 0; p < 3; ++p)
             pixels[i * channels + p] =
                 planes.nonfinite[i] ? std::numeric_limits<float>::quiet_NaN() : planes.plane[p][i];
@@ -149,14 +150,14 @@ bool FittedTest::resize(const ROI& window, const PairOptions& options, int nthre
     if (!resize_fits(m_test->roi(), window, options, error))
         return false;
     if (!reader.open(*m_test, m_pixels, plane_of(m_test->roi()), alpha, nthreads, error)) {
-        error = name() + error;
+        error = with_side(name(), error);
         return false;
     }
     if (options.memory > 0)
         reader.be_frugal();
     ColorPlanes planes = reader.planes();
     if (!reader.read(planes.region.ybegin, planes.region.yend, planes, error)) {
-        error = name() + error;
+        error = with_side(name(), error);
         return false;
     }
     if (!fill_window(planes, window, nthreads, error))
@@ -196,7 +197,7 @@ bool FittedTest::open_reader(bool alpha, int nthreads, ColorReader& reader,
                              std::string& error) const {
     if (reader.open(*m_test, m_pixels, m_region, alpha, nthreads, error))
         return true;
-    error = name() + error;
+    error = with_side(name(), error);
     return false;
 }
 

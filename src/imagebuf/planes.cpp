@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "imagebuf/has_pixels.h"
+
 namespace tonetool {
 
 using OIIO::ImageBuf;
@@ -26,9 +28,26 @@ void ColorPlanes::row(int x, int y, const float* (&out)[3]) const {
         out[p] = plane[p].data() + at(y) + size_t(x - region.xbegin);
 }
 
+namespace {
+
+// Whether the edges of a window are so far apart as it says.
+bool within_integers(const OIIO::ROI& window) {
+    return int64_t(window.xend) - window.xbegin <= INT32_MAX &&
+           int64_t(window.yend) - window.ybegin <= INT32_MAX && window.xend > window.xbegin &&
+           window.yend > window.ybegin;
+}
+
+} // namespace
+
 std::string side_name(const char* side, const ImageBuf& image) {
     const std::string name(image.name());
     return std::string(side) + " image" + (name.empty() ? ": " : " \"" + name + "\": ");
+}
+
+std::string with_side(const std::string& side_name, const std::string& why) {
+    const std::string name = side_name.substr(std::min(side_name.find('"'), side_name.size()));
+    const bool twice = !name.empty() && why.compare(0, name.size(), name) == 0;
+    return side_name + (twice ? why.substr(name.size()) : why);
 }
 
 bool check_readable(const ImageBuf& image, const char* what, std::string& error) {
@@ -48,6 +67,14 @@ bool check_readable(const ImageBuf& image, const char* what, std::string& error)
         return fail("volumes are not supported");
     if (image.roi().width() <= 0 || image.roi().height() <= 0)
         return fail("has no pixels");
+    if (!within_integers(image.roi()) || !within_integers(image.roi_full()))
+        return fail(
+            "its data window or display window reaches beyond what 32-bit coordinates tell");
+    // A read that failed, whose error somebody has taken.
+    if (!has_pixels(image)) {
+        const std::string why = image.geterror();
+        return fail(why.empty() ? "could not be read" : why);
+    }
     return true;
 }
 

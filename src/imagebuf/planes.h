@@ -45,6 +45,9 @@ struct ColorPlanes {
 /// How errors begin: `side image "name": `, or without the name where there is none.
 std::string side_name(const char* side, const OIIO::ImageBuf& image);
 
+/// What a reader said, after the name of the side; that of the file is said once.
+std::string with_side(const std::string& side_name, const std::string& why);
+
 /// Whether an image can be looked at at all: read without error, not deep, not a volume.
 bool check_readable(const OIIO::ImageBuf& image, const char* what, std::string& error);
 

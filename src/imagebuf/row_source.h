@@ -27,6 +27,8 @@ public:
     bool open(const OIIO::ImageBuf& image, std::vector<ChannelRun> runs, std::string& error);
 
     bool from_file() const { return m_from_file; }
+    /// An error about the image, after the name of its file.
+    std::string named(const std::string& error) const;
     const std::vector<ChannelRun>& runs() const { return m_runs; }
     int left() const { return m_spec.x; } ///< first column of the rows
     int width() const { return m_spec.width; }
@@ -38,14 +40,15 @@ public:
     size_t kept_bytes() const;
 
     /// Rows of the data window, its whole width, as interleaved floats of one run. From a file
-    /// only one thread at a time may ask. A file that has changed since `open` is an error.
+    /// only one thread at a time may ask. A file that has changed since `open` is an error; every
+    /// error names the file.
     bool read(int begin, int end, size_t run, float* out, std::string& error);
     /// Gives back what the decoder holds, where it costs little to start it again.
     void rest();
 
 private:
-    /// Rows of tiles that the next band may want again.
-    struct TileRows {
+    /// A block of rows that the next band may want again.
+    struct Block {
         int begin = 0, end = 0;
         std::vector<float> pixels;
     };
@@ -56,8 +59,10 @@ private:
     };
 
     bool open_file(std::string& error);
+    bool fetch(int begin, int end, size_t run, float* out, std::string& error);
     bool read_file(int begin, int end, size_t run, float* out);
-    bool read_tiles(int begin, int end, size_t run, float* out);
+    bool read_blocks(int begin, int end, size_t run, float* out);
+    bool read_block(int begin, int end, size_t run, float* out);
     bool unchanged(std::string& error) const;
     FileState state() const;
 
@@ -68,10 +73,17 @@ private:
     std::unique_ptr<OIIO::ImageInput> m_input;
     OIIO::ImageSpec m_spec;
     std::string m_format;
-    std::vector<TileRows> m_tiles; // one per run
+    int m_block = 0;             ///< rows that the file gives only together; 0: any
+    std::vector<Block> m_blocks; ///< one per run
 };
 
-/// The pixels of a part of an image as floats; of a file only once, past every ImageCache.
+/// What a region of interest is of an image, with all its channels; one without a pixel of it is an
+/// error.
+bool part_of(const OIIO::ImageBuf& image, const OIIO::ROI& roi, OIIO::ROI& part,
+             std::string& error);
+
+/// The pixels of a part of an image, which lies within it, as floats; of a file only once, past
+/// every ImageCache. On failure `out` holds what it did, and the error names the file.
 bool copy_pixels(OIIO::ImageBuf& out, const OIIO::ImageBuf& image, const OIIO::ROI& part,
                  int nthreads, std::string& error);
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "imagebuf/allocation.h"
 #include "imagebuf/annotate.h"
 #include "imagebuf/bands.h"
 #include "imagebuf/deliver.h"
@@ -44,7 +45,7 @@ struct Side {
     bool read(const ROI& region, uint64_t memory, int nthreads, std::string& error) {
         ColorReader reader;
         if (!reader.open(image, pixels, region, false, nthreads, error)) {
-            error = side_name(who, image) + error;
+            error = with_side(side_name(who, image), error);
             return false;
         }
         if (memory > 0)
@@ -54,7 +55,7 @@ struct Side {
         if (!check_covered(planes, name, error))
             return false;
         if (!read_luminance(reader, planes, nthreads, plane, error, luminances)) {
-            error = side_name(who, image) + error;
+            error = with_side(side_name(who, image), error);
             return false;
         }
         found = side_of(planes);
@@ -85,9 +86,7 @@ ImageBuf make_map(const ROI& region, const ROI& full) {
     OIIO::ImageSpec spec(region.width(), region.height(), 1, OIIO::TypeFloat);
     spec.x = region.xbegin;
     spec.y = region.ybegin;
-    ImageBuf map(spec, OIIO::InitializePixels::No);
-    if (!map.localpixels())
-        throw std::bad_alloc();
+    ImageBuf map = allocated_image(spec);
     map.set_roi_full(full);
     return map;
 }

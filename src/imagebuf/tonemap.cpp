@@ -1,7 +1,6 @@
 // ToneAlgo::tonemap.
 #include "include/tonetool/tonemap.h"
 
-#include <OpenImageIO/imagebufalgo.h>
 #include <OpenImageIO/strutil.h>
 #include <algorithm>
 #include <cmath>
@@ -13,6 +12,7 @@
 #include "imagebuf/names.h"
 #include "imagebuf/parallel.h"
 #include "imagebuf/planes.h"
+#include "imagebuf/row_source.h"
 #include "imagebuf/tone_rows.h"
 #include "imagebuf/view.h"
 #include "kernels/curve_rows.h"
@@ -24,7 +24,6 @@ using OIIO::ImageBuf;
 using OIIO::ImageSpec;
 using OIIO::ROI;
 using OIIO::Strutil::fmt::format;
-namespace IBA = OIIO::ImageBufAlgo;
 
 // One call of tonemap: what is checked and found first, then the rows.
 class Mapping {
@@ -39,11 +38,10 @@ public:
             return false;
         if (!(m_options.view ? open_view(error) : open_curve(error)))
             return false;
+        ROI part;
         ImageBuf out;
-        if (!IBA::copy(out, m_src, OIIO::TypeFloat, roi, m_nthreads)) {
-            error = out.geterror();
+        if (!part_of(m_src, roi, part, error) || !copy_pixels(out, m_src, part, m_nthreads, error))
             return false;
-        }
         map_rows(out);
         tag(out.specmod());
         warn();

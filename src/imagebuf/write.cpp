@@ -7,8 +7,12 @@
 #include <cstring>
 #include <memory>
 
+#include "imagebuf/allocation.h"
 #include "imagebuf/guard.h"
+#include "imagebuf/has_pixels.h"
 #include "imagebuf/output_target.h"
+#include "imagebuf/row_source.h"
+#include "imagebuf/rows_together.h"
 #include "imagebuf/sure_file.h"
 #include "imagebuf/write_checks.h"
 
@@ -16,6 +20,14 @@ namespace tonetool {
 namespace {
 
 using OIIO::Strutil::fmt::format;
+
+// What an image says of a failed read, which it may say at any later moment.
+bool said_error(const OIIO::ImageBuf& image, std::string& error) {
+    if (!image.has_error())
+        return false;
+    error = with_name(image, image.geterror());
+    return true;
+}
 
 // In pieces, so that a conversion does not take another image's memory.
 bool write_pixels(const OIIO::ImageBuf& image, OIIO::ImageOutput& out) {
@@ -41,20 +53,22 @@ bool write_through(std::unique_ptr<OIIO::ImageOutput> out, const std::vector<Out
         if (!image.mip_level)
             specs.push_back(image.spec);
     for (size_t i = 0; i < images.size(); ++i) {
+        const OIIO::ImageBuf& image = *images[i].pixels;
+        const bool on_disk = is_file_to_read(image);
+        OIIO::ImageBuf read;
+        if (on_disk && !read_whole(image, image.spec().format, read, error))
+            return false;
         const bool opened =
             i > 0 ? out->open(filename, images[i].spec,
                               images[i].mip_level ? OIIO::ImageOutput::AppendMIPLevel
                                                   : OIIO::ImageOutput::AppendSubimage)
                   : (specs.size() > 1 ? out->open(filename, int(specs.size()), specs.data())
                                       : out->open(filename, specs[0]));
-        if (!opened) {
-            error = out->geterror();
+        const bool written = opened && write_pixels(on_disk ? read : image, *out);
+        if (said_error(image, error))
             return false;
-        }
-        if (!write_pixels(*images[i].pixels, *out)) {
-            error = images[i].pixels->geterror();
-            if (error.empty())
-                error = out->geterror();
+        if (!written) {
+            error = out->geterror();
             return false;
         }
     }
@@ -76,9 +90,11 @@ bool check_images(const std::vector<OutputImage>& images, const OIIO::ImageOutpu
         return false;
     }
     for (const OutputImage& image : images)
-        if (!image.pixels || !image.pixels->initialized() || image.pixels->has_error()) {
-            const std::string why = image.pixels ? image.pixels->geterror() : "";
-            error = why.empty() ? "the image holds no pixels" : why;
+        if (!image.pixels || !image.pixels->initialized() || image.pixels->has_error() ||
+            !has_pixels(*image.pixels)) {
+            error = "the image holds no pixels";
+            if (image.pixels && !said_error(*image.pixels, error))
+                error = with_name(*image.pixels, error);
             return false;
         }
     for (const OutputImage& image : images)
@@ -94,7 +110,7 @@ bool check_images(const std::vector<OutputImage>& images, const OIIO::ImageOutpu
     return true;
 }
 
-// Rows that are read back at once: whole strips and tiles of most files.
+// Rows that are read back at once.
 constexpr int kRowsBack = 256;
 
 bool read_back_rows(OIIO::ImageInput& in, int subimage, int level, const OIIO::ImageSpec& spec) {
@@ -104,8 +120,7 @@ bool read_back_rows(OIIO::ImageInput& in, int subimage, int level, const OIIO::I
         return in.read_image(subimage, level, 0, -1, OIIO::TypeUnknown, pixels.data());
     }
     const bool tiled = spec.tile_width > 0;
-    const int block = tiled ? spec.tile_height : 1;
-    const int step = std::max(kRowsBack / block, 1) * block;
+    const int step = whole_rows(kRowsBack, spec, in.format_name());
     for (int y = spec.y; y < spec.y + spec.height; y += step) {
         const int end = std::min(y + step, spec.y + spec.height);
         pixels.resize(size_t(end - y) * spec.scanline_bytes(true));
@@ -213,8 +228,9 @@ template <class Run>
 bool named(const std::string& filename, std::string& error, const Run& run) {
     if (contained(error, run))
         return true;
-    if (error.find(filename) == std::string::npos)
-        error = format("could not write \"{}\": {}", filename, error);
+    const std::string name = valid_utf8(filename);
+    if (error.find(name) == std::string::npos)
+        error = format("could not write \"{}\": {}", name, error);
     return false;
 }
 

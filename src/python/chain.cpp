@@ -68,7 +68,7 @@ ChainObject object_of(runs::Evaluation&& found, bool arrays) {
 
 [[noreturn]] void raise_check_failed(const std::string& why, ChainObject&& object) {
     const py::object type = py::module_::import("tonetool").attr("CheckFailed");
-    const py::object error = type("chain: " + why);
+    const py::object error = type(to_str("chain: " + why));
     error.attr("result") = py::cast(std::move(object));
     PyErr_SetObject(type.ptr(), error.ptr());
     throw py::error_already_set();
@@ -109,27 +109,27 @@ void add_result(Module& module) {
 void add_chain(Module& module) {
     add_result(module);
     using O = ChainOptions;
-    define(module,
-           Description{
-               "chain",
-               "Run a command line of the program on images.",
-               {{"command", "str | Sequence[str]",
-                 "As in a shell, without the program's name; or its words.", ""},
-                {"images", "Sequence[Image] | None", "The stack it begins with, the top last.",
-                 "None"}},
-               "ChainResult",
-               "The images that are left, and what was printed.",
-               "Shapes: float32 arrays or ImageBufs; what is left is arrays if all images given "
-               "are (one channel: height x width), else ImageBufs.\n"
-               "Units, colour, alpha, NaN: as each command says; tonetool --help COMMAND.\n"
-               "A threshold (fail=, --fail) that is exceeded, and with --warnings-exit a "
-               "warning, raises tonetool.CheckFailed, a tonetool.Error, with what is left in "
-               "its `result`.",
-               "Any error of the command line.",
-               "The language is that of oiiotool."},
-           Fields<O>{field<O>("read_only", &O::read_only,
-                              "Commands that write files or change settings are errors.")},
-           run);
+    define(
+        module,
+        Description{"chain",
+                    "Run a command line of the program on images.",
+                    {{"command", "str | Sequence[str]",
+                      "As in a shell, without the program's name; or its words.", ""},
+                     {"images", "Sequence[Image] | None", "The stack it begins with, the top last.",
+                      "None"}},
+                    "ChainResult",
+                    "The images that are left, and what was printed.",
+                    "Shapes: arrays or ImageBufs; what is left is arrays if all images given "
+                    "are (one channel: height x width), else ImageBufs.\n"
+                    "Units, colour, alpha, NaN: as each command says; tonetool --help COMMAND.\n"
+                    "A threshold (fail=, --fail) that is exceeded, and with --warnings-exit a "
+                    "warning, raises tonetool.CheckFailed, a tonetool.Error, with what is left in "
+                    "its `result`.",
+                    "Any error of the command line.",
+                    "The language is that of oiiotool."},
+        Fields<O>{field<O>("read_only", &O::read_only,
+                           "Commands that write files or change settings are errors.")},
+        run);
 }
 
 } // namespace tonetool::python

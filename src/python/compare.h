@@ -60,7 +60,7 @@ inline Parameter test_parameter() {
 /// Notes that the documentation of every comparison has.
 inline std::string pair_notes(const std::string& first) {
     return first +
-           "\nShapes: float32 arrays of height x width x channels (R, G, B first) or ImageBufs; "
+           "\nShapes: arrays of height x width x channels (R, G, B first) or ImageBufs; "
            "the map is of one channel, height x width, of the union of the data windows.\n"
            "Colour: brought to linear Rec.709 by matrix; arrays are taken for linear Rec.709 "
            "unless pixels={\"from\": ...} says otherwise.\n"

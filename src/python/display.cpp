@@ -74,7 +74,7 @@ void add_display(Module& module) {
                "Image",
                "The picture; an array if the image is one.",
                "Shapes: those of the image. Units: clamped to 0 to 1. Alpha: carried.\nNaN: 0.",
-               "Deep images and volumes.",
+               "Deep images, volumes, an image that is sRGB-encoded already.",
                source},
            Fields<E>{roi_field<E>(), threads_field<E>()}, encode_srgb);
 }

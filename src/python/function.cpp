@@ -115,7 +115,7 @@ std::vector<py::object> bound(const std::string& function, const std::vector<Par
 
 void unknown_keyword(const std::string& where, const std::string& name,
                      const std::vector<std::string>& valid) {
-    throw py::type_error(where + ": " + unknown_name("keyword", name, valid));
+    throw py::type_error(valid_utf8(where + ": " + unknown_name("keyword", name, valid)));
 }
 
 void Module::define(const Description& description, const std::vector<Parameter>& keywords,
@@ -175,7 +175,8 @@ std::string Module::stubs() const {
            "from OpenImageIO import ROI, ImageBuf\n\n"
            "# Image and the mappings of options are for annotations: the module does not have "
            "them.\n"
-           "Image = Union[ImageBuf, NDArray[np.float32]]\n\n"
+           "Image = Union[\n    ImageBuf,\n    NDArray[np.float32],\n    NDArray[np.float16],\n    "
+           "NDArray[np.float64],\n    NDArray[np.uint8],\n    NDArray[np.uint16],\n]\n\n"
            "__version__: str\n\n"
            "class Error(RuntimeError): ...\n\n"
            "class CheckFailed(Error):\n    result: ChainResult\n" +

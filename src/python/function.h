@@ -11,11 +11,6 @@
 
 namespace tonetool::python {
 
-/// What the library refuses: becomes tonetool.Error.
-struct Refused : std::runtime_error {
-    using std::runtime_error::runtime_error;
-};
-
 /// A parameter as the signature, the docstring and the stub show it.
 struct Parameter {
     std::string name, type, text;

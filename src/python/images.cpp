@@ -3,18 +3,79 @@
 #include <OpenImageIO/oiioversion.h>
 #include <OpenImageIO/strutil.h>
 
+#include "imagebuf/has_pixels.h"
+#include "imagebuf/utf8.h"
+#include "python/function.h"
 #include "python/types.h"
 
 namespace tonetool::python {
 
 namespace {
 
-const char wanted_image[] = "an OpenImageIO.ImageBuf or a float32 array of height x width or "
-                            "height x width x channels";
+const char wanted_image[] = "an OpenImageIO.ImageBuf or an array of height x width, or of height x "
+                            "width x 1, 3 or 4 channels (grey; R, G, B; R, G, B, A)";
+const char wanted_numbers[] = "float32, float16 or float64 (linear), uint8 or uint16 "
+                              "(sRGB-encoded, as in files)";
 
 std::string described(const py::array& array) {
-    return std::string(py::str(array.dtype())) + " array of shape " +
-           std::string(py::str(array.attr("shape")));
+    const std::string type = py::str(array.dtype());
+    return "is a " + (array.attr("dtype").attr("isnative").cast<bool>() ? "" : "byte-swapped ") +
+           type + " array of shape " + std::string(py::str(array.attr("shape")));
+}
+
+// What OpenImageIO calls the numbers of an array that has those of an image; unknown: it has not.
+OIIO::TypeDesc type_of(const py::array& array) {
+    const py::dtype type = array.dtype();
+    if (!type.attr("isnative").cast<bool>() || py::hasattr(array, "mask"))
+        return OIIO::TypeUnknown;
+    const py::ssize_t bytes = type.itemsize();
+    switch (type.kind()) {
+    case 'f':
+        return bytes == 2   ? OIIO::TypeHalf
+               : bytes == 4 ? OIIO::TypeFloat
+               : bytes == 8 ? OIIO::TypeDesc(OIIO::TypeDesc::DOUBLE)
+                            : OIIO::TypeUnknown;
+    case 'u':
+        return bytes == 1 ? OIIO::TypeUInt8 : bytes == 2 ? OIIO::TypeUInt16 : OIIO::TypeUnknown;
+    default:
+        return OIIO::TypeUnknown;
+    }
+}
+
+// Whether channels come first, as PyTorch has them.
+std::string hint_of_order(const py::array& array) {
+    const py::ssize_t first = array.shape(0);
+    if (first == 1 || first == 3 || first == 4)
+        return "; channels come last: numpy.moveaxis(array, 0, -1)";
+    return "; tonetool.image(array, channels=[...]) gives others their names";
+}
+
+void check_shape(const py::array& array, const std::string& where, Channels channels) {
+    const auto refuse = [&](const std::string& why) {
+        throw py::value_error(where + " " + described(array) + ": must be " + wanted_image + why);
+    };
+    if (array.ndim() != 2 && array.ndim() != 3)
+        refuse("");
+    if (array.size() == 0)
+        refuse(", not empty");
+    if (array.size() > INT32_MAX)
+        refuse(", below 2^31 values");
+    const py::ssize_t count = array.ndim() == 3 ? array.shape(2) : 1;
+    if (channels == Channels::Plain && count != 1 && count != 3 && count != 4)
+        refuse(hint_of_order(array));
+}
+
+// The same numbers one after another; 64 bits become 32, in which all is computed.
+py::array packed(const py::array& array, OIIO::TypeDesc& type) {
+    const py::module_ numpy = py::module_::import("numpy");
+    if (type != OIIO::TypeDesc::DOUBLE)
+        return numpy.attr("ascontiguousarray")(array);
+    type = OIIO::TypeFloat;
+    const py::object beyond_is_inf = numpy.attr("errstate")(py::arg("over") = "ignore");
+    beyond_is_inf.attr("__enter__")();
+    const py::array floats = numpy.attr("ascontiguousarray")(array, "float32");
+    beyond_is_inf.attr("__exit__")(py::none(), py::none(), py::none());
+    return floats;
 }
 
 // An array of the pixels of `image`, which the array keeps.
@@ -31,34 +92,34 @@ py::object array_of(std::unique_ptr<OIIO::ImageBuf> image, bool channel_axis) {
 
 } // namespace
 
-InputImage::InputImage(const py::object& object, const std::string& where) : m_object(object) {
+InputImage::InputImage(const py::object& object, const std::string& where, Channels channels)
+    : m_object(object) {
     if (py::isinstance<OIIO::ImageBuf>(object)) {
         m_image = object.cast<const OIIO::ImageBuf*>();
     } else if (py::isinstance<py::array>(object)) {
-        look_at(py::array(object), where);
+        look_at(py::array(object), where, channels);
     } else {
         wrong_type(where, object, wanted_image);
     }
 }
 
-void InputImage::look_at(const py::array& array, const std::string& where) {
-    if (!py::isinstance<py::array_t<float>>(array))
-        throw py::type_error(where + " is a " + described(array) + ": must be " + wanted_image +
-                             "; .astype(numpy.float32) converts");
-    const bool empty = array.size() == 0, large = array.size() > INT32_MAX;
-    if ((array.ndim() != 2 && array.ndim() != 3) || empty || large)
-        throw py::value_error(where + " is a " + described(array) + ": must be " + wanted_image +
-                              (empty   ? ", not empty"
-                               : large ? ", below 2^31 values"
-                                       : ""));
-    const auto packed = py::array_t<float, py::array::c_style>::ensure(array);
-    if (!packed)
-        throw py::error_already_set();
-    m_object = packed;
+void InputImage::look_at(const py::array& array, const std::string& where, Channels channels) {
+    OIIO::TypeDesc type = type_of(array);
+    if (type == OIIO::TypeUnknown) {
+        const bool masked = py::hasattr(array, "mask");
+        throw py::type_error(
+            where + " " + described(array) + ": must be " +
+            (masked ? "without a mask, which images do not have; fill it" : wanted_numbers));
+    }
+    check_shape(array, where, channels);
+    const py::array numbers = packed(array, type);
+    m_object = numbers;
     m_dimensions = int(array.ndim());
-    const OIIO::ImageSpec spec(int(array.shape(1)), int(array.shape(0)),
-                               m_dimensions == 3 ? int(array.shape(2)) : 1, OIIO::TypeFloat);
-    m_view = OIIO::ImageBuf(spec, const_cast<float*>(packed.data()));
+    OIIO::ImageSpec spec(int(array.shape(1)), int(array.shape(0)),
+                         m_dimensions == 3 ? int(array.shape(2)) : 1, type);
+    if (!type.is_floating_point())
+        spec.attribute("oiio:ColorSpace", "sRGB");
+    m_view = OIIO::ImageBuf(spec, const_cast<void*>(numbers.data()));
 }
 
 py::object to_python(OIIO::ImageBuf&& image, OutputKind kind) {
@@ -70,13 +131,38 @@ py::object to_python(OIIO::ImageBuf&& image, OutputKind kind) {
     return array_of(std::move(owned), kind.keep_channel_axis);
 }
 
+void check_read(const OIIO::ImageBuf& image, const std::string& function) {
+    const bool there = image.initialized() && image.spec().nchannels > 0;
+    if (there && !image.has_error() && has_pixels(image))
+        return;
+    const std::string why = image.geterror();
+    throw Refused(function + ": " + with_name(image, why.empty() ? "holds no pixels" : why));
+}
+
+namespace {
+
+// Of a file that was not read by a reader of its own: an ImageCache does not tell of pixels that
+// are missing.
+OIIO::ImageBuf copied(const OIIO::ImageBuf& image, const std::string& function) {
+    check_read(image, function);
+    if (!is_file_to_read(image))
+        return image.copy(OIIO::TypeUnknown);
+    OIIO::ImageBuf whole;
+    std::string error;
+    if (!read_whole(image, image.spec().format, whole, error))
+        throw Refused(function + ": " + error);
+    return whole;
+}
+
+} // namespace
+
 OIIO::ImageBuf named_image(const InputImage& image, const std::vector<std::string>& channels,
                            const std::string& where) {
-    OIIO::ImageBuf copy = image.buf().copy(OIIO::TypeUnknown);
+    OIIO::ImageBuf copy = copied(image.buf(), "image");
     if (!channels.empty() && int(channels.size()) != copy.nchannels())
         throw py::value_error(OIIO::Strutil::fmt::format(
             "{} has {} names ({}): must be one for each of the {} channels", where, channels.size(),
-            OIIO::Strutil::join(channels, ", "), copy.nchannels()));
+            valid_utf8(OIIO::Strutil::join(channels, ", ")), copy.nchannels()));
     if (!channels.empty())
         copy.specmod().channelnames = channels;
     copy.specmod().alpha_channel = -1;

@@ -1,4 +1,5 @@
-// Images of Python: OpenImageIO.ImageBuf, and float32 arrays of numpy, without a copy.
+// Images of Python: OpenImageIO.ImageBuf, and arrays of numpy, without a copy where their numbers
+// are those of images.
 #pragma once
 
 #include <OpenImageIO/imagebuf.h>
@@ -12,11 +13,18 @@ namespace tonetool::python {
 
 namespace py = pybind11;
 
+/// Which arrays are images.
+enum class Channels {
+    Plain, ///< 1, 3 or 4: grey; R, G, B; with alpha
+    Named, ///< any number, each of which gets a name
+};
+
 /// What a function was given as an image. Nothing but construction and destruction needs the GIL.
 class InputImage {
 public:
     /// `where` names the function and the parameter.
-    InputImage(const py::object& object, const std::string& where);
+    InputImage(const py::object& object, const std::string& where,
+               Channels channels = Channels::Plain);
 
     const OIIO::ImageBuf& buf() const { return m_view.initialized() ? m_view : *m_image; }
     bool is_array() const { return m_dimensions > 0; }
@@ -24,7 +32,7 @@ public:
     int dimensions() const { return m_dimensions; }
 
 private:
-    void look_at(const py::array& array, const std::string& where);
+    void look_at(const py::array& array, const std::string& where, Channels channels);
 
     py::object m_object; ///< keeps the pixels
     const OIIO::ImageBuf* m_image = nullptr;
@@ -50,6 +58,9 @@ struct OutputKind {
 
 /// The pixels change hands without a copy.
 py::object to_python(OIIO::ImageBuf&& image, OutputKind kind);
+
+/// Refuses an image that could not be read, in its reader's words.
+void check_read(const OIIO::ImageBuf& image, const std::string& function);
 
 /// A copy of an array (or of the ImageBuf's pixels) as an ImageBuf with names of channels.
 OIIO::ImageBuf named_image(const InputImage& image, const std::vector<std::string>& channels,

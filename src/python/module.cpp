@@ -18,7 +18,7 @@ void add_error(py::module_& handle) {
             if (raised)
                 std::rethrow_exception(raised);
         } catch (const Refused& refused) {
-            PyErr_SetString(error.ptr(), refused.what());
+            PyErr_SetString(error.ptr(), valid_utf8(refused.what()).c_str());
         }
     });
 }

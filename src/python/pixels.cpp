@@ -18,6 +18,7 @@ struct ChannelOptions {
 
 py::object find_color(std::vector<py::object>& images, const PixelOptions& options) {
     const InputImage image(images[0], "find_color: image");
+    check_read(image.buf(), "find_color");
     ColorChoice choice;
     run_or_raise("find_color", [&](std::string& error) {
         return ToneAlgo::find_color(image.buf().spec(), options, choice, error);
@@ -35,11 +36,13 @@ Fields<PixelOptions> keywords() {
 
 py::object color_layers(std::vector<py::object>& images) {
     const InputImage image(images[0], "color_layers: image");
+    check_read(image.buf(), "color_layers");
     return Python<std::vector<std::string>>::to(ToneAlgo::color_layers(image.buf().spec()));
 }
 
 py::object image(std::vector<py::object>& images, const ChannelOptions& options) {
-    const InputImage pixels(images[0], "image: pixels");
+    const InputImage pixels(images[0], "image: pixels",
+                            options.channels.empty() ? Channels::Plain : Channels::Named);
     return py::cast(named_image(pixels, options.channels, "image: channels"));
 }
 
@@ -74,7 +77,8 @@ void add_pixels(Module& module) {
                "ColorChoice",
                "What was chosen.",
                notes,
-               "No colour, or two candidates for the beauty; the layers are listed.",
+               "No colour, or two candidates for the beauty; the layers are listed. An image that "
+               "cannot be read.",
                source},
            keywords(), find_color);
     define(module,
@@ -84,27 +88,28 @@ void add_pixels(Module& module) {
                        "list[str]",
                        "Names; the plain R, G, B is \"R,G,B\".",
                        notes,
-                       "Never.",
+                       "An image that cannot be read.",
                        source},
            color_layers);
     define_names(module, "color_spaces", "Names of the colour spaces that `from` takes.", source,
                  ToneAlgo::color_spaces);
-    define(
-        module,
-        Description{"image",
-                    "A copy of pixels as an OpenImageIO.ImageBuf with names of channels, as guides "
-                    "(\"P.X\", \"N.X\", \"Z\", ...) and layers need them.",
-                    {image_parameter("pixels", "An array, or another image.")},
-                    "ImageBuf",
-                    "The image.",
-                    "Shapes: height x width x channels, or height x width for one channel. Values, "
-                    "NaN among them, are kept; \"A\" is alpha.",
-                    "Never.",
-                    "OpenImageIO's ImageBuf."},
-        Fields<ChannelOptions>{
-            field<ChannelOptions>("channels", &ChannelOptions::channels,
-                                  "A name for each channel; []: R, G, B, A or Y.")},
-        image);
+    define(module,
+           Description{
+               "image",
+               "A copy of pixels as an OpenImageIO.ImageBuf with names of channels, as guides "
+               "(\"P.X\", \"N.X\", \"Z\", ...) and layers need them.",
+               {image_parameter("pixels", "An array, or another image.")},
+               "ImageBuf",
+               "The image.",
+               "Shapes: height x width x channels, or height x width for one channel; any number "
+               "of channels where each has a name. Values, NaN among them, are kept; \"A\" is "
+               "alpha.",
+               "An image that cannot be read whole.",
+               "OpenImageIO's ImageBuf."},
+           Fields<ChannelOptions>{
+               field<ChannelOptions>("channels", &ChannelOptions::channels,
+                                     "A name for each channel; []: R, G, B, A or Y.")},
+           image);
 }
 
 } // namespace tonetool::python

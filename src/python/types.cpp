@@ -13,7 +13,7 @@ void wrong_type(const std::string& where, py::handle value, const std::string& w
     if (shown.size() > 60)
         shown.replace(57, std::string::npos, "...");
     const std::string type = py::str(py::type::handle_of(value).attr("__name__"));
-    throw py::type_error(where + " is " + shown + " (" + type + "): must be " + wanted);
+    throw py::type_error(valid_utf8(where) + " is " + shown + " (" + type + "): must be " + wanted);
 }
 
 double to_double(py::handle value, const std::string& where) {
@@ -52,8 +52,14 @@ bool to_bool(py::handle value, const std::string& where) {
 }
 
 std::string to_text(py::handle value, const std::string& where) {
-    if (py::isinstance<py::str>(value))
-        return value.cast<std::string>();
+    if (py::isinstance<py::str>(value)) {
+        // Bytes of a file's name that are no UTF-8 come as halves of surrogates, and go back.
+        const auto bytes = py::reinterpret_steal<py::bytes>(
+            PyUnicode_AsEncodedString(value.ptr(), "utf-8", "surrogateescape"));
+        if (!bytes)
+            throw py::error_already_set();
+        return bytes;
+    }
     if (!py::hasattr(value, "__fspath__"))
         wrong_type(where, value, "a str");
     return to_text(value.attr("__fspath__")(), where);
@@ -86,7 +92,7 @@ size_t place_of(py::handle value, const std::string& where, const std::vector<st
     const std::string name = to_text(value, where);
     const auto found = std::find(names.begin(), names.end(), name);
     if (found == names.end())
-        throw py::value_error(where + ": " + unknown_name("name", name, names));
+        throw py::value_error(valid_utf8(where + ": " + unknown_name("name", name, names)));
     return size_t(found - names.begin());
 }
 

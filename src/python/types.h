@@ -12,12 +12,23 @@
 #include <utility>
 #include <vector>
 
+#include "imagebuf/utf8.h"
 #include "include/tonetool/pixels.h"
 #include "include/tonetool/tonemap.h"
 
 namespace tonetool::python {
 
 namespace py = pybind11;
+
+/// What the library refuses: becomes tonetool.Error.
+struct Refused : std::runtime_error {
+    using std::runtime_error::runtime_error;
+};
+
+/// A str; U+FFFD for bytes that are no UTF-8.
+inline py::str to_str(const std::string& text) {
+    return py::str(valid_utf8(text));
+}
 
 /// `WHERE is VALUE (type): must be WANTED` as a TypeError.
 [[noreturn]] void wrong_type(const std::string& where, py::handle value, const std::string& wanted);
@@ -88,7 +99,7 @@ struct Python<std::string> {
     static std::string wanted() { return "str"; }
     static std::string given() { return "str"; }
     static std::string from(py::handle v, const std::string& where) { return to_text(v, where); }
-    static py::object to(const std::string& v) { return py::str(v); }
+    static py::object to(const std::string& v) { return to_str(v); }
 };
 
 template <class T>
@@ -145,7 +156,7 @@ struct Python<std::map<std::string, double>> {
     static py::object to(const Map& v) {
         py::dict dict;
         for (const auto& [key, value] : v)
-            dict[py::str(key)] = value;
+            dict[to_str(key)] = Python<std::decay_t<decltype(value)>>::to(value);
         return py::object(std::move(dict));
     }
 };
@@ -164,7 +175,7 @@ struct Python<std::vector<std::pair<std::string, std::string>>> {
     static py::object to(const Pairs& v) {
         py::dict dict;
         for (const auto& [key, value] : v)
-            dict[py::str(key)] = value;
+            dict[to_str(key)] = Python<std::decay_t<decltype(value)>>::to(value);
         return py::object(std::move(dict));
     }
 };
@@ -175,7 +186,7 @@ struct Python<std::map<std::string, std::string>> {
     static py::object to(const std::map<std::string, std::string>& v) {
         py::dict dict;
         for (const auto& [key, value] : v)
-            dict[py::str(key)] = value;
+            dict[to_str(key)] = Python<std::decay_t<decltype(value)>>::to(value);
         return py::object(std::move(dict));
     }
 };

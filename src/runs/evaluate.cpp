@@ -4,6 +4,7 @@
 #include <sstream>
 
 #include "chain/runner.h"
+#include "imagebuf/has_pixels.h"
 #include "runs/check_run.h"
 #include "runs/frames.h"
 #include "runs/runs.h"
@@ -21,19 +22,35 @@ using files::ImagePtr;
 using files::Part;
 using files::PartPtr;
 
+// Pixels that are still in a file, or that could not be read before, are read or are an error.
+void read_given(OIIO::ImageBuf& pixels, const std::string& which) {
+    std::string why;
+    if (!pixels.initialized() || pixels.has_error() || !has_pixels(pixels)) {
+        why = pixels.geterror();
+        why = with_name(pixels, why.empty() ? "there is nothing to read" : why);
+    } else if (is_file_to_read(pixels)) {
+        OIIO::ImageBuf whole;
+        if (read_whole(pixels, OIIO::TypeFloat, whole, why)) {
+            pixels = std::move(whole);
+        }
+    } else if (oiio::is_unread_file(pixels) &&
+               !pixels.read(pixels.subimage(), pixels.miplevel(), true, OIIO::TypeFloat)) {
+        why = pixels.geterror();
+    }
+    if (!why.empty()) {
+        throw CommandError(which + " has no pixels: " + why);
+    }
+}
+
 // An image from outside is like one that was read.
 void push_given(Session& session, OIIO::ImageBuf& pixels, size_t index) {
     const std::string which = "image " + std::to_string(index + 1);
     const bool unread = pixels.spec().undefined() || pixels.storage() == OIIO::ImageBuf::IMAGECACHE;
     const OIIO::ImageSpec native = unread ? pixels.nativespec() : pixels.spec();
-    if (!pixels.initialized() ||
-        (unread && !pixels.read(pixels.subimage(), pixels.miplevel(), true, OIIO::TypeFloat))) {
-        const std::string why = pixels.geterror();
-        throw CommandError(which + " has no pixels" + (why.empty() ? "" : ": " + why));
-    }
+    const std::string name = pixels.name().empty() ? which : std::string(pixels.name());
+    read_given(pixels, which);
     const DataFormat format{native.format, {}, native.get_int_attribute("oiio:BitsPerSample")};
     const bool integer = !native.format.is_floating_point();
-    const std::string name = pixels.name().empty() ? which : std::string(pixels.name());
     std::vector<OIIO::ImageBuf> levels(1);
     const bool is_float = pixels.spec().deep || pixels.spec().format == OIIO::TypeFloat;
     levels[0] = is_float ? std::move(pixels) : pixels.copy(OIIO::TypeFloat);

@@ -10,7 +10,13 @@
 
 namespace tonetool::sequence {
 
-/// A line for each value; bytes that are no UTF-8 become U+FFFD.
+/// In one line; bytes that are no UTF-8 become U+FFFD (see valid_utf8). Nothing else makes text of
+/// JSON here: dump() alone throws at such bytes, which names of files and layers may have.
+inline std::string one_line(const nlohmann::ordered_json& value) {
+    return value.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
+}
+
+/// The same with a line for each value.
 inline std::string dumped(const nlohmann::ordered_json& value) {
     return printable_json(
                value.dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace)) +

@@ -7,6 +7,9 @@
 #include <algorithm>
 #include <optional>
 
+#include "imagebuf/guard.h"
+#include "imagebuf/rows_together.h"
+
 namespace tonetool::sequence {
 
 namespace {
@@ -14,9 +17,10 @@ namespace {
 using OIIO::Strutil::fmt::format;
 
 bool read_rows(OIIO::ImageInput& in, int subimage, const OIIO::ImageSpec& spec) {
-    constexpr int rows_at_once = 64;
+    const int rows_at_once = whole_rows(64, spec, in.format_name());
     std::vector<unsigned char> pixels;
     if (spec.depth > 1 || spec.tile_width > 0) {
+        expect_memory(spec.image_bytes(true));
         pixels.resize(spec.image_bytes(true));
         return in.read_image(subimage, 0, 0, spec.nchannels, OIIO::TypeUnknown, pixels.data());
     }
@@ -76,11 +80,14 @@ Probe probed(const std::vector<std::string>& files) {
     std::optional<Size> first;
     for (const std::string& file : files) {
         std::string why;
-        const std::optional<Size> size = readable(file, why);
-        if (!size) {
+        std::optional<Size> size;
+        const bool read = contained(why, [&](std::string& reason) {
+            size = readable(file, reason);
+            return size.has_value();
+        });
+        if (!read) {
             return {Status::Unreadable,
-                    format("cannot read \"{}\"{}{}", file, why.empty() ? "" : ": ",
-                           why.substr(0, why.find('\n')))};
+                    format("cannot read \"{}\": {}", file, why.substr(0, why.find('\n')))};
         }
         if (first && *first != *size) {
             found = {Status::SizeMismatch,

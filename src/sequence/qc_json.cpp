@@ -205,7 +205,7 @@ std::string to_json(const QcRecord& record) {
                        {"layers", list_of(facts.layers)},
                        {"channels", channels},
                        {"parts", list_of(facts.parts)}};
-    return to.dump(-1, ' ', false, ordered_json::error_handler_t::replace);
+    return one_line(to);
 }
 
 QcRecord qc_from_json(const std::string& text) {

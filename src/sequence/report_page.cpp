@@ -74,7 +74,7 @@ std::string trimmed(const std::string& text, const FrameResult& frame) {
     }
     pictures["spots"] = spots;
     pictures.erase("of");
-    return pictures.dump(-1, ' ', false, ordered_json::error_handler_t::replace);
+    return one_line(pictures);
 }
 
 // An element of data, where it fits.
@@ -182,7 +182,7 @@ std::string data_of(const ShotResult& shot, const Kept& kept, const PageLimits& 
         {"legends", {{"error", legend_uri("magma")}, {"stops", legend_uri("viridis")}}},
         {"pictures", captions()},
         {"about", about(shot, kept, limits)}};
-    return page.dump(-1, ' ', false, ordered_json::error_handler_t::replace);
+    return one_line(page);
 }
 
 // ---- what is there without a script

@@ -8,6 +8,7 @@
 
 #include "sequence/bytes.h"
 #include "sequence/encoded.h"
+#include "sequence/json_text.h"
 #include "sequence/reduced.h"
 
 namespace tonetool::sequence {
@@ -249,14 +250,13 @@ std::string full_json(const FramePictures& pictures) {
     to["stops"] = pictures.stops;
     to["range"] = {pictures.first_stop, pictures.last_stop};
     to["spots"] = json_of(pictures.spots);
-    return to.dump();
+    return one_line(to);
 }
 
 std::string small_json(const FramePictures& pictures) {
-    return ordered_json{{"test", pictures.small_test},
-                        {"error", pictures.small_error},
-                        {"spots", json_of(pictures.spots)}}
-        .dump();
+    return one_line({{"test", pictures.small_test},
+                     {"error", pictures.small_error},
+                     {"spots", json_of(pictures.spots)}});
 }
 
 std::string legend_uri(const std::string& map) {

@@ -1,9 +1,9 @@
 #include "sequence/report_text.h"
 
 #include <OpenImageIO/strutil.h>
-#include <nlohmann/json.hpp>
 #include <stdexcept>
 
+#include "imagebuf/utf8.h"
 #include "sequence/page/files.h"
 
 namespace tonetool::sequence {
@@ -11,13 +11,6 @@ namespace tonetool::sequence {
 namespace {
 
 using OIIO::Strutil::fmt::format;
-
-// nlohmann's own reading of UTF-8, there and back.
-std::string valid_utf8(const std::string& text) {
-    using nlohmann::json;
-    return json::parse(json(text).dump(-1, ' ', false, json::error_handler_t::replace))
-        .get<std::string>();
-}
 
 std::string hash_source(const std::string& hex) {
     std::string bytes;

@@ -148,7 +148,7 @@ Fault fault_of(const ordered_json& from) {
     fault.code = from.at("code").get<std::string>();
     const auto severity = severity_of_name(from.at("severity").get<std::string>());
     if (!severity) {
-        throw std::runtime_error("unknown severity " + from.at("severity").dump());
+        throw std::runtime_error("unknown severity " + one_line(from.at("severity")));
     }
     fault.severity = *severity;
     fault.sentence = text(from, "sentence");
@@ -261,7 +261,7 @@ FrameResult frame_of(const ordered_json& from) {
                 frame.faults.push_back(fault_of(one));
             });
     frame.warnings = values<std::string>(from, "warnings");
-    frame.qc = from.contains("qc") ? from["qc"].dump() : "";
+    frame.qc = from.contains("qc") ? one_line(from["qc"]) : "";
     judge_from_numbers(frame);
     return frame;
 }
@@ -356,12 +356,6 @@ std::string to_json(const FrameResult& frame) {
 
 FrameResult frame_from_json(const std::string& from) {
     return parsed(from, [](const ordered_json& json) { return frame_of(json); });
-}
-
-std::string valid_utf8(const std::string& text) {
-    const auto quoted =
-        ordered_json(text).dump(-1, ' ', false, ordered_json::error_handler_t::replace);
-    return parse_json<ordered_json>(quoted).get<std::string>();
 }
 
 } // namespace tonetool::sequence

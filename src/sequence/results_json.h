@@ -23,7 +23,4 @@ ShotResult shot_from_json(const std::string& text);
 std::string to_json(const FrameResult& frame);
 FrameResult frame_from_json(const std::string& text);
 
-/// The text with U+FFFD for bytes that are no UTF-8, as all files of results have it.
-std::string valid_utf8(const std::string& text);
-
 } // namespace tonetool::sequence

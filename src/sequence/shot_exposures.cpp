@@ -66,7 +66,7 @@ ShotExposures shot_exposures(const ExposureSamples& samples) {
 }
 
 std::string exposures_text(const ShotExposures& range) {
-    return json_of(range).dump();
+    return one_line(json_of(range));
 }
 
 std::string to_json(ExposureSamples samples) {

@@ -6,7 +6,7 @@
 #include <cstring>
 #include <map>
 
-#include "sequence/results_json.h"
+#include "imagebuf/utf8.h"
 #include "text/printable.h"
 
 namespace tonetool::sequence {

@@ -1,6 +1,7 @@
 """Strictness: whatever is not understood is an error with status 1, and says why."""
 
 import os
+import struct
 import subprocess
 
 import pytest
@@ -81,6 +82,43 @@ def test_truncated_file_is_an_error_wherever_its_pixels_are_used(tonetool, testi
                   ["--colormap", "magma", "-o", "x.png"]):
         order = [*words, bad] if words == ["--stats"] else [bad, *words]
         tonetool(*order, status=1)
+
+
+def chroma_at_half_the_size(data):
+    """An EXR file's bytes with the header of luminance-chroma files."""
+    data = bytearray(data)
+    at = data.index(b"chlist") + 11
+    for step in (2, 1, 2):
+        numbers = data.index(b"\0", at) + 1
+        data[numbers + 8:numbers + 16] = struct.pack("<ii", step, step)
+        at = numbers + 16
+    return bytes(data)
+
+
+@pytest.mark.parametrize("damage", [
+    chroma_at_half_the_size, lambda data: b"", lambda data: data[:100], lambda data: data[:len(data) * 2 // 3],
+    lambda data: b"no image", lambda data: data[:len(data) // 2] + b"\x5a" * 200 + data[len(data) // 2 + 200:]])
+@pytest.mark.parametrize("command", ["--hdrflip", "--diff", "--add -o sum.exr"])
+def test_an_error_names_the_file_that_cannot_be_read(tonetool, make_image, tmp_path, damage, command):
+    good, bad = make_image("good.exr"), make_image("bad.exr", attributes={"compression": "zip"})
+    (tmp_path / bad).write_bytes(damage((tmp_path / bad).read_bytes()))
+    for pair in ((good, bad), (bad, good)):
+        ran = tonetool(*pair, *command.split(), status=1)
+        assert "bad.exr" in next(line for line in ran.err.splitlines() if "ERROR" in line)
+    assert not (tmp_path / "sum.exr").exists()
+
+
+@pytest.mark.parametrize("rows", [1, 3, 7, 64])
+def test_compressed_strips_of_planar_files(tonetool, make_image, rows):
+    shape = {"width": 64, "height": 50}
+    plain = make_image("plain.exr", **shape)
+    planar = make_image("planar.tif", **shape, attributes={
+        "planarconfig": "separate", "compression": "zip", "tiff:RowsPerStrip": rows})
+    assert "RowsPerStrip: " + str(rows) in tonetool("--info", "-v", planar).out
+    assert tonetool(planar, "--luminancestats").out == tonetool(plain, "--luminancestats").out
+    assert "max 0" in tonetool(plain, planar, "--hdrflip", "-o", "map.exr").out
+    tonetool(planar, "--qc", "-o", "again.tif")
+    tonetool(plain, "again.tif", "--diff")
 
 
 def test_nothing_done_is_an_error(tonetool, make_image):

@@ -1,6 +1,8 @@
 """Wrong calls raise, and say what was wrong, with the shape."""
 
 import gc
+import os
+import re
 import subprocess
 import sys
 
@@ -10,7 +12,8 @@ import pytest
 import tonetool
 
 
-@pytest.mark.parametrize("shape", [(3,), (2, 2, 3, 1), (0, 4, 3)])
+@pytest.mark.parametrize("shape", [(3,), (2, 2, 3, 1), (0, 4, 3), (3, 24, 32), (1, 24, 32),
+                                   (24, 32, 2), (24, 32, 5), (24, 32, 0)])
 def test_wrong_shape(shape):
     with pytest.raises(ValueError) as raised:
         tonetool.tonemap(np.zeros(shape, np.float32))
@@ -18,11 +21,75 @@ def test_wrong_shape(shape):
     assert str(shape) in text and "height x width" in text and "tonemap: image" in text
 
 
-@pytest.mark.parametrize("kind", [np.float64, np.uint8, np.float16, ">f4"])
+@pytest.mark.parametrize("call", [
+    lambda a: tonetool.hdr_flip(a, a), lambda a: tonetool.ldr_flip(a, a), lambda a: tonetool.luminance_stats(a),
+    lambda a: tonetool.write_image(a, "never.exr"), lambda a: tonetool.chain("--luminancestats", [a]),
+    lambda a: tonetool.image(a), lambda a: tonetool.qc_facts(a)])
+def test_channels_first_is_no_image_of_many_channels(call):
+    with pytest.raises(ValueError, match=r"\(3, 24, 32\).*moveaxis\(array, 0, -1\)"):
+        call(np.ones((3, 24, 32), np.float32))
+    with pytest.raises(ValueError, match=r"\(24, 32, 7\).*tonetool.image\(array, channels"):
+        call(np.ones((24, 32, 7), np.float32))
+
+
+@pytest.mark.parametrize("kind", [">f4", np.int64, np.int32, np.uint32, np.int8, np.bool_, np.complex64,
+                                  np.longdouble, "datetime64[s]", "S3"])
 def test_wrong_type_of_array(kind):
     with pytest.raises(TypeError) as raised:
         tonetool.tonemap(np.zeros((4, 5, 3), kind))
-    assert str(np.dtype(kind)) in str(raised.value) and "(4, 5, 3)" in str(raised.value)
+    text = str(raised.value)
+    assert str(np.dtype(kind)) in text and "(4, 5, 3)" in text
+    assert "float32, float16 or float64 (linear), uint8 or uint16 (sRGB" in text
+
+
+def test_masked_array():
+    with pytest.raises(TypeError, match="without a mask"):
+        tonetool.tonemap(np.ma.zeros((4, 5, 3), np.float32))
+
+
+@pytest.mark.parametrize("kind, largest", [(np.uint8, 255), (np.uint16, 65535)])
+def test_integers_are_srgb_like_files(tmp_path, noise, kind, largest):
+    coded = (noise * largest).astype(kind)
+    path = tmp_path / "coded.png"
+    tonetool.write_image(coded, path)
+    file = oiio.ImageBuf(str(path))
+    assert np.array_equal(file.get_pixels(str(np.dtype(kind))), coded)
+    assert tonetool.find_color(coded).space == "srgb" == tonetool.find_color(file).space
+    assert tonetool.luminance_stats(coded).mean == tonetool.luminance_stats(file).mean
+    white = np.full_like(coded, largest)
+    found = tonetool.ldr_flip(coded, white).map
+    assert found.tobytes() == np.ascontiguousarray(
+        tonetool.ldr_flip(file, white).map.get_pixels(oiio.FLOAT)[..., 0]).tobytes() and found.max() > 0.3
+    linear = tonetool.luminance_stats(coded, pixels={"from": "rec709"})
+    assert linear.mean == pytest.approx(float(tonetool.luminance_stats(
+        coded.astype(np.float32) / largest).mean), rel=1e-6)
+    assert tonetool.tonemap(coded).image.dtype == np.float32
+    with pytest.raises(tonetool.Error, match="display-encoded"):
+        tonetool.exposure(coded, 1)
+
+
+@pytest.mark.parametrize("kind", [np.float16, np.float64])
+def test_other_floats_are_linear(tmp_path, noise, kind):
+    values = noise.astype(kind)
+    same_values = values.astype(np.float32)
+    assert np.array_equal(tonetool.tonemap(values).image, tonetool.tonemap(same_values).image)
+    found, wanted = tonetool.hdr_flip(values, noise), tonetool.hdr_flip(same_values, noise)
+    assert found.map.tobytes() == wanted.map.tobytes()
+    tonetool.write_image(values, tmp_path / "values.exr")
+    assert np.array_equal(oiio.ImageBuf(str(tmp_path / "values.exr")).get_pixels("float"), same_values)
+
+
+def test_float64_beyond_float32(noise):
+    large = noise.astype(np.float64)
+    large[2, 3, 0] = 1e300
+    assert tonetool.tonemap(large).summary.nonfinite == 1
+
+
+@pytest.mark.parametrize("channels", [1, 3, 4])
+def test_right_shapes(noise, channels):
+    image = np.dstack([noise, noise])[..., :channels]
+    assert tonetool.encode_srgb(image).shape == image.shape
+    assert tonetool.encode_srgb(image[..., 0]).shape == (24, 32)
 
 
 @pytest.mark.parametrize("thing", [None, "ref.exr", [[1.0]], 3, oiio.ImageSpec(4, 4, 3, "float")])
@@ -82,6 +149,64 @@ def test_missing_and_too_many(noise):
 def test_different_sizes_are_named(noise):
     with pytest.raises(tonetool.Error, match="32x24.*32x10"):
         tonetool.hdr_flip(noise, noise[:10])
+
+
+def cut(tmp_path, name, image, share=0.6):
+    """A file that lost its end."""
+    path = tmp_path / name
+    tonetool.write_image(image, path, compression="none" if name.endswith("exr") else "")
+    path.write_bytes(path.read_bytes()[: int(path.stat().st_size * share)])
+    return oiio.ImageBuf(str(path))
+
+
+@pytest.mark.parametrize("name, kind", [("cut.exr", np.float32), ("cut.tif", np.float32), ("cut.png", np.uint8)])
+@pytest.mark.parametrize("call", [
+    tonetool.encode_srgb, tonetool.image, tonetool.tonemap, tonetool.luminance_stats,
+    lambda b: tonetool.tonemap(b, calibration="mean"), lambda b: tonetool.calibrate(b, pixels={"from": "rec709"}),
+    lambda b: tonetool.exposure(b, 1, pixels={"from": "rec709"}), lambda b: tonetool.color_map(b, "magma"),
+    lambda b: tonetool.hdr_flip(b, b), lambda b: tonetool.qc_facts(b), lambda b: tonetool.cg_tmo(b),
+    lambda b: tonetool.write_image(b, b.name + ".out.exr"), lambda b: tonetool.chain("--luminancestats", [b])])
+def test_truncated_file(tmp_path, noise, name, kind, call):
+    broken = cut(tmp_path, name, (noise * 255).astype(kind) if kind == np.uint8 else noise)
+    with pytest.raises(tonetool.Error, match=re.escape(name)):
+        call(broken)
+    broken.read(force=True)
+    broken.geterror()  # whoever looks at it takes it
+    with pytest.raises(tonetool.Error, match=re.escape(name)):
+        call(broken)
+    assert not list(tmp_path.glob("*.out.exr"))
+
+
+def latin1(tmp_path, noise, names):
+    """A file whose names of channels are Latin-1."""
+    path = tmp_path / "latin1.exr"
+    tonetool.write_image(tonetool.image(noise, channels=["QQ.R", "QQ.G", names]), path)
+    data = path.read_bytes()
+    path.write_bytes(data[:400].replace(b"QQ", b"\xfc\xe9") + data[400:])
+    return oiio.ImageBuf(str(path))
+
+
+def test_names_that_are_no_utf8(tmp_path, noise):
+    with pytest.raises(tonetool.Error, match="needs R,G,B.*\ufffd\ufffd"):
+        tonetool.tonemap(latin1(tmp_path, noise, "Z"))
+    layers = latin1(tmp_path, noise, "QQ.B")
+    assert tonetool.color_layers(layers) == ["\ufffd\ufffd"]
+    assert tonetool.luminance_stats(layers).layer == "\ufffd\ufffd"
+    assert "\ufffd" in repr(tonetool.qc_facts(layers))
+    with pytest.raises(tonetool.Error, match="no colour layer"):
+        tonetool.tonemap(layers, pixels=os.fsdecode(b"\xe4"))
+    with pytest.raises(ValueError, match="size: unknown name"):
+        tonetool.hdr_flip(noise, noise, size=os.fsdecode(b"\xe4"))
+    with pytest.raises(TypeError, match="ppd is"):
+        tonetool.hdr_flip(noise, noise, ppd=os.fsdecode(b"\xe4"))
+
+
+def test_file_name_that_is_no_utf8(tmp_path, noise):
+    path = os.fsdecode(os.fsencode(str(tmp_path)) + b"/\xfc.exr")
+    tonetool.write_image(noise, path)
+    assert os.path.exists(path)
+    with pytest.raises(tonetool.Error, match="\ufffd"):
+        tonetool.write_image(noise, os.path.join(path, "below.exr"))
 
 
 def test_missing_file(tmp_path, noise):
@@ -184,6 +309,8 @@ def test_named_image(noise):
     assert image.getpixel(0, 0)[0] != 0
     with pytest.raises(ValueError, match="2 names.*3 channels"):
         tonetool.image(noise, channels=["a", "b"])
+    many = tonetool.image(np.dstack([noise, noise]), channels=["R", "G", "B", "N.X", "N.Y", "N.Z"])
+    assert tonetool.luminance_stats(many).pixels == 24 * 32
 
 
 def test_reprs(noise):

@@ -24,7 +24,7 @@ TONETOOL_API bool color_map(OIIO::ImageBuf& dst, const OIIO::ImageBuf& src,
 TONETOOL_API std::vector<std::string> color_maps();
 
 /// sRGB-encode linear Rec.709 in place of every channel but alpha; values are clamped to [0,1],
-/// NaN becomes 0. Deep images and volumes are errors.
+/// NaN becomes 0. Deep images, volumes and what is sRGB-encoded already are errors.
 TONETOOL_API bool encode_srgb(OIIO::ImageBuf& dst, const OIIO::ImageBuf& src, OIIO::ROI roi = {},
                               int nthreads = 0);
 

@@ -1,9 +1,15 @@
 """HDR image comparison and tone mapping for rendering.
 
-Images are OpenImageIO.ImageBuf objects, or numpy arrays of float32: height x width x channels (R, G,
-B first), or height x width for one channel. What a function returns is an array where it was given
-one, and arrays and images change hands without a copy of their pixels (an array that is not contiguous
-is copied once). Arrays are taken for linear Rec.709; pixels={"from": "srgb"} and the like say otherwise.
+Images are OpenImageIO.ImageBuf objects, or numpy arrays of height x width (grey) or of height x width x
+channels, of which there are 1 (grey), 3 (R, G, B) or 4 (R, G, B, A). image() names other channels. An
+array's numbers say what they mean, as those of files do:
+
+    float32, float16, float64   linear Rec.709; 64 bits become 32, in which everything is computed
+    uint8, uint16               sRGB-encoded, 0 to 255 or 65535; alpha is 0 to 1 of that
+
+pixels={"from": "acescg"} and the like say otherwise; other numbers (int64, bool, ...) are a TypeError.
+What a function returns is an array (float32) where it was given one, and arrays and images change hands
+without a copy of their pixels (float64, and an array that is not contiguous, are copied once).
 
 Options are keywords, under the names of the fields in C++. An option that is a struct there takes a
 mapping of its fields, or the value of the main one: curve="agx" is curve={"name": "agx"},
@@ -11,8 +17,9 @@ pixels="beauty" is pixels={"layer": "beauty"}, calibration="mean" is calibration
 
 Errors: TypeError for an argument of a wrong type and for an unknown keyword, ValueError for an array
 of a wrong shape and for an unknown name; tonetool.Error, a RuntimeError, for what the library refuses,
-with the message that the program prints (CheckFailed: a threshold in chain() was exceeded). Other
-Python threads run while a function computes.
+with the message that the program prints (CheckFailed: a threshold in chain() was exceeded). A file that
+cannot be read whole is refused by every function, and the message names it. Names in files may have
+bytes that are no UTF-8; here these are U+FFFD. Other Python threads run while a function computes.
 
     >>> import OpenImageIO, tonetool
     >>> found = tonetool.hdr_flip(OpenImageIO.ImageBuf("ref.exr"), OpenImageIO.ImageBuf("test.exr"))
