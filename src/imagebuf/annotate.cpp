@@ -39,6 +39,8 @@ void annotate_pool(const Writer& to, const FlipPool& pool) {
     to.number("p95", pool.p95);
     to.number("p99", pool.p99);
     to.number("p99.9", pool.p999);
+    for (const auto& [name, value] : pool.further)
+        to.number(name, value);
     to.count("pixels", pool.pixels);
     // As text: integer arrays are not kept by every format.
     to.text("histogram", join(pool.histogram, " "));
@@ -88,6 +90,8 @@ void annotate_pair(const Writer& to, const PairSummary& summary) {
     annotate_side(to, "reference", summary.reference);
     annotate_side(to, "test", summary.test);
     to.count("bothNonfinite", summary.nonfinite_both);
+    to.count("unlikeNonfinite", summary.nonfinite_unlike);
+    to.count("alphaIgnored", summary.alpha_ignored);
     if (summary.alpha_compared) {
         to.number("alphaMeanError", summary.alpha_mean);
         to.number("alphaMaxError", summary.alpha_max);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 
+#include "imagebuf/color_names.h"
 #include "imagebuf/colorimetry.h"
 #include "include/tonetool/pixels.h"
 
@@ -82,8 +83,7 @@ std::string pass_name(const std::string& layer) {
 }
 
 bool is_data(const Layer& layer) {
-    const std::string pass = pass_name(layer.name);
-    return is_one_of(pass, kDataNames) || OIIO::Strutil::starts_with(pass, "crypto");
+    return is_data_name(layer.name);
 }
 
 std::string list(const std::vector<Layer>& layers) {
@@ -131,12 +131,29 @@ std::vector<Layer> beauty(const std::vector<Layer>& layers) {
     auto plain = only(layers, [](const Layer& l) { return l.name.empty(); });
     if (!plain.empty())
         return plain;
-    auto beauties =
-        only(layers, [](const Layer& l) { return is_one_of(pass_name(l.name), kBeautyNames); });
+    auto beauties = only(layers, [](const Layer& l) { return is_beauty_name(l.name); });
     if (!beauties.empty())
         return beauties;
     // A file with one layer in all is about that layer, unless its name says data.
     return layers.size() == 1 && !is_data(layers[0]) ? layers : std::vector<Layer>{};
+}
+
+// The picture of a part of that name or view; of a file of one part with several views, that of
+// the first, whose channels have no prefix.
+std::vector<Layer> of_part(const OIIO::ImageSpec& spec, const std::vector<Layer>& layers,
+                           const std::string& name) {
+    std::string view;
+    if (const OIIO::ParamValue* views = spec.find_attribute("multiView"))
+        view = views->get_string_indexed(0);
+    const std::string names[] = {spec.get_string_attribute("oiio:subimagename"),
+                                 spec.get_string_attribute("view"), view};
+    const bool meant = std::any_of(std::begin(names), std::end(names), [&](const std::string& one) {
+        return !one.empty() && lower(one) == lower(name);
+    });
+    if (!meant)
+        return {};
+    const auto found = beauty(layers);
+    return found.empty() && layers.size() == 1 ? layers : found;
 }
 
 std::string no_layer_text(const OIIO::ImageSpec& spec, const std::vector<Layer>& layers,
@@ -172,12 +189,23 @@ bool usable(const OIIO::ImageSpec& spec, const Layer& layer, std::string& error)
 
 } // namespace
 
+bool is_data_name(const std::string& layer) {
+    const std::string pass = pass_name(layer);
+    return is_one_of(pass, kDataNames) || OIIO::Strutil::starts_with(pass, "crypto");
+}
+
+bool is_beauty_name(const std::string& layer) {
+    return is_one_of(pass_name(layer), kBeautyNames);
+}
+
 namespace ToneAlgo {
 
 bool find_color(const OIIO::ImageSpec& spec, const PixelOptions& options, ColorChoice& choice,
                 std::string& error) {
     const auto layers = find_layers(spec);
-    const auto found = options.layer.empty() ? beauty(layers) : named(layers, options.layer);
+    auto found = options.layer.empty() ? beauty(layers) : named(layers, options.layer);
+    if (found.empty() && !options.layer.empty())
+        found = of_part(spec, layers, options.layer);
     if (found.empty()) {
         error = no_layer_text(spec, layers, options);
         return false;

@@ -32,6 +32,28 @@ uint64_t digest(size_t place, const double (&v)[3]) {
     return h;
 }
 
+uint64_t alpha_digest(size_t place, float alpha) {
+    return alpha == 1 ? 0 : digest(place, {alpha, 0, 0});
+}
+
+// Two bits that say what a value is: see ColorPlanes::nonfinite.
+unsigned kind(double v) {
+    return std::isfinite(v) ? 0 : std::isnan(v) ? 3 : v > 0 ? 1 : 2;
+}
+
+// The finite ones of three values: two as they are, of three (beside an alpha) the others' hash.
+uint64_t finite_ones(const double (&v)[3]) {
+    uint32_t bits[3] = {};
+    size_t count = 0;
+    for (const double x : v)
+        if (std::isfinite(x)) {
+            const auto stored = float(x);
+            std::memcpy(&bits[count++], &stored, sizeof stored);
+        }
+    const uint64_t packed = uint64_t(bits[0]) << 32 | bits[1];
+    return count < 3 ? packed : digest(size_t(packed), {v[0], v[1], v[2]});
+}
+
 void to_rec709(const ColorSpace& space, double (&v)[3]) {
     if (space.srgb_encoded)
         for (double& x : v)
@@ -58,7 +80,7 @@ bool ColorReader::open(const ImageBuf& image, const PixelOptions& options, ROI r
     m_alpha = want_alpha;
     m_nthreads = nthreads;
     std::vector<int> channels = {m_choice.r, m_choice.g, m_choice.b};
-    if (m_alpha && m_choice.a >= 0)
+    if ((m_alpha || m_watch) && m_choice.a >= 0)
         channels.push_back(m_choice.a);
     const std::vector<ChannelRun> runs = runs_of(channels);
     for (size_t i = 0; i < channels.size(); ++i)
@@ -109,6 +131,10 @@ bool ColorReader::read(int begin, int end, ColorPlanes& planes, std::string& err
     for (auto& p : planes.plane)
         move_rows(p);
     move_rows(planes.nonfinite);
+    if (planes.counts.nonfinite > 0)
+        move_rows(planes.beside);
+    else
+        (planes.beside = {}).resize(n);
     if (m_alpha)
         move_rows(planes.alpha);
     planes.begin = begin;
@@ -188,6 +214,7 @@ void ColorReader::clean_row(int y, const Stage& stage, ColorPlanes& planes,
     Row row{{},
             planes.alpha.empty() ? nullptr : planes.alpha.data() + at,
             planes.nonfinite.data() + at,
+            planes.beside.data() + at,
             size_t(y - m_region.ybegin) * width};
     for (size_t p = 0; p < 3; ++p)
         row.plane[p] = planes.plane[p].data() + at;
@@ -205,21 +232,26 @@ void ColorReader::clean(const Row& row, size_t from, size_t to, int y, const Sta
     const float* in[3] = {staged(stage, y, 0), staged(stage, y, 1), staged(stage, y, 2)};
     const size_t step[3] = {size_t(m_place[0].stride), size_t(m_place[1].stride),
                             size_t(m_place[2].stride)};
-    const float* alpha = row.alpha && m_place[3].stride > 0 ? staged(stage, y, 3) : nullptr;
+    const float* alpha = m_place[3].stride > 0 ? staged(stage, y, 3) : nullptr;
+    const auto alpha_at = [&](size_t x) { return alpha[(x - from) * size_t(m_place[3].stride)]; };
     for (size_t x = from; x < to; ++x) {
         double v[3];
         for (size_t p = 0; p < 3; ++p)
             v[p] = in[p][(x - from) * step[p]];
-        bool finite = std::isfinite(v[0]) && std::isfinite(v[1]) && std::isfinite(v[2]);
+        unsigned kinds = kind(v[0]) | kind(v[1]) << 2 | kind(v[2]) << 4;
         if (row.alpha) {
-            row.alpha[x] = alpha ? alpha[(x - from) * size_t(m_place[3].stride)] : 1.0f;
-            if (!std::isfinite(row.alpha[x])) {
-                finite = false;
+            row.alpha[x] = alpha ? alpha_at(x) : 1.0f;
+            kinds |= kind(row.alpha[x]) << 6;
+            if (!std::isfinite(row.alpha[x]))
                 row.alpha[x] = 0;
-            }
+        } else if (alpha) {
+            counts.alpha_digest += alpha_digest(row.place + x, alpha_at(x));
         }
-        row.nonfinite[x] = !finite;
+        const bool finite = kinds == 0;
+        row.nonfinite[x] = uint8_t(kinds);
         counts.nonfinite += !finite;
+        if (!finite)
+            row.beside[x] = finite_ones(v);
         if (finite)
             to_rec709(m_space, v);
         if (finite && (v[0] < 0 || v[1] < 0 || v[2] < 0)) {

@@ -17,6 +17,9 @@ namespace tonetool {
 /// Non-finite pixels become black and are marked, negative components become 0 and are counted.
 class ColorReader {
 public:
+    /// Alpha, where it is not asked for, is told from another by ColorCounts::alpha_digest; before
+    /// open().
+    void watch_alpha() { m_watch = true; }
     /// Looks at the header only. The image must live as long as this does.
     bool open(const OIIO::ImageBuf& image, const PixelOptions& options, OIIO::ROI region,
               bool want_alpha, int nthreads, std::string& error);
@@ -48,6 +51,7 @@ private:
         float* plane[3];
         float* alpha; ///< may be null
         uint8_t* nonfinite;
+        uint64_t* beside;
         size_t place; ///< of its first pixel in the region
         void blacken(size_t from, size_t to) const;
     };
@@ -70,7 +74,7 @@ private:
     ColorChoice m_choice;
     ColorSpace m_space;
     OIIO::ROI m_region, m_window;
-    bool m_alpha = false, m_frugal = false;
+    bool m_alpha = false, m_watch = false, m_frugal = false;
     int m_nthreads = 0;
     int64_t m_uncovered = 0;
     Place m_place[4];

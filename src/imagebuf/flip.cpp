@@ -107,39 +107,5 @@ std::vector<std::string> flip_tonemappers() {
     return tonemap::curve_names();
 }
 
-namespace {
-
-struct Quantity {
-    const char* name;
-    double FlipPool::*value;
-};
-
-constexpr Quantity kQuantities[] = {{"mean", &FlipPool::mean},
-                                    {"weighted-median", &FlipPool::weighted_median},
-                                    {"weighted-q1", &FlipPool::weighted_q1},
-                                    {"weighted-q3", &FlipPool::weighted_q3},
-                                    {"p50", &FlipPool::p50},
-                                    {"p95", &FlipPool::p95},
-                                    {"p99", &FlipPool::p99},
-                                    {"p99.9", &FlipPool::p999},
-                                    {"min", &FlipPool::min},
-                                    {"max", &FlipPool::max}};
-
-} // namespace
-
-std::optional<double> flip_quantity(const FlipPool& pool, const std::string& name) {
-    for (const Quantity& q : kQuantities)
-        if (name == q.name)
-            return pool.*q.value;
-    return std::nullopt;
-}
-
-std::vector<std::string> flip_quantities() {
-    std::vector<std::string> names;
-    for (const Quantity& q : kQuantities)
-        names.emplace_back(q.name);
-    return names;
-}
-
 } // namespace ToneAlgo
 } // namespace tonetool

@@ -2,13 +2,14 @@
 
 #include <OpenImageIO/strutil.h>
 #include <algorithm>
-#include <atomic>
 #include <cmath>
+#include <mutex>
 
 #include "imagebuf/allocation.h"
 #include "imagebuf/annotate.h"
 #include "imagebuf/pair.h"
 #include "imagebuf/parallel.h"
+#include "imagebuf/quantities.h"
 #include "kernels/flip_tile.h"
 #include "metrics/pooling.h"
 
@@ -24,6 +25,14 @@ void collect_warnings(const ColorPlanes& reference, const ColorPlanes& test, Fli
     if (s.nonfinite_both > 0)
         s.warnings.push_back(std::to_string(s.nonfinite_both) +
                              " pixel(s) are NaN or Inf in both images and count as equal");
+    if (s.nonfinite_unlike > 0)
+        s.warnings.push_back(std::to_string(s.nonfinite_unlike) +
+                             " pixel(s) are NaN or Inf in both images, but of another kind or "
+                             "beside other values: they count as different");
+    if (s.alpha_ignored > 0)
+        s.warnings.push_back(std::to_string(s.alpha_ignored) +
+                             " pixel(s) differ in alpha, which is ignored (alpha=error compares "
+                             "it)");
     if (s.median_of_lit)
         s.warnings.push_back(OIIO::Strutil::fmt::format(
             "more than half of the reference is black: the stop exposure follows the median "
@@ -32,6 +41,9 @@ void collect_warnings(const ColorPlanes& reference, const ColorPlanes& test, Fli
     if (s.alpha_compared && (reference.choice.a < 0 || test.choice.a < 0))
         s.warnings.emplace_back("only one image has alpha: the other counts as opaque");
 }
+
+// Display light that an 8-bit sRGB picture stores as 255, and as 0.
+constexpr float kWhite = 0.9956f, kBlack = 0.5f / 255 / 12.92f;
 
 // Marks the largest error while it is not known yet: below every error.
 constexpr float kLargest = -1;
@@ -108,20 +120,25 @@ flip::Output FlipMaps::output(int y) {
 void FlipMaps::take(int begin, int end, const ColorPlanes& reference, const ColorPlanes& test) {
     const Sides sides{reference, test};
     const bool nonfinite = reference.counts.nonfinite > 0 || test.counts.nonfinite > 0;
-    std::atomic<int64_t> different{0};
+    std::mutex lock;
     make_parallel(m_nthreads)(end - begin, [&](int64_t i) {
         const int y = begin + int(i);
         if (m_plan.alpha())
             compare_alpha(y, sides);
         if (nonfinite)
             override_nonfinite(y, sides);
-        different += differing(y, sides);
+        const Unseen found = unseen(y, sides);
+        {
+            const std::lock_guard<std::mutex> hold(lock);
+            m_unseen.differing += found.differing;
+            m_unseen.white += found.white;
+            m_unseen.black += found.black;
+        }
         for (FlipExposure& picture : m_pictures) {
             tone_map_row(y, picture.stops, reference, picture.reference);
             tone_map_row(y, picture.stops, test, picture.test);
         }
     });
-    m_differing += different;
 }
 
 void FlipMaps::compare_alpha(int y, const Sides& sides) {
@@ -142,14 +159,15 @@ void FlipMaps::compare_alpha(int y, const Sides& sides) {
     }
 }
 
-// The largest error where one image alone is non-finite, 0 where both are.
+// The largest error where one image alone is non-finite or both are in another way, else 0.
 void FlipMaps::override_nonfinite(int y, const Sides& sides) {
     const size_t at = sides.reference.at(y) + size_t(m_roi.xbegin - sides.reference.region.xbegin);
     for (size_t x = 0; x < size_t(m_roi.width()); ++x) {
         const bool r = sides.reference.nonfinite[at + x], t = sides.test.nonfinite[at + x];
         if (!r && !t)
             continue;
-        const float error = r == t ? 0.0f : m_unbounded ? kLargest : 1.0f;
+        const bool alike = r && t && nonfinite_alike(sides.reference, at + x, sides.test, at + x);
+        const float error = alike ? 0.0f : m_unbounded ? kLargest : 1.0f;
         row(m_error, y)[x] = error;
         if (m_index.initialized())
             row(m_index, y)[x] = 0;
@@ -158,28 +176,73 @@ void FlipMaps::override_nonfinite(int y, const Sides& sides) {
     }
 }
 
-int64_t FlipMaps::differing(int y, const Sides& sides) const {
+FlipMaps::Unseen FlipMaps::unseen(int y, const Sides& sides) const {
     const float *r[3], *t[3];
     sides.reference.row(m_roi.xbegin, y, r);
     sides.test.row(m_roi.xbegin, y, t);
-    int64_t count = 0;
+    std::vector<float> differing[2][3]; // of the reference and of the test
     for (int x = 0; x < m_roi.width(); ++x)
-        count += (r[0][x] != t[0][x]) | (r[1][x] != t[1][x]) | (r[2][x] != t[2][x]);
-    return count;
+        if ((r[0][x] != t[0][x]) | (r[1][x] != t[1][x]) | (r[2][x] != t[2][x]))
+            for (size_t p = 0; p < 3; ++p) {
+                differing[0][p].push_back(r[p][x]);
+                differing[1][p].push_back(t[p][x]);
+            }
+    Unseen found;
+    found.differing = int64_t(differing[0][0].size());
+    const bool clips = m_plan.hdr || !m_plan.pixel_error; // other errors have no white
+    if (found.differing == 0 || !clips)
+        return found;
+    // Of both images at the darkest and at the brightest exposure.
+    std::vector<float> shown[2][2][3];
+    for (size_t side = 0; side < 2; ++side) {
+        const float* const in[3] = {differing[side][0].data(), differing[side][1].data(),
+                                    differing[side][2].data()};
+        const auto count = size_t(found.differing);
+        show(in, count, m_exposures.stops.front(), shown[0][side]);
+        show(in, count, m_exposures.stops.back(), shown[1][side]);
+    }
+    for (size_t i = 0; i < size_t(found.differing); ++i) {
+        bool white = false, hidden = true;
+        for (size_t p = 0; p < 3 && hidden; ++p) {
+            const float dark[2] = {shown[0][0][p][i], shown[0][1][p][i]};
+            const float bright[2] = {shown[1][0][p][i], shown[1][1][p][i]};
+            const bool both_white = std::min(dark[0], dark[1]) >= kWhite;
+            const bool both_black = std::max(bright[0], bright[1]) < kBlack;
+            white = white || both_white;
+            hidden = both_white || both_black || (dark[0] == dark[1] && bright[0] == bright[1]);
+        }
+        if (hidden)
+            ++(white ? found.white : found.black);
+    }
+    return found;
+}
+
+// Pixels as the comparison sees them at an exposure: display light.
+void FlipMaps::show(const float* const (&in)[3], size_t count, double stops,
+                    std::vector<float> (&out)[3]) const {
+    float* to[3];
+    for (size_t p = 0; p < 3; ++p) {
+        out[p].resize(count);
+        to[p] = out[p].data();
+    }
+    const auto scale = float(std::exp2(stops));
+    if (!m_plan.hdr || m_plan.pixel_error) // clamped only, or shown through a power of 2.2
+        for (size_t p = 0; p < 3; ++p)
+            std::transform(in[p], in[p] + count, to[p],
+                           [&](float v) { return std::min(v * scale, 1.0f); });
+    else if (m_plan.evaluation.rows)
+        m_plan.evaluation.rows(in, to, ptrdiff_t(count), scale);
+    else
+        kernels::tone_map_pixels(in, to, ptrdiff_t(count), m_plan.evaluation.curve, scale);
 }
 
 // What the comparison saw of one image at one exposure.
 void FlipMaps::tone_map_row(int y, double stops, const ColorPlanes& planes, ImageBuf& image) const {
     const auto width = size_t(m_roi.width());
-    std::vector<float> mapped(3 * width);
+    std::vector<float> out[3];
     const float* in[3];
-    float* const out[3] = {mapped.data(), mapped.data() + width, mapped.data() + 2 * width};
     planes.row(m_roi.xbegin, y, in);
-    const auto scale = float(std::exp2(stops));
-    if (m_plan.evaluation.rows)
-        m_plan.evaluation.rows(in, out, ptrdiff_t(width), scale);
-    else
-        kernels::tone_map_pixels(in, out, ptrdiff_t(width), m_plan.evaluation.curve, scale);
+    show({in[0], in[1], in[2]}, width, stops, out);
     float* pixels = row(image, y);
     for (size_t x = 0; x < width; ++x)
         for (size_t p = 0; p < 3; ++p)
@@ -191,8 +254,8 @@ void FlipMaps::warn_of_unseen(const Sides& sides, FlipSummary& s) const {
     const double nothing_shows = m_plan.pixel_error ? 0 : 1e-6;
     if (s.pool.max > nothing_shows)
         return;
-    if (m_differing > 0)
-        s.warnings.push_back(std::to_string(m_differing) + " pixel(s) differ, but " +
+    if (m_unseen.differing > 0)
+        s.warnings.push_back(std::to_string(m_unseen.differing) + " pixel(s) differ, but " +
                              (m_plan.hdr || !m_plan.pixel_error
                                   ? "none shows at the exposures compared"
                                   : "by too little for the map's floats"));
@@ -200,16 +263,32 @@ void FlipMaps::warn_of_unseen(const Sides& sides, FlipSummary& s) const {
         s.warnings.emplace_back("the images differ in negative values, which count as 0");
 }
 
-FlipSummary FlipMaps::summarize(const Sides& sides, int64_t both,
-                                const std::vector<std::string>& notes) {
+// Where white meets white no difference shows, however large it is.
+void FlipMaps::warn_of_clipped(FlipSummary& s) const {
+    constexpr double share = 0.01;
+    const auto warn = [&](int64_t count, const char* color, const char* cure) {
+        if (double(count) > share * double(m_unseen.differing))
+            s.warnings.push_back(OIIO::Strutil::fmt::format(
+                "{} of {} differing pixel(s) are {} in both images at every exposure: their "
+                "difference does not show ({})",
+                count, m_unseen.differing, color, cure));
+    };
+    const bool hdr = m_plan.hdr;
+    warn(m_unseen.white, "white", hdr ? "a lower startExposure shows it" : "hdrflip shows it");
+    warn(m_unseen.black, "black", hdr ? "a higher stopExposure shows it" : "hdrflip shows it");
+}
+
+FlipSummary FlipMaps::summarize(const Sides& sides, const Found& found) {
     FlipSummary s;
     s.hdr = m_plan.hdr;
     s.ppd = m_plan.ppd;
     s.region = m_roi;
     s.reference = side_of(sides.reference);
     s.test = side_of(sides.test);
-    s.nonfinite_both = both;
-    s.warnings = notes;
+    s.nonfinite_both = found.nonfinite.alike;
+    s.nonfinite_unlike = found.nonfinite.unlike;
+    s.alpha_ignored = found.alpha_ignored;
+    s.warnings = found.notes;
     if (m_plan.hdr) {
         s.tonemapper = m_plan.tonemapper;
         s.parameters = m_plan.curve.parameters;
@@ -234,10 +313,13 @@ FlipSummary FlipMaps::summarize(const Sides& sides, int64_t both,
         }
     }
     s.alpha_mean /= double(m_roi.width()) * m_roi.height();
+    metrics::PoolRequest further = m_plan.pool;
     s.pool = metrics::pool(row(m_error, m_roi.ybegin), m_roi.width(), m_roi.height(), m_roi.width(),
-                           m_roi.xbegin, m_roi.ybegin, make_parallel(m_nthreads));
+                           m_roi.xbegin, m_roi.ybegin, make_parallel(m_nthreads), &further);
+    name_further(further, s.pool);
     collect_warnings(sides.reference, sides.test, s);
     warn_of_unseen(sides, s);
+    warn_of_clipped(s);
     return s;
 }
 
@@ -257,11 +339,11 @@ void FlipMaps::make_stops() {
     });
 }
 
-void FlipMaps::finish(const ColorPlanes& reference, const ColorPlanes& test, int64_t nonfinite_both,
-                      const std::vector<std::string>& notes, ImageBuf& map, FlipResult& result) {
+void FlipMaps::finish(const ColorPlanes& reference, const ColorPlanes& test, const Found& found,
+                      ImageBuf& map, FlipResult& result) {
     if (m_unbounded && (reference.counts.nonfinite > 0 || test.counts.nonfinite > 0))
         resolve_largest();
-    result.summary = summarize({reference, test}, nonfinite_both, notes);
+    result.summary = summarize({reference, test}, found);
     if (!m_plan.pixel_error)
         annotate(m_error.specmod(), result.summary);
     map = std::move(m_error);

@@ -5,11 +5,19 @@
 #include <vector>
 
 #include "imagebuf/flip_plan.h"
+#include "imagebuf/pair.h"
 
 namespace tonetool {
 
 /// Bytes of all results of one test per pixel.
 size_t map_bytes(const FlipPlan& plan, size_t exposures);
+
+/// What was found of one test beside its map.
+struct Found {
+    NonfiniteBoth nonfinite;
+    int64_t alpha_ignored = 0; ///< pixels whose alpha differs and is not compared
+    std::vector<std::string> notes;
+};
 
 /// The results of one test over the pixels asked for: filled band by band, then finished.
 class FlipMaps {
@@ -25,13 +33,17 @@ public:
     /// enter the map, counts, makes the pictures that were asked for.
     void take(int begin, int end, const ColorPlanes& reference, const ColorPlanes& test);
     /// Pools; the counts of the planes are complete. Leaves the map in `map`.
-    void finish(const ColorPlanes& reference, const ColorPlanes& test, int64_t nonfinite_both,
-                const std::vector<std::string>& notes, OIIO::ImageBuf& map, FlipResult& result);
+    void finish(const ColorPlanes& reference, const ColorPlanes& test, const Found& found,
+                OIIO::ImageBuf& map, FlipResult& result);
 
 private:
     struct AlphaRow {
         double sum = 0, max = 0;
         int max_x = 0;
+    };
+    /// Pixels that differ, and those of them whose difference no exposure shows.
+    struct Unseen {
+        int64_t differing = 0, white = 0, black = 0;
     };
     struct Sides {
         const ColorPlanes& reference;
@@ -42,10 +54,13 @@ private:
     float* row(OIIO::ImageBuf& image, int y) const;
     void compare_alpha(int y, const Sides& sides);
     void override_nonfinite(int y, const Sides& sides);
-    int64_t differing(int y, const Sides& sides) const;
+    Unseen unseen(int y, const Sides& sides) const;
+    void show(const float* const (&in)[3], size_t count, double stops,
+              std::vector<float> (&out)[3]) const;
     void tone_map_row(int y, double stops, const ColorPlanes& planes, OIIO::ImageBuf& image) const;
-    FlipSummary summarize(const Sides& sides, int64_t both, const std::vector<std::string>& notes);
+    FlipSummary summarize(const Sides& sides, const Found& found);
     void warn_of_unseen(const Sides& sides, FlipSummary& summary) const;
+    void warn_of_clipped(FlipSummary& summary) const;
     void resolve_largest();
     void make_stops();
 
@@ -57,7 +72,7 @@ private:
     OIIO::ImageBuf m_error, m_index, m_stops;
     std::vector<FlipExposure> m_pictures;
     std::vector<AlphaRow> m_alpha;
-    int64_t m_differing = 0;
+    Unseen m_unseen;
 };
 
 } // namespace tonetool

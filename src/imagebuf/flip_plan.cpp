@@ -6,6 +6,7 @@
 #include "flip/exposures.h"
 #include "flip/filters.h"
 #include "imagebuf/flip_plan.h"
+#include "imagebuf/quantities.h"
 #include "kernels/curve_rows.h"
 #include "kernels/curve_twin.h"
 #include "tonemap/rational.h"
@@ -24,6 +25,8 @@ bool positive(double value, const char* name, const char* unit, std::string& err
 
 bool plan_common(const FlipOptions& options, FlipPlan& plan, std::string& error) {
     plan.common = options;
+    if (!plan_pool(options.quantities, plan.pool, error))
+        return false;
     if (!options.ppd && (!positive(options.distance, "distance", "metres", error) ||
                          !positive(options.width, "width", "metres", error) ||
                          !positive(options.pixels_across, "pixels", "pixels", error)))

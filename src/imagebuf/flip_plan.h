@@ -14,6 +14,7 @@
 #include "include/tonetool/flip.h"
 #include "metrics/errors.h"
 #include "metrics/luminance.h"
+#include "metrics/pooling.h"
 
 namespace tonetool {
 
@@ -29,6 +30,7 @@ struct FlipPlan {
     std::optional<double> bright;                   ///< scene value of a grey that is shown bright
     int band_rows = 0;                              ///< as in MemoryNeeds
     std::optional<metrics::PixelError> pixel_error; ///< instead of FLIP
+    metrics::PoolRequest pool;                      ///< quantities beside the usual ones
     flip::Evaluation evaluation; ///< the stops of HDR-FLIP follow once the reference is read
 
     bool baked() const { return hdr_options.view && !hdr_options.exact; }

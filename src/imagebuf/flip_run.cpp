@@ -59,9 +59,13 @@ public:
                 return false;
             begin = end;
         }
-        for (size_t t = 0; t < dst.size(); ++t)
-            filled[t].finish(m_reference.planes, m_tests[t].planes, m_both[t], m_fitted[t].notes(),
-                             maps.emplace_back(), results.emplace_back());
+        for (size_t t = 0; t < dst.size(); ++t) {
+            Found found{m_both[t], 0, m_fitted[t].notes()};
+            if (!count_ignored_alpha(t, found.alpha_ignored, error))
+                return false;
+            filled[t].finish(m_reference.planes, m_tests[t].planes, found, maps.emplace_back(),
+                             results.emplace_back());
+        }
         return true;
     }
 
@@ -79,6 +83,8 @@ private:
 
     bool open(size_t count, std::string& error) {
         m_reference.name = side_name("reference", m_image);
+        if (!m_plan.alpha())
+            m_reference.reader.watch_alpha();
         if (!m_reference.reader.open(m_image, m_plan.common.pixels, m_region, m_plan.alpha(),
                                      m_nthreads, error)) {
             error = with_side(m_reference.name, error);
@@ -86,9 +92,11 @@ private:
         }
         m_reference.planes = m_reference.reader.planes();
         m_tests.resize(count);
-        m_both.assign(count, 0);
+        m_both.assign(count, {});
         for (size_t t = 0; t < count; ++t) {
             m_tests[t].name = m_fitted[t].name();
+            if (!m_plan.alpha())
+                m_tests[t].reader.watch_alpha();
             if (!m_fitted[t].open_reader(m_plan.alpha(), m_nthreads, m_tests[t].reader, error))
                 return false;
             m_tests[t].planes = m_fitted[t].planes(m_tests[t].reader);
@@ -102,6 +110,15 @@ private:
                 return false;
         }
         return true;
+    }
+
+    // The pixels are looked at once more only where something tells the two apart.
+    bool count_ignored_alpha(size_t test, int64_t& count, std::string& error) const {
+        if (m_plan.alpha() || m_fitted[test].resized() ||
+            m_reference.planes.counts.alpha_digest == m_tests[test].planes.counts.alpha_digest)
+            return true;
+        return count_alpha_differences(m_image, m_reference.planes.choice, m_fitted[test].image(),
+                                       m_fitted[test].choice(), m_roi, count, error);
     }
 
     bool keeps_each() const { return m_plan.hdr && m_plan.hdr_options.want_exposures; }
@@ -220,7 +237,9 @@ private:
     void mend(size_t test, int fresh) {
         ColorPlanes &r = m_reference.planes, &t = m_tests[test].planes;
         mend_nonfinite(r, t, r.begin, fresh);
-        m_both[test] += mend_nonfinite(r, t, fresh, r.end);
+        const NonfiniteBoth both = mend_nonfinite(r, t, fresh, r.end);
+        m_both[test].alike += both.alike;
+        m_both[test].unlike += both.unlike;
     }
 
     // How far a baked view is off, on the rows that were just read.
@@ -295,7 +314,7 @@ private:
     Bands m_bands;
     Side m_reference;
     std::vector<Side> m_tests;
-    std::vector<int64_t> m_both; ///< pixels that are non-finite in both images
+    std::vector<NonfiniteBoth> m_both;
     Exposures m_exposures;
 };
 

@@ -1,9 +1,11 @@
 #include "imagebuf/pair.h"
 
+#include <Imath/half.h>
 #include <OpenImageIO/imagebufalgo.h>
 #include <OpenImageIO/strutil.h>
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <limits>
 
 #include "imagebuf/allocation.h"
@@ -32,19 +34,21 @@ ROI plane_of(ROI r) {
     return r;
 }
 
-// Tags that turn or stretch the picture on a screen, but not its pixels.
+// A tag that stretches the picture on a screen, but not its pixels.
 std::vector<std::string> differing_tags(const OIIO::ImageSpec& reference,
                                         const OIIO::ImageSpec& test) {
-    std::vector<std::string> notes;
-    const auto compare = [&](const char* tag) {
-        const float r = reference.get_float_attribute(tag, 1), t = test.get_float_attribute(tag, 1);
-        if (r != t)
-            notes.push_back(OIIO::Strutil::fmt::format(
-                "{} is {} in the reference and {} in the test: compared as stored", tag, r, t));
-    };
-    compare("Orientation");
-    compare("PixelAspectRatio");
-    return notes;
+    const char* const tag = "PixelAspectRatio";
+    const float r = reference.get_float_attribute(tag, 1), t = test.get_float_attribute(tag, 1);
+    if (r == t)
+        return {};
+    return {OIIO::Strutil::fmt::format(
+        "{} is {} in the reference and {} in the test: compared as stored", tag, r, t)};
+}
+
+// 1 where the tag is absent, or none that is defined.
+int orientation_of(const ImageBuf& image) {
+    const int tag = image.spec().get_int_attribute("Orientation", 1);
+    return tag >= 1 && tag <= 8 ? tag : 1;
 }
 
 // The planes as an image of R, G, B (and A): linear Rec.709, NaN where they are not finite.
@@ -78,6 +82,62 @@ uint64_t resize_bytes(const ROI& from, const ROI& to, bool alpha) {
     return std::max(pixels(from) * (2 * pixel + 1), 2 * pixel * (pixels(from) + pixels(to)));
 }
 
+// The finite components beside those that are not (ColorPlanes::beside): two floats, or a hash.
+bool same_numbers(uint64_t a, uint64_t b) {
+    if (a == b)
+        return true;
+    const auto same = [](uint64_t x, uint64_t y) {
+        const auto bits_x = uint32_t(x), bits_y = uint32_t(y);
+        float v = 0, w = 0;
+        std::memcpy(&v, &bits_x, sizeof v);
+        std::memcpy(&w, &bits_y, sizeof w);
+        return v == w || float(Imath::half(v)) == w || v == float(Imath::half(w));
+    };
+    return same(a >> 32, b >> 32) && same(a, b);
+}
+
+// The alpha of an image, some rows at a time.
+class AlphaRows {
+public:
+    bool open(const ImageBuf& image, int channel, std::string& error) {
+        m_channel = channel;
+        if (channel < 0)
+            return true;
+        const OIIO::ImageSpec& native = image.nativespec();
+        m_type = native.nchannels == image.nchannels() ? native.channelformat(channel)
+                                                       : image.spec().channelformat(channel);
+        return m_source.open(image, runs_of({channel}), error);
+    }
+
+    // Half a step of the type; half float's, which is the coarsest beside integers, for others.
+    double rounding() const {
+        constexpr double byte = 0.5 / 255, half = 1.0 / 4096;
+        return m_channel < 0 ? 0 : m_type == OIIO::TypeUInt8 ? byte + half : half;
+    }
+
+    bool read(int begin, int end, const ROI& window, std::string& error) {
+        const auto width = size_t(window.width()), rows = size_t(end - begin);
+        m_values.assign(width * rows, 1.0f);
+        if (m_channel < 0)
+            return true;
+        const auto whole = size_t(m_source.width());
+        m_rows.resize(whole * rows);
+        if (!m_source.read(begin, end, 0, m_rows.data(), error))
+            return false;
+        for (size_t y = 0; y < rows; ++y)
+            std::copy_n(m_rows.begin() + ptrdiff_t(y * whole) + (window.xbegin - m_source.left()),
+                        width, m_values.begin() + ptrdiff_t(y * width));
+        return true;
+    }
+    const std::vector<float>& values() const { return m_values; }
+
+private:
+    int m_channel = -1;
+    OIIO::TypeDesc m_type;
+    RowSource m_source;
+    std::vector<float> m_rows, m_values;
+};
+
 bool resize_fits(const ROI& from, const ROI& to, const PairOptions& options, std::string& error) {
     const uint64_t least = kSetAside + resize_bytes(from, to, options.alpha == AlphaPolicy::Error);
     if (options.memory == 0 || least <= options.memory)
@@ -91,6 +151,18 @@ bool resize_fits(const ROI& from, const ROI& to, const PairOptions& options, std
 
 bool same_window(const ROI& a, const ROI& b) {
     return a.xbegin == b.xbegin && a.xend == b.xend && a.ybegin == b.ybegin && a.yend == b.yend;
+}
+
+bool check_orientation(const ImageBuf& reference, const ImageBuf& test, std::string& error) {
+    const int r = orientation_of(reference), t = orientation_of(test);
+    if (r == t)
+        return true;
+    error = OIIO::Strutil::fmt::format(
+        "the Orientation of the reference is {}, that of the test {}: the pictures are not turned "
+        "alike; turn them upright first (--autoorient before the files, --reorient behind one, or "
+        "ImageBufAlgo::reorient)",
+        r, t);
+    return false;
 }
 
 bool compared_region(const ImageBuf& reference, const ImageBuf& test, SizePolicy size, ROI& region,
@@ -126,13 +198,15 @@ bool FittedTest::open(const ImageBuf& reference, const ImageBuf& test, const Pai
                       int nthreads, std::string& error) {
     if (!check_readable(reference, "reference", error) || !check_readable(test, "test", error))
         return false;
-    m_test = &test;
+    m_test = m_came = &test;
     m_pixels = options.pixels;
     for (const ImageBuf* image : {&reference, &test})
         if (!ToneAlgo::find_color(deciding_spec(*image), options.pixels, m_choice, error)) {
             error = side_name(image == &test ? "test" : "reference", *image) + error;
             return false;
         }
+    if (!check_orientation(reference, test, error))
+        return false;
     m_notes = differing_tags(reference.spec(), test.spec());
     const ROI window = reference.roi_full();
     if (options.size == SizePolicy::Resize && !same_window(window, test.roi_full()) &&
@@ -190,7 +264,7 @@ bool FittedTest::fill_window(const ColorPlanes& planes, ROI window, int nthreads
 }
 
 uint64_t FittedTest::held_bytes() const {
-    return m_test == &m_resized ? m_resized.spec().image_bytes() : 0;
+    return resized() ? m_resized.spec().image_bytes() : 0;
 }
 
 bool FittedTest::open_reader(bool alpha, int nthreads, ColorReader& reader,
@@ -205,6 +279,8 @@ ColorPlanes FittedTest::planes(const ColorReader& reader) const {
     ColorPlanes planes = reader.planes();
     planes.choice.layer = m_choice.layer;
     planes.choice.space = m_choice.space;
+    planes.choice.display_encoded = m_choice.display_encoded;
+    planes.knows_kinds = !resized();
     return planes;
 }
 
@@ -237,13 +313,28 @@ bool check_finite(const ColorPlanes& planes, const std::string& who, std::string
     return false;
 }
 
-int64_t mend_nonfinite(ColorPlanes& r, ColorPlanes& t, int begin, int end) {
-    int64_t both = 0;
+bool nonfinite_alike(const ColorPlanes& r, size_t at, const ColorPlanes& t, size_t where) {
+    if (!r.knows_kinds || !t.knows_kinds)
+        return true;
+    if (r.nonfinite[at] != t.nonfinite[where])
+        return false;
+    const bool has_alpha = !r.alpha.empty() && !t.alpha.empty();
+    if (has_alpha && r.alpha[at] != t.alpha[where])
+        return false;
+    const bool one_space =
+        r.choice.space == t.choice.space && r.choice.display_encoded == t.choice.display_encoded;
+    return !one_space || same_numbers(r.beside[at], t.beside[where]);
+}
+
+NonfiniteBoth mend_nonfinite(ColorPlanes& r, ColorPlanes& t, int begin, int end) {
+    NonfiniteBoth both;
     if (r.counts.nonfinite == 0 && t.counts.nonfinite == 0)
         return both;
     for (size_t i = r.at(begin); i < r.at(end); ++i) {
-        if (r.nonfinite[i] == t.nonfinite[i]) {
-            both += r.nonfinite[i];
+        if (!r.nonfinite[i] && !t.nonfinite[i])
+            continue;
+        if (r.nonfinite[i] && t.nonfinite[i]) {
+            ++(nonfinite_alike(r, i, t, i) ? both.alike : both.unlike);
             continue;
         }
         ColorPlanes& bad = r.nonfinite[i] ? r : t;
@@ -252,6 +343,28 @@ int64_t mend_nonfinite(ColorPlanes& r, ColorPlanes& t, int begin, int end) {
             bad.plane[p][i] = good.plane[p][i];
     }
     return both;
+}
+
+bool count_alpha_differences(const ImageBuf& reference, const ColorChoice& of_reference,
+                             const ImageBuf& test, const ColorChoice& of_test, const ROI& region,
+                             int64_t& count, std::string& error) {
+    AlphaRows r, t;
+    ROI both = OIIO::roi_intersection(plane_of(reference.roi()), plane_of(test.roi()));
+    both = OIIO::roi_intersection(both, region);
+    count = 0;
+    if (!r.open(reference, of_reference.a, error) || !t.open(test, of_test.a, error))
+        return false;
+    const double rounding = r.rounding() + t.rounding();
+    constexpr int step = 64;
+    for (int y = both.ybegin; y < both.yend && both.width() > 0; y += step) {
+        const int end = std::min(y + step, both.yend);
+        if (!r.read(y, end, both, error) || !t.read(y, end, both, error))
+            return false;
+        for (size_t i = 0; i < r.values().size(); ++i)
+            count += !(std::abs(double(r.values()[i]) - double(t.values()[i])) <= rounding) &&
+                     r.values()[i] != t.values()[i];
+    }
+    return true;
 }
 
 void unmend(ColorPlanes& planes) {

@@ -13,6 +13,10 @@ namespace tonetool {
 /// The same pixels in x and y.
 bool same_window(const OIIO::ROI& a, const OIIO::ROI& b);
 
+/// Pictures that their tags turn differently have different pixels at the same place.
+bool check_orientation(const OIIO::ImageBuf& reference, const OIIO::ImageBuf& test,
+                       std::string& error);
+
 /// The region of a comparison: the union of the data windows, cropped where asked. False (with the
 /// reason) where the display windows differ and nothing was asked, or where nothing is left.
 bool compared_region(const OIIO::ImageBuf& reference, const OIIO::ImageBuf& test, SizePolicy size,
@@ -27,6 +31,10 @@ public:
     const OIIO::ROI& region() const { return m_region; }
     /// What a user must know of how the two go together.
     const std::vector<std::string>& notes() const { return m_notes; }
+    bool resized() const { return m_test == &m_resized; }
+    /// As it came.
+    const OIIO::ImageBuf& image() const { return *m_came; }
+    const ColorChoice& choice() const { return m_choice; }
     /// A reader of the region; valid as long as this is.
     bool open_reader(bool alpha, int nthreads, ColorReader& reader, std::string& error) const;
     /// Planes of that reader, which say how the image was read as it came.
@@ -41,6 +49,7 @@ private:
                 std::string& error);
     bool fill_window(const ColorPlanes& planes, OIIO::ROI window, int nthreads, std::string& error);
 
+    const OIIO::ImageBuf* m_came = nullptr;
     const OIIO::ImageBuf* m_test = nullptr;
     PixelOptions m_pixels;
     ColorChoice m_choice; // in the image as it came
@@ -60,10 +69,26 @@ void warn_of_holes(const FlipSide& side, const std::string& who,
 bool check_covered(const ColorPlanes& planes, const std::string& who, std::string& error);
 bool check_finite(const ColorPlanes& planes, const std::string& who, std::string& error);
 
+/// Pixels that are non-finite in both images: whether in the same way.
+struct NonfiniteBoth {
+    int64_t alike = 0, unlike = 0;
+};
+
+/// Whether a pixel that is non-finite in both images is so in the same components, of the same
+/// kind, and equal in the others, where these can be compared. One may be the other as half float.
+bool nonfinite_alike(const ColorPlanes& reference, size_t at, const ColorPlanes& test,
+                     size_t where);
+
 /// A pixel that is non-finite in one image takes the other's colour, so that the neighbourhood
 /// sees no difference there; non-finite in both it stays black. Works on rows that both hold and
-/// returns how many pixels are the latter; once more it changes nothing.
-int64_t mend_nonfinite(ColorPlanes& reference, ColorPlanes& test, int begin, int end);
+/// counts the latter; once more it changes nothing.
+NonfiniteBoth mend_nonfinite(ColorPlanes& reference, ColorPlanes& test, int begin, int end);
+
+/// How many pixels that both images cover differ in alpha by more than rounding to the data types
+/// of their files explains; an image without alpha is opaque.
+bool count_alpha_differences(const OIIO::ImageBuf& reference, const ColorChoice& of_reference,
+                             const OIIO::ImageBuf& test, const ColorChoice& of_test,
+                             const OIIO::ROI& region, int64_t& count, std::string& error);
 
 /// Makes the non-finite pixels of a mended image black again.
 void unmend(ColorPlanes& planes);

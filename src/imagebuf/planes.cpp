@@ -13,6 +13,7 @@ void ColorCounts::add(const ColorCounts& other) {
     negative += other.negative;
     largest = std::max(largest, other.largest);
     negative_digest += other.negative_digest;
+    alpha_digest += other.alpha_digest;
 }
 
 kernels::ConstRgb ColorPlanes::view() const {

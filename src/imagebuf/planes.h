@@ -17,6 +17,8 @@ struct ColorCounts {
     float largest = 0; ///< largest component
     /// Depends on the values of the negative pixels as they were before they became 0.
     uint64_t negative_digest = 0;
+    /// Depends on the alpha of the pixels that are not opaque, where alpha is watched.
+    uint64_t alpha_digest = 0;
 
     void add(const ColorCounts& other);
 };
@@ -28,8 +30,14 @@ struct ColorPlanes {
     int begin = 0, end = 0; ///< rows that are held
     ColorChoice choice;
     PagedArray<float> plane[3];
-    PagedArray<float> alpha;       ///< empty unless asked for
-    PagedArray<uint8_t> nonfinite; ///< 1 where R, G, B (or the alpha asked for) is NaN or Inf
+    PagedArray<float> alpha; ///< empty unless asked for
+    /// Which of R, G, B (and the alpha asked for) is what: two bits each, 0 for a finite number, 1
+    /// for Inf, 2 for -Inf, 3 for NaN.
+    PagedArray<uint8_t> nonfinite;
+    /// Where that is not 0: the finite ones of R, G, B as they were stored. Not initialized
+    /// elsewhere, so that it takes no memory.
+    PagedArray<uint64_t> beside;
+    bool knows_kinds = true; ///< resizing leaves NaN of everything that is not finite
     ColorCounts counts;
     int64_t uncovered_count = 0; ///< pixels of the region outside the data window
 

@@ -96,7 +96,7 @@ bool score(ImageBuf& dst, const ImageBuf& hdr, const ImageBuf& ldr, const TmqiOp
     const SizePolicy size = options.crop ? SizePolicy::Crop : SizePolicy::Match;
     ROI& region = summary.region;
     if (!check_readable(hdr, "HDR", error) || !check_readable(ldr, "display", error) ||
-        !compared_region(hdr, ldr, size, region, error) ||
+        !check_orientation(hdr, ldr, error) || !compared_region(hdr, ldr, size, region, error) ||
         !check_region(region, options.memory, nthreads, error))
         return false;
     Side light{hdr, options.hdr, "HDR", metrics::luminance_row, {}, {}};

@@ -37,6 +37,27 @@ struct Compared {
     Maps maps;
 };
 
+// The same pixels twice: most likely a slip of the command line.
+void warn_of_same_file(Session& session, const Call& call, const Image& test, const Look& look) {
+    const Image& reference = *call.images.front();
+    const auto part_of = [](const Image& image, const PixelOptions& options, ColorChoice& color) {
+        const std::vector<OIIO::ImageSpec> headers = headers_of(image);
+        PartChoice found;
+        std::string ignored;
+        (void)ToneAlgo::find_part(headers, options, found, ignored);
+        (void)ToneAlgo::find_color(headers.at(size_t(found.part)), options, color, ignored);
+        return size_t(found.part);
+    };
+    ColorChoice r, t;
+    const size_t of_reference = part_of(reference, look.reference, r);
+    const size_t of_test = part_of(test, look.tests, t);
+    if (same_file(reference, of_reference, test, of_test) && r.r == t.r && r.g == t.g &&
+        r.b == t.b) {
+        session.warning(call.row().label(), "reference \"" + reference.name() + "\" and test \"" +
+                                                test.name() + "\" are the same file");
+    }
+}
+
 Compared compare(Session& session, const Call& call, const Look& look, const Compare& function) {
     Compared done;
     const auto view = shown_bytes(session, call) > 0      ? shown_input
@@ -48,6 +69,7 @@ Compared compare(Session& session, const Call& call, const Look& look, const Com
     }
     Tests tests;
     for (size_t i = 1; i < done.views.size(); ++i) {
+        warn_of_same_file(session, call, *call.images[i], look);
         tests.push_back(&done.views[i]);
     }
     done.maps.resize(tests.size());
@@ -90,10 +112,12 @@ void show_flip(Session& session, const Call& call, sequence::PictureRequest requ
     show(session, call, std::move(request));
 }
 
-bool judge_flip(Session& session, const Call& call, const Thresholds& thresholds,
-                const FlipPool& pool, size_t test = 0) {
-    return judge(session, call, thresholds,
-                 {ToneAlgo::flip_quantity(pool, thresholds.quantity).value()}, test);
+bool judge_flip(Session& session, const Call& call, const Limits& limits, const FlipPool& pool,
+                size_t test = 0) {
+    const auto measure = [&](const std::string& quantity) {
+        return Measured{ToneAlgo::flip_quantity(pool, quantity).value()};
+    };
+    return judge(session, call, limits, measure, sequence::Position{pool.max_x, pool.max_y}, test);
 }
 
 void push_map(Session& session, const Call& call, OIIO::ImageBuf map) {
@@ -137,7 +161,7 @@ void run_hdrflip(Session& session, const Call& call) {
     HdrFlipOptions options;
     read_flip_options(session, call, true, options);
     read_hdr_options(session, call, options);
-    Thresholds thresholds = thresholds_of(call);
+    const Limits limits = limits_of(call, {}, options.quantities);
     read_shot_exposures(session, call, options);
     auto exposure_map = call.choice("exposuremap", {"stops", "index"});
     options.want_exposure_map = exposure_map || shown_bytes(session, call) > 0;
@@ -150,7 +174,7 @@ void run_hdrflip(Session& session, const Call& call) {
     for (size_t i = 0; i < maps.size(); ++i) {
         FlipResult& result = results[i];
         report(session, call, result.summary, i);
-        judge_flip(session, call, thresholds, result.summary.pool, i);
+        judge_flip(session, call, limits, result.summary.pool, i);
         save_exposures(session, call, result, i);
         sequence::PictureRequest request = pair_request(views, i);
         request.look = options;
@@ -169,14 +193,14 @@ void run_hdrflip(Session& session, const Call& call) {
 void run_ldrflip(Session& session, const Call& call) {
     FlipOptions options;
     read_flip_options(session, call, true, options);
-    Thresholds thresholds = thresholds_of(call);
+    const Limits limits = limits_of(call, {}, options.quantities);
     FlipResult result;
     auto [views, maps] =
         compare(session, call, same_look(call), [&](Maps& to, auto& reference, auto& tests) {
             return ToneAlgo::ldr_flip(to[0], reference, *tests[0], options, &result);
         });
     report(session, call, result.summary);
-    judge_flip(session, call, thresholds, result.summary.pool);
+    judge_flip(session, call, limits, result.summary.pool);
     sequence::PictureRequest request = pair_request(views);
     static_cast<FlipOptions&>(request.look) = options;
     request.hdr = false;
@@ -187,12 +211,11 @@ void run_ldrflip(Session& session, const Call& call) {
 void run_flipdiff(Session& session, const Call& call) {
     HdrFlipOptions options = flipdiff_options(session, call);
     bool hdr = call.flag("hdr", true);
-    Thresholds thresholds{"max", call.number("fail", {0, 1}), std::nullopt};
+    const Limits limits = limits_of(call, {{"max"}, false}, options.quantities);
     auto colors = call.text("colormap");
     if (colors) {
         files::check_colormap(*colors);
     }
-    (void)call.flag("print", true);
     options.want_exposure_map = hdr && shown_bytes(session, call) > 0;
     FlipResult result;
     auto [views, maps] =
@@ -201,9 +224,9 @@ void run_flipdiff(Session& session, const Call& call) {
                        : ToneAlgo::ldr_flip(to[0], reference, *tests[0], options, &result);
         });
     report(session, call, result.summary);
-    if (judge_flip(session, call, thresholds, result.summary.pool)) {
+    if (judge_flip(session, call, limits, result.summary.pool)) {
         session.print("FAILURE");
-    } else if (thresholds.fail) {
+    } else if (!limits.empty()) {
         session.report("PASS");
     }
     sequence::PictureRequest request = pair_request(views);
@@ -217,7 +240,7 @@ void run_filmstrip(Session& session, const Call& call) {
     HdrFlipOptions options;
     read_flip_options(session, call, false, options);
     read_hdr_options(session, call, options);
-    Thresholds thresholds = thresholds_of(call);
+    const Limits limits = limits_of(call, {}, options.quantities);
     ToneAlgo::FilmstripOptions look;
     look.thumb_width = call.integer("width", {32, 4096}).value_or(look.thumb_width);
     look.max_columns = call.integer("columns", {1, 1024}).value_or(look.max_columns);
@@ -228,25 +251,41 @@ void run_filmstrip(Session& session, const Call& call) {
             return ToneAlgo::flip_filmstrip(to[0], reference, *tests[0], options, look, &result);
         });
     report(session, call, result.summary);
-    judge_flip(session, call, thresholds, result.summary.pool);
+    judge_flip(session, call, limits, result.summary.pool);
     maps[0].specmod().attribute("oiio:ColorSpace", "sRGB");
     push_map(session, call, std::move(maps[0]));
 }
 
+// Errors that have no bound may have any limit.
+Measures error_measures(const std::string& metric) {
+    constexpr double unbounded = 1e30;
+    Measures measures;
+    measures.names.insert(measures.names.begin(), metric);
+    measures.scale = [metric](const std::string& quantity) {
+        const bool bounded = metric == "smape" || metric == "mpsnr";
+        if (quantity == metric && (metric == "psnr" || metric == "mpsnr")) {
+            return Scale{bounded ? 0 : -unbounded, unbounded, true};
+        }
+        return Scale{0, bounded ? 1 : unbounded, false};
+    };
+    return measures;
+}
+
 void run_errormap(Session& session, const Call& call) {
     ErrorOptions options = error_options(session, call);
-    bool decibels = options.metric == "psnr" || options.metric == "mpsnr";
-    Strings quantities = ToneAlgo::flip_quantities();
-    quantities.insert(quantities.begin(), options.metric);
-    Thresholds thresholds = thresholds_of(call, quantities, {decibels ? -1e30 : 0, 1e30});
+    const Limits limits = limits_of(call, error_measures(options.metric), options.quantities);
     ErrorSummary summary;
     auto [views, maps] =
         compare(session, call, same_look(call), [&](Maps& to, auto& reference, auto& tests) {
             return ToneAlgo::error_map(to[0], reference, *tests[0], options, &summary);
         });
     report(session, call, summary);
-    auto pooled = ToneAlgo::flip_quantity(summary.pool, thresholds.quantity);
-    judge(session, call, thresholds, {pooled.value_or(summary.value), !pooled && decibels});
+    const auto measured = [&](const std::string& quantity) {
+        const auto pooled = ToneAlgo::flip_quantity(summary.pool, quantity);
+        return Measured{pooled.value_or(summary.value), !pooled && summary.decibels};
+    };
+    judge(session, call, limits, measured,
+          sequence::Position{summary.pool.max_x, summary.pool.max_y});
     sequence::PictureRequest request = pair_request(views);
     request.look.pixels = options.pixels;
     request.look.size = options.size;
@@ -256,18 +295,27 @@ void run_errormap(Session& session, const Call& call) {
     push_map(session, call, std::move(maps[0]));
 }
 
+Measures tmqi_measures() {
+    return {ToneAlgo::tmqi_quantities(), false, [](const std::string&) {
+                return Scale{0, 1, true};
+            }};
+}
+
 void run_tmqi(Session& session, const Call& call) {
     TmqiOptions options{pixel_options(call), pixel_options(call, "ldr"), call.flag("crop", false),
                         session.memory};
-    Thresholds thresholds = thresholds_of(call, ToneAlgo::tmqi_quantities());
+    Strings none;
+    const Limits limits = limits_of(call, tmqi_measures(), none);
     TmqiSummary summary;
     auto [views, maps] =
         compare(session, call, {options.hdr, options.ldr}, [&](Maps& to, auto& hdr, auto& tests) {
             return ToneAlgo::tmqi(to[0], hdr, *tests[0], options, &summary);
         });
     report(session, call, summary);
-    judge(session, call, thresholds,
-          {ToneAlgo::tmqi_quantity(summary.score, thresholds.quantity).value(), true});
+    const auto measured = [&](const std::string& quantity) {
+        return Measured{ToneAlgo::tmqi_quantity(summary.score, quantity).value(), true};
+    };
+    judge(session, call, limits, measured, {});
     push_map(session, call, std::move(maps[0]));
 }
 
@@ -298,13 +346,13 @@ std::vector<Modifier> filmstrip_modifiers() {
 }
 
 std::vector<Modifier> tmqi_modifiers() {
-    return concatenated({{{"layer", "NAME", "layer of the HDR image whose R,G,B are used"},
-                          {"from", "SPACE", "colour space of the HDR image"},
-                          {"ldrlayer", "NAME", "layer of the picture"},
-                          {"ldrfrom", "SPACE", "colour space of the picture (sRGB for integers)"},
-                          {"crop", "0|1", "compare only where the display windows meet"}},
-                         threshold_modifiers(ToneAlgo::tmqi_quantities(),
-                                             "at least X (0 to 1; higher is better)")});
+    return concatenated(
+        {{{"layer", "NAME", "layer of the HDR image whose R,G,B are used"},
+          {"from", "SPACE", "colour space of the HDR image"},
+          {"ldrlayer", "NAME", "layer of the picture"},
+          {"ldrfrom", "SPACE", "colour space of the picture (sRGB for integers)"},
+          {"crop", "0|1", "compare only where the display windows meet"}},
+         threshold_modifiers(tmqi_measures(), "at least X (0 to 1; higher is better)")});
 }
 
 Command pair_command(const char* name, std::vector<Modifier> modifiers, const char* help,

@@ -1,5 +1,6 @@
-// --diff and --pdiff, with oiiotool's report and exit status, but for images with values that are
-// no numbers: oiiotool lets some of them pass (files/unlike.h).
+// --diff and --pdiff, with oiiotool's report and exit status, but for what oiiotool lets pass:
+// images with values that are no numbers (files/unlike.h), and without --compat images whose
+// windows, channels or parts differ, and parts that it does not look at.
 #include <OpenImageIO/imagebufalgo.h>
 #include <OpenImageIO/strutil.h>
 #include <limits>
@@ -91,7 +92,7 @@ sequence::Threshold threshold_of(const Results& found, const DiffLimits& limits,
 void record(Session& session, const Results& found, double pixels, Verdict verdict) {
     if (result_of(session)) {
         sequence::Measurement measured;
-        measured.threshold = threshold_of(found, session.diff, pixels, verdict);
+        measured.thresholds = {threshold_of(found, session.diff, pixels, verdict)};
         measured.quantities = {
             {"mean", found.meanerror}, {"rms", found.rms_error}, {"max", found.maxerror}};
         measured.worst = sequence::Position{found.maxx, found.maxy};
@@ -100,16 +101,17 @@ void record(Session& session, const Results& found, double pixels, Verdict verdi
     }
 }
 
-// Images that differ in more than their pixels have no measurement of their own.
-void complete_record(Session& session, const Call& call, size_t before, Verdict verdict) {
+// Images that differ in more than their pixels (`unlike`) have no measurement of their own.
+void complete_record(Session& session, const Call& call, size_t before, Verdict verdict,
+                     bool unlike) {
     if (!result_of(session)) {
         return;
     }
     auto& all = result_of(session)->measurements;
-    if (all.size() == before || (verdict == Verdict::Failure && session.all_subimages)) {
+    if (all.size() == before || unlike || (verdict == Verdict::Failure && session.all_subimages)) {
         all.emplace_back();
-        all.back().threshold = sequence::Threshold{
-            "differing-images", verdict == Verdict::Failure ? 1.0 : 0.0, false, 0.0, {}};
+        all.back().thresholds = {
+            {"differing-images", verdict == Verdict::Failure ? 1.0 : 0.0, false, 0.0, {}}};
     }
     for (size_t i = before; i < all.size(); ++i) {
         all[i].command = call.row().label();
@@ -167,41 +169,117 @@ void compare_pixels(Session& session, const OIIO::ImageBuf& a, const OIIO::Image
     }
 }
 
-Verdict compare_parts(Session& session, Part& a, Part& b, bool perceptual, size_t subimage,
-                      Verdict worst) {
-    const bool all = session.all_subimages;
-    for (int level = 0; level < (all ? a.mip_levels() : 1); ++level) {
-        if (level > 0 && a.mip_levels() != b.mip_levels()) {
-            session.print("Files do not match in their number of MIPmap levels");
-            return Verdict::Failure;
-        }
-        const OIIO::ImageSpec& spec = a.header(level);
-        const std::string heading = format("Subimage {} {}: {} x {}, {} channel\n", subimage,
-                                           level > 0 ? format(" MIP level {} ", level) : "",
-                                           spec.width, spec.height, spec.nchannels);
-        compare_pixels(session, a.pixels(level), b.pixels(level), perceptual, all ? heading : "",
-                       worst);
-    }
-    return worst;
+std::string window_text(const OIIO::ROI& window) {
+    return format("{}x{}{:+}{:+}", window.width(), window.height(), window.xbegin, window.ybegin);
 }
 
-Verdict compare_images(Session& session, const Image& a, const Image& b, bool perceptual) {
-    const size_t parts = session.all_subimages ? std::min(a.part_count(), b.part_count()) : 1;
+// What makes two headers ones of different pictures, as a sentence; empty where nothing does.
+std::string difference(const OIIO::ImageSpec& a, const OIIO::ImageSpec& b) {
+    const auto windows = [](const OIIO::ROI& r, const OIIO::ROI& t) {
+        return window_text(r) + " vs " + window_text(t);
+    };
+    const auto turned = [](const OIIO::ImageSpec& spec) {
+        return spec.get_int_attribute("Orientation", 1);
+    };
+    const auto same = [](const OIIO::ROI& r, const OIIO::ROI& t) {
+        return r.xbegin == t.xbegin && r.xend == t.xend && r.ybegin == t.ybegin &&
+               r.yend == t.yend && r.zbegin == t.zbegin && r.zend == t.zend;
+    };
+    if (!same(a.roi(), b.roi())) {
+        return "Images differ in size (data windows " + windows(a.roi(), b.roi()) + ")";
+    }
+    if (!same(a.roi_full(), b.roi_full())) {
+        return "Images differ in their display windows (" + windows(a.roi_full(), b.roi_full()) +
+               ")";
+    }
+    if (a.channelnames != b.channelnames) {
+        return "Images differ in their channels (" + join(a.channelnames, ",") + " vs " +
+               join(b.channelnames, ",") + ")";
+    }
+    if (turned(a) != turned(b)) {
+        return format("Images differ in Orientation ({} vs {})", turned(a), turned(b));
+    }
+    return "";
+}
+
+// Of a comparison of images that may have several parts.
+struct Outcome {
     Verdict worst = Verdict::Pass;
+    bool unlike = false; ///< they differ in more than their pixels
+
+    void differ(Session& session, const std::string& how) {
+        session.print(how);
+        worst = Verdict::Failure;
+        unlike = true;
+    }
+};
+
+// Without --compat all parts and levels are compared: what nobody looked at does not pass.
+bool compares_all(const Session& session) {
+    return session.all_subimages || !session.compat;
+}
+
+// Levels that only one of the two has are no difference of the pictures, but are not compared.
+int levels_of(Session& session, Part& a, Part& b) {
+    if (session.all_subimages) {
+        return a.mip_levels();
+    }
+    if (session.compat || a.mip_levels() == b.mip_levels()) {
+        return session.compat ? 1 : a.mip_levels();
+    }
+    session.print(format("Only compared the first MIPmap level (of {} and {}, respectively)",
+                         a.mip_levels(), b.mip_levels()));
+    ++session.warnings;
+    return 1;
+}
+
+void compare_parts(Session& session, Part& a, Part& b, bool perceptual, const std::string& which,
+                   Outcome& outcome) {
+    const int levels = levels_of(session, a, b);
+    for (int level = 0; level < levels; ++level) {
+        if (level > 0 && a.mip_levels() != b.mip_levels()) {
+            return outcome.differ(session, "Files do not match in their number of MIPmap levels");
+        }
+        const OIIO::ImageSpec& spec = a.header(level);
+        const std::string unlike = session.compat ? "" : difference(spec, b.header(level));
+        if (!unlike.empty()) {
+            return outcome.differ(session, unlike);
+        }
+        const std::string heading = format("{} {}: {} x {}, {} channel\n", which,
+                                           level > 0 ? format(" MIP level {} ", level) : "",
+                                           spec.width, spec.height, spec.nchannels);
+        compare_pixels(session, a.pixels(level), b.pixels(level), perceptual,
+                       which.empty() ? "" : heading, outcome.worst);
+    }
+}
+
+Outcome compare_images(Session& session, const Image& a, const Image& b, bool perceptual) {
+    const bool all = compares_all(session);
+    const size_t parts = all ? std::min(a.part_count(), b.part_count()) : 1;
+    Outcome outcome;
     for (size_t s = 0; s < parts; ++s) {
-        worst = compare_parts(session, a.part(s), b.part(s), perceptual, s, worst);
+        const bool named = session.all_subimages || parts > 1;
+        compare_parts(session, a.part(s), b.part(s), perceptual,
+                      named ? format("Subimage {}", s) : "", outcome);
     }
-    if (session.all_subimages && a.part_count() != b.part_count()) {
-        session.print(format("Images had differing numbers of subimages ({} vs {})", a.part_count(),
-                             b.part_count()));
-        return Verdict::Failure;
-    }
-    if (a.part_count() > parts || b.part_count() > parts) {
+    if (all && a.part_count() != b.part_count()) {
+        outcome.differ(session, format("Images had differing numbers of subimages ({} vs {})",
+                                       a.part_count(), b.part_count()));
+    } else if (a.part_count() > parts || b.part_count() > parts) {
         session.print(format("Only compared the first subimage (of {} and {}, respectively)",
                              a.part_count(), b.part_count()));
-        session.warnings += session.compat ? 0 : 1;
     }
-    return worst;
+    return outcome;
+}
+
+// Limits that no number of pixels can exceed.
+void check_limits(const DiffLimits& limits) {
+    constexpr float all = 100, unlimited = 1e30f;
+    if (limits.fail_percent >= all && limits.hard_fail >= unlimited) {
+        throw CommandError(format("--failpercent {} can never fail (valid: below 100, or with "
+                                  "--hardfail)",
+                                  limits.fail_percent));
+    }
 }
 
 void run_diff(Session& session, const Call& call) {
@@ -211,8 +289,16 @@ void run_diff(Session& session, const Call& call) {
                          a.name(), b.name()));
     const size_t before = result_of(session) ? result_of(session)->measurements.size() : 0;
     session.diff.waiting.clear();
-    Verdict verdict = compare_images(session, a, b, perceptual);
-    complete_record(session, call, before, verdict);
+    if (!session.compat) {
+        check_limits(session.diff);
+        if (same_file(a, 0, b, 0)) {
+            session.warning(call.row().label(),
+                            "\"" + a.name() + "\" and \"" + b.name() + "\" are the same file");
+        }
+    }
+    const Outcome outcome = compare_images(session, a, b, perceptual);
+    const Verdict verdict = outcome.worst;
+    complete_record(session, call, before, verdict, outcome.unlike);
     session.print(verdict == Verdict::Pass      ? "PASS"
                   : verdict == Verdict::Warning ? "WARNING"
                                                 : "FAILURE");

@@ -1,5 +1,8 @@
 #include "measure/color_input.h"
 
+#include <filesystem>
+
+#include "measure/check_part.h"
 #include "text/error.h"
 
 namespace tonetool::measure {
@@ -14,35 +17,89 @@ void check_header(const Image& image, const OIIO::ImageSpec& header, const Pixel
     }
 }
 
+void refuse_all(const Image& image) {
+    if (image.part_count() > 1 || image.part().mip_levels() > 1) {
+        throw CommandError("\"" + image.name() + "\" has " + std::to_string(image.part_count()) +
+                           " subimage(s) of " + std::to_string(image.part().mip_levels()) +
+                           " MIP level(s), of which one is compared: not with -a (valid: without "
+                           "-a, a command for each subimage with layer=)");
+    }
+}
+
+std::string left_out(const Image& image, const PartChoice& choice) {
+    const std::string chosen =
+        image.part(size_t(choice.part))
+            .header()
+            .get_string_attribute("oiio:subimagename", std::to_string(choice.part));
+    return "\"" + image.name() + "\": beside subimage " + chosen +
+           ", pictures are not looked at: " + join(choice.left_out, ", ") +
+           " (layer= chooses one, or --subimage)";
+}
+
 } // namespace
 
-void check_color(Session& session, const Call& call, const Image& image,
+std::vector<OIIO::ImageSpec> headers_of(const Image& image) {
+    std::vector<OIIO::ImageSpec> headers;
+    for (const PartPtr& part : image.parts()) {
+        headers.push_back(part->header());
+    }
+    return headers;
+}
+
+bool same_file(const Image& a, size_t part_of_a, const Image& b, size_t part_of_b) {
+    std::error_code ignored;
+    return a.part(part_of_a).from_file() && b.part(part_of_b).from_file() &&
+           part_of_a == part_of_b &&
+           (a.name() == b.name() || std::filesystem::equivalent(a.name(), b.name(), ignored));
+}
+
+Part& color_part(Session& session, const Call& call, const Image& image,
                  const PixelOptions& options) {
-    session.warn_of_other_parts(call.row().label(), image);
-    Part& part = image.part();
+    const bool compares = call.row().group == Group::Compare;
+    if (compares && session.all_subimages && options.layer.empty()) {
+        refuse_all(image);
+    }
+    PartChoice choice;
+    std::string why;
+    if (!ToneAlgo::find_part(headers_of(image), options, choice, why)) {
+        throw CommandError("\"" + image.name() + "\": " + why);
+    }
+    if (!choice.left_out.empty()) {
+        const std::string text = left_out(image, choice);
+        if (compares && (call.has("fail") || call.has("warn") || result_of(session))) {
+            throw CommandError(text);
+        }
+        session.warning(call.row().label(), text);
+    }
+    return image.part(size_t(choice.part));
+}
+
+Part& checked_part(Session& session, const Call& call, const Image& image,
+                   const PixelOptions& options) {
+    Part& part = color_part(session, call, image, options);
     OIIO::ImageSpec header = part.header();
     if (part.integer_encoded()) {
         header.format = part.format().value_or(DataFormat{OIIO::TypeUInt8, {}, 0}).type;
     }
     check_header(image, header, options);
+    return part;
 }
 
 OIIO::ImageBuf color_input(Session& session, const Call& call, const Image& image,
                            const PixelOptions& options) {
-    check_color(session, call, image, options);
-    return image.part().color_view();
+    return checked_part(session, call, image, options).color_view();
 }
 
 OIIO::ImageBuf color_source(Session& session, const Call& call, const Image& image,
                             const PixelOptions& options) {
-    check_color(session, call, image, options);
+    Part& part = checked_part(session, call, image, options);
     // A tag must be a known one also where the library would take an integer file's for sRGB.
-    OIIO::ImageSpec header = image.part().header();
+    OIIO::ImageSpec header = part.header();
     if (header.find_attribute("oiio:ColorSpace")) {
         header.set_format(OIIO::TypeFloat);
         check_header(image, header, options);
     }
-    return image.part().color_source();
+    return part.color_source();
 }
 
 } // namespace tonetool::measure

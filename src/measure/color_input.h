@@ -1,21 +1,33 @@
-// Images for functions that look at their colour.
+// Images as the library's measuring functions take them.
 #pragma once
 
-#include "include/tonetool/pixels.h"
+#include "include/tonetool/parts.h"
 #include "measure/commands.h"
 
 namespace tonetool::measure {
 
-/// A CommandError unless the first subimage has the colour that a function is to look at.
-void check_color(Session& session, const Call& call, const Image& image,
+/// The part of an image that a command looks at: that of the layer, the view or the name in the
+/// options, else the beauty. Where others have a picture, too, that nobody looks at, this is an
+/// error of commands that end in a verdict, and a warning of others; with -a commands that compare
+/// refuse images of several parts.
+Part& color_part(Session& session, const Call& call, const Image& image,
                  const PixelOptions& options);
 
-/// The first subimage for a function that looks at its colour, which is checked to be one; valid as
-/// long as the image is.
+/// The headers of all parts, as find_part() takes them.
+std::vector<OIIO::ImageSpec> headers_of(const Image& image);
+
+/// Whether the parts of these numbers came from one place of one file, by whatever names and links.
+bool same_file(const Image& a, size_t part_of_a, const Image& b, size_t part_of_b);
+
+/// color_part(), whose tag of a space and whose layer must be known: messages name the image.
+Part& checked_part(Session& session, const Call& call, const Image& image,
+                   const PixelOptions& options);
+
+/// The pixels of color_part() and a header that tells display-encoded integers from linear floats.
 OIIO::ImageBuf color_input(Session& session, const Call& call, const Image& image,
                            const PixelOptions& options);
 
-/// The same for functions of the library that read what they need of the file themselves.
+/// As color_input(), unread where the library may read what it needs of the file by itself.
 OIIO::ImageBuf color_source(Session& session, const Call& call, const Image& image,
                             const PixelOptions& options);
 

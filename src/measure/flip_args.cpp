@@ -50,6 +50,133 @@ void read_exposures(const Call& call, Options& options, double least = 1) {
     options.num_exposures = call.integer("numExposures", {least, 1024});
 }
 
+// fail= and warn= of a command.
+class LimitReader {
+public:
+    LimitReader(const Call& call, const Measures& measures, Strings& pooled)
+        : m_call(call),
+          m_measures(measures),
+          m_pooled(pooled) {}
+
+    Limits read() {
+        (void)m_call.flag("print", true);
+        const auto quantity = m_call.text("quantity");
+        if (quantity && !m_call.has("fail") && !m_call.has("warn")) {
+            throw CommandError("quantity= needs fail= or warn=");
+        }
+        m_default = quantity ? resolved(*quantity) : m_measures.names.front();
+        if (m_call.has("above")) {
+            (void)resolved("above");
+        }
+        read_list("fail", &Limit::fail);
+        read_list("warn", &Limit::warn);
+        if (quantity && !m_used_default) {
+            throw CommandError("quantity= is of a limit without a name (valid: fail=X, or "
+                               "fail=QUANTITY=X without quantity=)");
+        }
+        return m_limits;
+    }
+
+private:
+    using Member = std::optional<double> Limit::*;
+
+    void read_list(const std::string& key, Member member) {
+        for (const std::string& word : split(m_call.text(key).value_or(""), ',')) {
+            const size_t equals = word.find('=');
+            const bool named = equals != std::string::npos;
+            m_used_default = m_used_default || !named;
+            Limit& limit = limit_of(named ? resolved(word.substr(0, equals)) : m_default);
+            if (limit.*member) {
+                throw CommandError(key + "=" + *m_call.text(key) + " has two limits of " +
+                                   limit.quantity + " (valid: one of each quantity)");
+            }
+            limit.*member = number(key, word.substr(named ? equals + 1 : 0), limit.quantity);
+        }
+    }
+
+    double number(const std::string& key, const std::string& text,
+                  const std::string& quantity) const {
+        const Scale scale = scale_of(quantity);
+        const double limit = checked_number(key, text, {scale.low, scale.high});
+        const double idle = scale.higher_is_better ? scale.low : scale.high;
+        if (limit == idle) {
+            throw CommandError(
+                key + "=" + text + " can never " + key + ": " + quantity + " is " +
+                (scale.higher_is_better ? "never below " : "never above ") + format_number(idle) +
+                " (valid: " +
+                (scale.higher_is_better
+                     ? "above " + format_number(scale.low) + " to " + format_number(scale.high)
+                     : format_number(scale.low) + " to below " + format_number(scale.high)) +
+                ")");
+        }
+        return limit;
+    }
+
+    Scale scale_of(const std::string& quantity) const {
+        return quantity.compare(0, above.size(), above) == 0 ? Scale() : m_measures.scale(quantity);
+    }
+
+    // The name that the summary has for it.
+    std::string resolved(const std::string& name) {
+        const auto& names = m_measures.names;
+        if (std::find(names.begin(), names.end(), name) != names.end()) {
+            return name;
+        }
+        const auto known = !m_measures.map ? std::nullopt
+                           : name == above ? std::optional<std::string>(above + error_above())
+                                           : ToneAlgo::flip_quantity_name(name);
+        if (!known) {
+            check_choice("quantity", name, listed());
+        }
+        m_pooled.push_back(*known);
+        return *known;
+    }
+
+    Strings listed() const {
+        Strings names = m_measures.names;
+        if (m_measures.map) {
+            names.insert(names.end(), {"pNN", "above"});
+        }
+        return names;
+    }
+
+    // The number of above=E as the name of the quantity has it.
+    std::string error_above() const {
+        const auto text = m_call.text("above");
+        if (!text) {
+            throw CommandError("the quantity above needs above=E, the error (valid: "
+                               "above=0.2:fail=above=0.01, or fail=above0.2=0.01)");
+        }
+        const Scale scale = m_measures.scale("max");
+        const double error = checked_number("above", *text, {0, scale.high});
+        if (error == scale.high) {
+            throw CommandError("above=" + *text + ": no error is above it (valid: 0 to below " +
+                               format_number(scale.high) + ")");
+        }
+        return ToneAlgo::flip_quantity_name(above + format_apart(error, 0))
+            .value()
+            .substr(above.size());
+    }
+
+    Limit& limit_of(const std::string& quantity) {
+        for (Limit& limit : m_limits) {
+            if (limit.quantity == quantity) {
+                return limit;
+            }
+        }
+        m_limits.push_back({quantity, {}, {}});
+        return m_limits.back();
+    }
+
+    const std::string above = "above";
+    const Call& m_call;
+    const Measures& m_measures;
+    Strings& m_pooled;
+    std::string m_default;
+    bool m_used_default = false;
+    Limits m_limits;
+};
+
 } // namespace
 
 std::vector<Modifier> pixel_modifiers() {
@@ -90,11 +217,22 @@ std::vector<Modifier> hdr_modifiers() {
           {"medianluminance", "X", "instead of the reference's median luminance"}}});
 }
 
-std::vector<Modifier> threshold_modifiers(const Strings& quantities, const std::string& unless) {
-    return {{"fail", "X", "exit status 3 unless the quantity is " + unless},
-            {"warn", "X", "a warning unless the quantity is " + unless},
-            {"quantity", choices(quantities), "what fail and warn test (the first)"},
-            {"print", "0|1", "print the summary (1)"}};
+std::vector<Modifier> threshold_modifiers(const Measures& measures, const std::string& unless) {
+    std::vector<Modifier> rows = {
+        {"fail", "X|QUANTITY=X,...",
+         "exit status 3 unless the quantity is " + unless +
+             (measures.map ? "; p99.9 and max find local faults, which the mean does not" : "")},
+        {"warn", "X|QUANTITY=X,...", "a warning unless the quantity is " + unless},
+        {"quantity", choices(measures.names) + (measures.map ? "|pNN|above" : ""),
+         "what a limit without a name tests (the first)" +
+             std::string(measures.map ? "; pNN: any percentile, p99.95" : "")}};
+    if (measures.map) {
+        rows.push_back({"above", "E",
+                        "of the quantity above: the share of pixels whose error is "
+                        "above E; also by name, fail=above0.2=0.01"});
+    }
+    rows.push_back({"print", "0|1", "print the summary (1)"});
+    return rows;
 }
 
 std::vector<Modifier> concatenated(const std::vector<std::vector<Modifier>>& lists) {
@@ -142,29 +280,21 @@ void read_hdr_options(const Session& session, const Call& call, HdrFlipOptions& 
     options.median_luminance = call.number("medianluminance", luminance_range);
 }
 
-Thresholds thresholds_of(const Call& call, const Strings& quantities, Range range) {
-    auto quantity = call.choice("quantity", quantities);
-    Thresholds thresholds{quantity.value_or(quantities.front()), call.number("fail", range),
-                          call.number("warn", range)};
-    (void)call.flag("print", true);
-    if (quantity && !thresholds.fail && !thresholds.warn) {
-        throw CommandError("quantity= needs fail= or warn=");
-    }
-    return thresholds;
+Limits limits_of(const Call& call, const Measures& measures, Strings& pooled) {
+    return LimitReader(call, measures, pooled).read();
 }
 
 std::vector<Modifier> error_modifiers() {
-    Strings quantities = ToneAlgo::flip_quantities();
-    quantities.insert(quantities.begin(), "METRIC");
-    return concatenated(
-        {{{"metric", choices(ToneAlgo::error_metrics()), "which error"},
-          {"eps", "X", "of smape, rmae, relmse (0.01)"},
-          {"peak", "X", "of psnr (1)"},
-          {"startExposure", "STOPS", "of mpsnr: first exposure, as in hdrflip"},
-          {"stopExposure", "STOPS", "its last exposure"},
-          {"numExposures", "N", "number of its exposures"}},
-         pair_modifiers(),
-         threshold_modifiers(quantities, "at most X (psnr, mpsnr: at least X dB)")});
+    Measures measures;
+    measures.names.insert(measures.names.begin(), "METRIC");
+    return concatenated({{{"metric", choices(ToneAlgo::error_metrics()), "which error"},
+                          {"eps", "X", "of smape, rmae, relmse (0.01)"},
+                          {"peak", "X", "of psnr (1)"},
+                          {"startExposure", "STOPS", "of mpsnr: first exposure, as in hdrflip"},
+                          {"stopExposure", "STOPS", "its last exposure"},
+                          {"numExposures", "N", "number of its exposures"}},
+                         pair_modifiers(),
+                         threshold_modifiers(measures, "at most X (psnr, mpsnr: at least X dB)")});
 }
 
 ErrorOptions error_options(const Session& session, const Call& call) {
@@ -207,7 +337,7 @@ std::vector<Modifier> flipdiff_modifiers() {
         {"layer", "NAME", "layer whose R,G,B are used"},
         {"from", "SPACE", "colour space of the pixels"},
         {"print", "0|1", "print the summary (1)"},
-        {"fail", "X", "exit status 3 unless the largest error is at most X (0 to 1)"}};
+        {"fail", "X", "exit status 3 unless the largest error is at most X (0 to below 1)"}};
 }
 
 HdrFlipOptions flipdiff_options(const Session& session, const Call& call) {

@@ -61,6 +61,9 @@ void add_pool(Lines& lines, const FlipPool& pool) {
                                             : "";
         lines.add(name, value + where);
     }
+    for (const auto& [name, value] : pool.further) {
+        lines.add(name, value);
+    }
 }
 
 void add_pair(Lines& lines, const PairSummary& summary, const std::string& reference,
@@ -68,6 +71,8 @@ void add_pair(Lines& lines, const PairSummary& summary, const std::string& refer
     add_side(lines, "reference", reference, summary.reference);
     add_side(lines, "test", test, summary.test);
     lines.add("nonfinite-in-both", summary.nonfinite_both);
+    lines.add("nonfinite-unlike", summary.nonfinite_unlike);
+    lines.add("alpha-ignored", summary.alpha_ignored);
     lines.add("pixels", summary.pool.pixels);
 }
 
@@ -79,6 +84,34 @@ void add_found(Lines& lines, const PairSummary& summary) {
     }
     add_pool(lines, summary.pool);
 }
+
+bool holds(const sequence::Threshold& threshold, double limit) {
+    return threshold.higher_is_better ? threshold.value >= limit : threshold.value <= limit;
+}
+
+std::string compared(const sequence::Threshold& threshold, double limit) {
+    const bool up = threshold.higher_is_better, good = holds(threshold, limit);
+    return threshold.quantity + " " + format_apart(threshold.value, limit) +
+           (good ? (up ? " >= " : " <= ") : (up ? " < " : " > ")) +
+           format_apart(limit, threshold.value);
+}
+
+// What the limits say of a pair.
+struct Sentences {
+    Strings failed, warned, passed;
+
+    void add(const sequence::Threshold& threshold) {
+        if (threshold.fail) {
+            (holds(threshold, *threshold.fail) ? passed : failed)
+                .push_back(compared(threshold, *threshold.fail));
+        }
+        if (threshold.warn && !holds(threshold, *threshold.warn)) {
+            warned.push_back(compared(threshold, *threshold.warn));
+        } else if (threshold.warn && !threshold.fail) {
+            passed.push_back(compared(threshold, *threshold.warn));
+        }
+    }
+};
 
 } // namespace
 
@@ -132,34 +165,39 @@ void record(Session& session, const Call& call, sequence::Measurement measuremen
     }
 }
 
-bool judge(Session& session, const Call& call, const Thresholds& thresholds,
-           const Measured& measured, size_t test) {
+bool judge(Session& session, const Call& call, const Limits& limits,
+           const std::function<Measured(const std::string& quantity)>& measure,
+           const std::optional<sequence::Position>& worst, size_t test) {
+    if (limits.empty()) {
+        return false;
+    }
+    Sentences said;
+    std::vector<sequence::Threshold> thresholds;
+    for (const Limit& limit : limits) {
+        const Measured measured = measure(limit.quantity);
+        thresholds.push_back(
+            {limit.quantity, measured.value, measured.higher_is_better, limit.fail, limit.warn});
+        said.add(thresholds.back());
+    }
+    if (result_of(session)) {
+        result_of(session)->measurements.back().thresholds = thresholds;
+    }
     const std::string label = call.row().label();
-    const double value = measured.value;
-    const bool up = measured.higher_is_better;
-    if (result_of(session) && (thresholds.fail || thresholds.warn)) {
-        result_of(session)->measurements.back().threshold =
-            sequence::Threshold{thresholds.quantity, value, up, thresholds.fail, thresholds.warn};
+    const std::string where =
+        worst ? ", worst pixel " + std::to_string(worst->x) + "," + std::to_string(worst->y) : "";
+    const std::string file = " (" + call.images.at(test + 1)->name() + ")";
+    if (!said.warned.empty()) {
+        session.warning(label, join(said.warned, ", ") + where + file);
     }
-    auto passes = [&](double limit) { return up ? value >= limit : value <= limit; };
-    auto compared = [&](double limit) {
-        const char* sign = passes(limit) ? (up ? " >= " : " <= ") : (up ? " < " : " > ");
-        return thresholds.quantity + " " + format_apart(value, limit) + sign +
-               format_apart(limit, value) + " (" + call.images.at(test + 1)->name() + ")";
-    };
-    if (thresholds.warn && !passes(*thresholds.warn)) {
-        session.warning(label, compared(*thresholds.warn));
+    if (!said.failed.empty()) {
+        ++session.failures;
+        session.print(label + ": FAIL " + join(said.failed, ", ") + where + file);
+    } else if (!said.warned.empty()) {
+        session.report(label + ": WARNING " + join(said.warned, ", ") + where + file);
+    } else {
+        session.report(label + ": PASS " + join(said.passed, ", ") + file);
     }
-    if (!thresholds.fail) {
-        return false;
-    }
-    if (passes(*thresholds.fail)) {
-        session.report(label + ": PASS " + compared(*thresholds.fail));
-        return false;
-    }
-    ++session.failures;
-    session.print(label + ": FAIL " + compared(*thresholds.fail));
-    return true;
+    return !said.failed.empty();
 }
 
 } // namespace tonetool::measure

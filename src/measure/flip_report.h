@@ -1,6 +1,8 @@
 // What the commands that compare print, and what their thresholds say.
 #pragma once
 
+#include <functional>
+#include <optional>
 #include <string>
 
 #include "measure/commands.h"
@@ -27,9 +29,12 @@ struct Measured {
     bool higher_is_better = false;
 };
 
-/// Prints PASS or FAIL with the name of the test image, warns, and counts in the session. Whatever
-/// is not on the good side of a threshold fails. Returns whether a fail threshold was missed.
-bool judge(Session& session, const Call& call, const Thresholds& thresholds,
-           const Measured& measured, size_t test = 0);
+/// The verdict of a command with limits as the last line of its report: PASS, WARNING or FAIL, the
+/// limits that say so, the worst pixel where there is one, and the test image. Warns, and counts in
+/// the session. Whatever is not on the good side of a limit fails. Returns whether one of fail= was
+/// missed.
+bool judge(Session& session, const Call& call, const Limits& limits,
+           const std::function<Measured(const std::string& quantity)>& measure,
+           const std::optional<sequence::Position>& worst, size_t test = 0);
 
 } // namespace tonetool::measure

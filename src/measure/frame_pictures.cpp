@@ -30,8 +30,7 @@ OIIO::ImageBuf shown_input(Session& session, const Call& call, const Image& imag
     if (shown_bytes(session, call) == 0) {
         return color_source(session, call, image, options);
     }
-    check_color(session, call, image, options);
-    Part& part = image.part();
+    Part& part = checked_part(session, call, image, options);
     ColorChoice choice;
     std::string why;
     if (!ToneAlgo::find_color(part.header(), options, choice, why)) {

@@ -1,6 +1,8 @@
 #include "metrics/pooling.h"
 
 #include <algorithm>
+#include <atomic>
+#include <cmath>
 
 #include "metrics/blocks.h"
 #include "metrics/order_statistics.h"
@@ -90,11 +92,23 @@ void join(FlipPool& pool, const std::vector<Row>& rows, int width, int x0, int y
     pool.mean = sum / double(pool.pixels);
 }
 
-void percentiles(FlipPool& pool, const OrderStatistics& order) {
-    const auto found =
-        order.find({Wanted::percentile(0.50), Wanted::percentile(0.95), Wanted::percentile(0.99),
-                    Wanted::percentile(0.999), Wanted::weighted_percentile(0.25),
-                    Wanted::weighted_percentile(0.50), Wanted::weighted_percentile(0.75)});
+// Of a percentage in decimals: what dividing by 100 rounds up must not reach the next rank.
+Wanted nearest_rank(double percent, int64_t count) {
+    constexpr double rounding = 1e-9;
+    return Wanted::rank(int64_t(std::ceil(percent * double(count) / 100 - rounding)) - 1);
+}
+
+void percentiles(FlipPool& pool, const OrderStatistics& order, PoolRequest* further) {
+    std::vector<Wanted> wanted(
+        {Wanted::percentile(0.50), Wanted::percentile(0.95), Wanted::percentile(0.99),
+         Wanted::percentile(0.999), Wanted::weighted_percentile(0.25),
+         Wanted::weighted_percentile(0.50), Wanted::weighted_percentile(0.75)});
+    const size_t usual = wanted.size();
+    for (size_t i = 0; further && i < further->percentiles.size(); ++i)
+        wanted.push_back(nearest_rank(further->percentiles[i], order.count()));
+    const auto found = order.find(wanted);
+    if (further)
+        further->found_percentiles.assign(found.begin() + ptrdiff_t(usual), found.end());
     pool.p50 = found[0];
     pool.p95 = found[1];
     pool.p99 = found[2];
@@ -104,10 +118,23 @@ void percentiles(FlipPool& pool, const OrderStatistics& order) {
     pool.weighted_q3 = found[6];
 }
 
+// An error is compared as the double that it is: no share depends on how E was rounded.
+void shares_above(const float* map, int width, int height, ptrdiff_t stride,
+                  const kernels::ParallelFor& parallel, PoolRequest& further) {
+    for (const double error : further.above) {
+        std::atomic<int64_t> count{0};
+        parallel(height, [&](int64_t y) {
+            const float* row = map + y * stride;
+            count += std::count_if(row, row + width, [&](float v) { return double(v) > error; });
+        });
+        further.found_above.push_back(double(count) / (double(width) * height));
+    }
+}
+
 } // namespace
 
 FlipPool pool(const float* map, int width, int height, ptrdiff_t stride, int x0, int y0,
-              const kernels::ParallelFor& parallel) {
+              const kernels::ParallelFor& parallel, PoolRequest* further) {
     FlipPool out;
     if (width <= 0 || height <= 0)
         return out;
@@ -125,7 +152,10 @@ FlipPool pool(const float* map, int width, int height, ptrdiff_t stride, int x0,
     for (const auto& histogram : histograms.all())
         for (size_t i = 0; i < out.histogram.size(); ++i)
             out.histogram[i] += histogram->even[i] + histogram->odd[i];
-    percentiles(out, {map, width, height, stride, parallel, OrderStatistics::Keep::CountsAndSums});
+    percentiles(out, {map, width, height, stride, parallel, OrderStatistics::Keep::CountsAndSums},
+                further);
+    if (further)
+        shares_above(map, width, height, stride, parallel, *further);
     return out;
 }
 

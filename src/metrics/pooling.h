@@ -2,15 +2,23 @@
 #pragma once
 
 #include <cstddef>
+#include <vector>
 
 #include "include/tonetool/numbers.h"
 #include "kernels/views.h"
 
 namespace tonetool::metrics {
 
+/// What a pool is to hold beside the usual quantities.
+struct PoolRequest {
+    std::vector<double> percentiles; ///< 0 to 100
+    std::vector<double> above;       ///< errors: of the pixels that exceed one, the share
+    std::vector<double> found_percentiles, found_above;
+};
+
 /// Pools a map of finite values >= 0 whose first pixel lies at (x0, y0). An empty map gives zeros.
 /// The bits do not depend on how `parallel` schedules.
 FlipPool pool(const float* map, int width, int height, ptrdiff_t stride, int x0, int y0,
-              const kernels::ParallelFor& parallel);
+              const kernels::ParallelFor& parallel, PoolRequest* further = nullptr);
 
 } // namespace tonetool::metrics

@@ -25,6 +25,7 @@ void add_pool(Module& module) {
         .field("max_y", &S::max_y, "Row of the first largest value.")
         .field("histogram", &S::histogram, "Pixels in 100 equal buckets over 0 to 1.")
         .field("pixels", &S::pixels, "Number of pixels.")
+        .field("further", &S::further, "What quantities= asked for beside these.")
         .finish();
 }
 

@@ -31,6 +31,10 @@ Fields<O> pair_fields() {
                  "Bytes that a process without other work needs at most; larger images are read "
                  "from their files in bands. 0: bands where half of the physical memory is not "
                  "enough."),
+        field<O>(
+            "quantities", &O::quantities,
+            "Quantities of the map to pool beside the usual ones: \"p99.95\" (any percentile), "
+            "\"above0.2\" (the share of the pixels whose error is above 0.2)."),
     };
 }
 
@@ -40,7 +44,12 @@ void add_pair_summary(ResultClass<S>& result) {
         .field("reference", &S::reference, "How the reference was read.")
         .field("test", &S::test, "How the test was read.")
         .field("nonfinite_both", &S::nonfinite_both,
-               "Pixels that are NaN or Inf in both images: error 0.")
+               "Pixels that are NaN or Inf in both images and alike: error 0.")
+        .field("nonfinite_unlike", &S::nonfinite_unlike,
+               "Pixels that are NaN or Inf in both images, but of another kind or beside other "
+               "values: they count as different.")
+        .field("alpha_ignored", &S::alpha_ignored,
+               "Pixels whose alpha differs, where alpha is ignored.")
         .field("region", &S::region, "Pixels compared.")
         .field("alpha_compared", &S::alpha_compared, "Alpha is part of the map.")
         .field("alpha_mean", &S::alpha_mean, "Mean of the difference of alpha.")

@@ -37,10 +37,15 @@ void add_summary(Module& module) {
 py::object quantity(std::vector<py::object>& arguments) {
     if (!py::isinstance<FlipPool>(arguments[0]))
         wrong_type("flip_quantity: pool", arguments[0], "a FlipPool");
-    const std::vector<std::string> names = ToneAlgo::flip_quantities();
+    const auto& pool = arguments[0].cast<const FlipPool&>();
+    std::vector<std::string> names = ToneAlgo::flip_quantities();
+    for (const auto& one : pool.further)
+        names.push_back(one.first);
+    if (py::isinstance<py::str>(arguments[1]))
+        if (const auto known = ToneAlgo::flip_quantity_name(arguments[1].cast<std::string>()))
+            arguments[1] = py::str(*known);
     const size_t place = place_of(arguments[1], "flip_quantity: name", names);
-    return Python<std::optional<double>>::to(
-        ToneAlgo::flip_quantity(arguments[0].cast<const FlipPool&>(), names[place]));
+    return Python<std::optional<double>>::to(ToneAlgo::flip_quantity(pool, names[place]));
 }
 
 } // namespace
@@ -81,19 +86,19 @@ void add_flip_results(Module& module) {
         .object("image", &FilmstripObject::image, "Image", "R, G, B, sRGB-encoded.")
         .field("summary", &FilmstripObject::summary, "Numbers of HDR-FLIP.")
         .finish();
-    define(
-        module,
-        Description{"flip_quantity",
-                    "A figure of the summary by the name the program has for it.",
-                    {{"pool", "FlipPool", "Of a summary.", ""},
-                     {"name", "str", "One of flip_quantities().", ""}},
-                    "float",
-                    "The figure.",
-                    "Units: FLIP, 0 to 1, or that of the error's metric.",
-                    "Never.",
-                    "Weighted quantities: P. Andersson et al., \"FLIP: A Difference Evaluator for "
-                    "Alternating Images\", HPG 2020."},
-        quantity);
+    define(module,
+           Description{
+               "flip_quantity",
+               "A figure of the summary by the name the program has for it.",
+               {{"pool", "FlipPool", "Of a summary.", ""},
+                {"name", "str", "One of flip_quantities(), or what quantities= asked for.", ""}},
+               "float",
+               "The figure.",
+               "Units: FLIP, 0 to 1, or that of the error's metric.",
+               "Never.",
+               "Weighted quantities: P. Andersson et al., \"FLIP: A Difference Evaluator for "
+               "Alternating Images\", HPG 2020."},
+           quantity);
 }
 
 } // namespace tonetool::python

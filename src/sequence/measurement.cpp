@@ -16,6 +16,9 @@ void add_pool(Measurement& to, const FlipPool& pool) {
     for (const std::string& name : ToneAlgo::flip_quantities()) {
         to.quantities.emplace_back(name, ToneAlgo::flip_quantity(pool, name).value());
     }
+    for (const auto& [name, value] : pool.further) {
+        to.quantities.emplace_back(name, value);
+    }
     to.histogram.assign(pool.histogram.begin(), pool.histogram.end());
     to.worst = Position{pool.max_x, pool.max_y};
     to.pixels = pool.pixels;
@@ -26,6 +29,8 @@ void add_pair(Measurement& to, const PairSummary& summary) {
     add_side(to, "reference", summary.reference);
     add_side(to, "test", summary.test);
     to.parameters.emplace_back("nonfinite-in-both", double(summary.nonfinite_both));
+    to.parameters.emplace_back("nonfinite-unlike", double(summary.nonfinite_unlike));
+    to.parameters.emplace_back("alpha-ignored", double(summary.alpha_ignored));
     if (summary.alpha_compared) {
         to.parameters.emplace_back("alpha-mean", summary.alpha_mean);
         to.parameters.emplace_back("alpha-max", summary.alpha_max);

@@ -31,6 +31,10 @@ std::string text_of(const Threshold& threshold, double limit) {
                   threshold.higher_is_better ? "<" : ">", limit);
 }
 
+void add_text(std::string& list, const std::string& text) {
+    list += (list.empty() ? "" : ", ") + text;
+}
+
 bool holds(const Threshold& threshold, double limit) {
     return threshold.higher_is_better ? threshold.value >= limit : threshold.value <= limit;
 }
@@ -40,19 +44,26 @@ struct Found {
     std::string message;
 };
 
-Found of_threshold(const Measurement& measurement) {
-    if (!measurement.threshold) {
-        return {Status::Measured, ""};
+// All of the thresholds must hold; the message names those that do not.
+Found of_thresholds(const Measurement& measurement) {
+    std::string failed, warned;
+    bool tested = false;
+    for (const Threshold& threshold : measurement.thresholds) {
+        tested = tested || threshold.fail || threshold.warn;
+        if (threshold.fail && !holds(threshold, *threshold.fail)) {
+            add_text(failed, text_of(threshold, *threshold.fail));
+        } else if (threshold.warn && !holds(threshold, *threshold.warn)) {
+            add_text(warned, text_of(threshold, *threshold.warn));
+        }
     }
-    const Threshold& threshold = *measurement.threshold;
     const std::string start = measurement.command + ": ";
-    if (threshold.fail && !holds(threshold, *threshold.fail)) {
-        return {Status::Failed, start + text_of(threshold, *threshold.fail)};
+    if (!failed.empty()) {
+        return {Status::Failed, start + failed};
     }
-    if (threshold.warn && !holds(threshold, *threshold.warn)) {
-        return {Status::Warning, start + text_of(threshold, *threshold.warn)};
+    if (!warned.empty()) {
+        return {Status::Warning, start + warned};
     }
-    return {threshold.fail || threshold.warn ? Status::Passed : Status::Measured, ""};
+    return {tested ? Status::Passed : Status::Measured, ""};
 }
 
 Found of_fault(const Fault& fault) {
@@ -159,7 +170,7 @@ std::optional<Severity> severity_of_name(const std::string& name) {
 void judge(FrameResult& frame) {
     std::vector<Found> found;
     for (Measurement& measurement : frame.measurements) {
-        found.push_back(of_threshold(measurement));
+        found.push_back(of_thresholds(measurement));
         measurement.status = found.back().status;
     }
     for (const Fault& fault : frame.faults) {
@@ -192,8 +203,8 @@ void judge(FrameResult& frame) {
 double badness(const FrameResult& frame) {
     double most = 0;
     for (const Measurement& measurement : frame.measurements) {
-        if (measurement.threshold) {
-            most = std::max(most, excess(*measurement.threshold));
+        for (const Threshold& threshold : measurement.thresholds) {
+            most = std::max(most, excess(threshold));
         }
     }
     if (most > 0) {

@@ -69,7 +69,7 @@ struct Measurement {
     std::string command; ///< "hdrflip", "tmqi", ...
     std::string reference, test;
     Status status = Status::Measured;
-    std::optional<Threshold> threshold;
+    std::vector<Threshold> thresholds; ///< of different quantities: all must hold
     Numbers quantities; ///< the pool of the error map (mean, p99, ...), or the command's own
     std::vector<long long> histogram; ///< of the error map: 100 equal buckets over [0, 1]
     std::optional<Position> worst;    ///< pixel of the largest error

@@ -179,8 +179,8 @@ ordered_json json_of(const Measurement& measured) {
     put(to, "reference", measured.reference);
     put(to, "test", measured.test);
     to["status"] = status_name(measured.status);
-    if (measured.threshold) {
-        to["threshold"] = json_of(*measured.threshold);
+    for (const Threshold& threshold : measured.thresholds) {
+        to["thresholds"].push_back(json_of(threshold));
     }
     put_list(to, "quantities", measured.quantities);
     if (!measured.histogram.empty()) {
@@ -203,8 +203,11 @@ Measurement measurement_of(const ordered_json& from) {
     measured.reference = text(from, "reference");
     measured.test = text(from, "test");
     measured.status = status(from);
-    if (from.contains("threshold")) {
-        measured.threshold = threshold_of(from["threshold"]);
+    if (from.contains("threshold")) { // as it was written before there could be several
+        measured.thresholds.push_back(threshold_of(from["threshold"]));
+    }
+    for (const ordered_json& threshold : from.value("thresholds", ordered_json::array())) {
+        measured.thresholds.push_back(threshold_of(threshold));
     }
     measured.quantities = numbers(from, "quantities");
     for (const ordered_json& bucket : from.value("histogram", ordered_json::array())) {

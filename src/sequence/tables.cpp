@@ -51,10 +51,11 @@ void add_measurements(Columns& columns, Row& row, const FrameResult& frame) {
         const int number = ++seen[measured.command];
         const std::string start =
             measured.command + (number > 1 ? "#" + std::to_string(number) : "") + ".";
-        if (measured.threshold) {
-            const auto& limit =
-                measured.threshold->fail ? measured.threshold->fail : measured.threshold->warn;
-            columns.put(row, start + "threshold", limit ? text_of(*limit) : "");
+        for (const Threshold& threshold : measured.thresholds) {
+            const auto& limit = threshold.fail ? threshold.fail : threshold.warn;
+            const bool first = &threshold == &measured.thresholds.front();
+            columns.put(row, start + "threshold" + (first ? "" : "." + threshold.quantity),
+                        limit ? text_of(*limit) : "");
         }
         for (const auto& [name, value] : measured.quantities) {
             columns.put(row, start + name, text_of(value));

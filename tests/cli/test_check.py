@@ -140,7 +140,7 @@ def test_half_a_file_is_unreadable_in_every_format(tonetool, oiiotool, tmp_path,
     oiiotool("--pattern", "noise", "128x128", "3", "-o", f"a.{kind}")
     whole = (tmp_path / f"a.{kind}").read_bytes()
     (tmp_path / f"b.{kind}").write_bytes(whole[:len(whole) // 2])
-    tonetool(f"a.{kind}", f"b.{kind}", "--ldrflip:fail=1", "--json", "c.json", status=1)
+    tonetool(f"a.{kind}", f"b.{kind}", "--ldrflip:fail=0.999", "--json", "c.json", status=1)
     assert statuses(tmp_path) == {0: "unreadable"}
 
 
@@ -187,17 +187,17 @@ def test_a_pair_without_numbers(tonetool, anim):
 
 def test_every_comparison_is_recorded(tonetool, anim):
     tonetool("--frames", "1-2", *pair(flip(), "ref.#.exr", "test.#.exr",
-             "--ldrflip:layer=ViewLayer.Combined:print=0:fail=1", "ref.#.exr", "test.#.exr",
+             "--ldrflip:layer=ViewLayer.Combined:print=0:fail=0.999", "ref.#.exr", "test.#.exr",
              "--errormap:metric=psnr:layer=ViewLayer.Combined:print=0:fail=10",
              "ref.#.exr", "test.#.exr", "--flipdiff:layer=ViewLayer.Combined:print=0",
-             "ref.#.exr", "test.#.exr", "--failpercent", "100", "--warnpercent", "100",
+             "ref.#.exr", "test.#.exr", "--failpercent", "99.99", "--warnpercent", "100",
              "--diff", "--json", "c.json"))
     (first, _) = load(anim / "c.json")["frames"]
     assert [m["command"] for m in first["measurements"]] == ["hdrflip", "ldrflip", "errormap",
                                                              "flipdiff", "diff"]
     assert [m["status"] for m in first["measurements"]] == ["passed", "passed", "passed",
                                                             "measured", "passed"]
-    assert first["measurements"][2]["threshold"]["higher_is_better"] is True
+    assert first["measurements"][2]["thresholds"][0]["higher_is_better"] is True
 
 
 def test_a_failing_diff_is_a_failed_frame(tonetool, anim):

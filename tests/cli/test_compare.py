@@ -53,8 +53,8 @@ def test_threshold_statuses(tonetool, pair, tmp_path):
                                       "p50", "p95", "p99", "p99.9", "min", "max"])
 def test_every_quantity_can_fail(tonetool, pair, quantity):
     value = tonetool(*pair, "--hdrflip").fact(quantity).split(" at ")[0]
-    ran = tonetool(*pair, f"--hdrflip:fail=1:quantity={quantity}")
-    assert f"PASS {quantity} {value} <= 1" in ran.out
+    ran = tonetool(*pair, f"--hdrflip:fail=0.999:quantity={quantity}")
+    assert f"PASS {quantity} {value} <= 0.999" in ran.out
     if float(value) > 1e-3:
         limit = float(value) * 0.99
         tonetool(*pair, f"--hdrflip:fail={limit}:quantity={quantity}", status=3)
@@ -64,13 +64,13 @@ def test_quiet_shows_failures_and_warnings_only(tonetool, pair):
     ran = tonetool("-q", *pair, "--hdrflip:fail=0.001:warn=0.001", status=3)
     assert ran.out.splitlines() == [ran.out.strip()] and ran.out.startswith("hdrflip: FAIL mean")
     assert "WARNING" in ran.err
-    assert tonetool("-q", *pair, "--hdrflip:fail=1").out == ""
-    ran = tonetool(*pair, "--hdrflip:fail=1:print=0")
+    assert tonetool("-q", *pair, "--hdrflip:fail=0.999").out == ""
+    ran = tonetool(*pair, "--hdrflip:fail=0.999:print=0")
     assert ran.out.startswith("hdrflip: PASS") and len(ran.out.splitlines()) == 1
 
 
 def test_nonfinite_pixels_are_warnings(tonetool, testimages):
-    words = [testimages / "plain.exr", testimages / "nan_center.exr", "--hdrflip:fail=1"]
+    words = [testimages / "plain.exr", testimages / "nan_center.exr", "--hdrflip:fail=0.999"]
     assert "WARNING: hdrflip" in tonetool(*words).err
     ran = tonetool("--warnings-exit", *words, status=2)
     assert ran.fact("test-nonfinite") == "1"
@@ -147,13 +147,13 @@ def test_flipdiff_fails_on_the_largest_error(tonetool, pair, read):
     ran = tonetool(*pair, "--flipdiff:fail=0.01:colormap=magma", "-o", "x.png", status=3)
     assert "FAILURE" in ran.out.splitlines() and "flipdiff: FAIL max " in ran.out
     assert read("x.png")[1].nchannels == 3
-    ran = tonetool(*pair, "--flipdiff:fail=1")
+    ran = tonetool(*pair, "--flipdiff:fail=0.999")
     assert "PASS" in ran.out.splitlines()
     tonetool(*pair, "--flipdiff:colormap=nosuch", status=1)
 
 
 def test_filmstrip(tonetool, pair, read):
-    ran = tonetool(*pair, "--filmstrip:width=64:columns=3:fail=1", "-o", "x.png")
+    ran = tonetool(*pair, "--filmstrip:width=64:columns=3:fail=0.999", "-o", "x.png")
     pixels, spec = read("x.png")
     assert spec.nchannels == 3 and pixels.std() > 0.01
     assert float(ran.fact("mean")) > 0

@@ -22,7 +22,7 @@ def test_error_text(tonetool):
     (["--hdrflip:fail"], 'malformed modifier "fail"'),
     (["--hdrflip:fail="], '"fail" has no value'),
     (["--hdrflip:"], "empty modifier"),
-    (["--hdrflip::fail=1"], "empty modifier"),
+    (["--hdrflip::fail=0.999"], "empty modifier"),
     (["--hdrflip:fail=0.1:fail=0.9"], '"fail" is given twice'),
     (["--hdrflip:tonemapper='aces"], "unfinished quotation"),
     (["--dup:x=1"], "this command has none"),
@@ -44,7 +44,7 @@ def test_command_line_that_is_not_understood(tonetool, words, text):
 
 @pytest.mark.parametrize("modifier", [
     "tonemapper=ases", "tonemapper=ACES", "fail=0,05", "fail=5%", "fail=abc", "fail=nan",
-    "fail=inf", "fail=-0.1", "fail=1.5", "fail=0x1", "warn=x", "quantity=median:fail=1",
+    "fail=inf", "fail=-0.1", "fail=1.5", "fail=0x1", "warn=x", "quantity=median:fail=0.999",
     "quantity=max", "numExposures=0", "numExposures=-1", "numExposures=2.5",
     "numExposures=1025", "startExposure=abc", "startExposure=2:stopExposure=1", "ppd=0",
     "ppd=-1", "ppd=nan", "ppd=67:distance=0.7", "ppd=67:width=0.7", "ppd=67:pixels=3840",
@@ -64,7 +64,8 @@ def test_bad_stops(tonetool, make_image, value):
     assert "exposure : STOPS" in ran.err
 
 
-@pytest.mark.parametrize("command", ["--hdrflip:fail=1", "--ldrflip:fail=1", "--flipdiff:fail=1"])
+@pytest.mark.parametrize("command", ["--hdrflip:fail=0.999", "--ldrflip:fail=0.999",
+                                     "--flipdiff:fail=0.999"])
 @pytest.mark.parametrize("bad", ["truncated.exr", "deep.exr", "y_only.exr", "not_an_image.exr",
                                  "nosuch.exr", "aovs_only.exr", "two_beauties.exr"])
 def test_images_that_cannot_be_compared(tonetool, testimages, command, bad, tmp_path):
@@ -134,14 +135,14 @@ def test_an_error_dominates_a_failed_threshold(tonetool, pair):
 
 def test_full_standard_output(tonetool, pair):
     with open("/dev/full", "w", encoding="ascii") as full:
-        tonetool(*pair, "--hdrflip:fail=1", "-o", "x.exr", status=1, stdout=full)
+        tonetool(*pair, "--hdrflip:fail=0.999", "-o", "x.exr", status=1, stdout=full)
         tonetool("--help", status=1, stdout=full)
 
 
 def test_closed_pipe(program, pair, tmp_path):
     reader, writer = os.pipe()
     os.close(reader)
-    words = [program, *pair, "--hdrflip:fail=1", "-o", "x.exr"]
+    words = [program, *pair, "--hdrflip:fail=0.999", "-o", "x.exr"]
     done = subprocess.run(words, stdout=writer, stderr=subprocess.PIPE, cwd=tmp_path,
                           check=False)
     os.close(writer)

@@ -22,6 +22,9 @@ struct PairOptions {
     /// ldr_flip in flip.h. 0: bands
     /// only where half of the physical memory is not enough.
     uint64_t memory = 0;
+    /// Quantities of the map to pool beside the usual ones: "p99.95" (any percentile, 0 to 100) and
+    /// "above0.2" (the share of the pixels whose error is above 0.2).
+    std::vector<std::string> quantities;
 };
 
 /// How one image was read and what was found in it.
@@ -37,8 +40,13 @@ struct FlipSide {
 struct PairSummary {
     FlipPool pool;
     FlipSide reference, test;
-    int64_t nonfinite_both = 0; ///< pixels that are non-finite in both images: error 0
-    OIIO::ROI region;           ///< pixels compared
+    int64_t nonfinite_both = 0; ///< pixels that are non-finite in both images and alike: error 0
+    /// Pixels that are non-finite in both images but not alike (Inf against NaN or -Inf, or other
+    /// components that differ): they count as if one alone were non-finite.
+    int64_t nonfinite_unlike = 0;
+    /// Pixels whose alpha differs, where alpha is ignored.
+    int64_t alpha_ignored = 0;
+    OIIO::ROI region; ///< pixels compared
     bool alpha_compared = false;
     double alpha_mean = 0, alpha_max = 0; ///< |alpha difference|
     int alpha_max_x = 0, alpha_max_y = 0;

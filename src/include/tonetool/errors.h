@@ -61,7 +61,8 @@ namespace ToneAlgo {
 /// A compared alpha joins the map as |difference|.
 /// NaN, Inf: a pixel that is non-finite in one image counts as the largest error: 1 for smape and
 ///   mpsnr; for the others the largest error of the map's other pixels, or 1 if that is less. In
-///   both: 0. Counted and warned about; if no finite pixel is left the call fails.
+///   both: 0 where they are alike, as in flip.h, else the largest. Counted and warned about; if no
+///   finite pixel is left the call fails.
 /// Identical images give exactly 0; the result does not depend on nthreads to the bit: sums are in
 /// double and in a fixed order.
 /// `summary`, when given, receives what was measured; it also lands in dst as `Error:*`.

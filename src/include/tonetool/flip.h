@@ -96,9 +96,11 @@ namespace ToneAlgo {
 ///   float channel and covers the ROI is written in place, any other is allocated anew.
 /// Colour: converted to linear Rec.709 by matrix, then clamped to [0,1].
 /// Alpha: ignored unless options.alpha says otherwise.
-/// NaN, Inf: a pixel that is non-finite in one image has error 1, in both 0; neighbours see the
+/// NaN, Inf: a pixel that is non-finite in one image has error 1; in both 0 where the two are
+///   alike (NaN, Inf and -Inf in the same components, the others equal), else 1. Neighbours see the
 ///   other image's pixel (black if both). Counted and warned about; if no finite pixel is left
 ///   the call fails.
+/// Orientation: images that differ in it are an error; images turned alike are compared as stored.
 /// Identical images give exactly 0; the result does not depend on nthreads to the bit.
 /// Memory: an ImageBuf that was opened with a file name and not read is read from the file by the
 ///   call itself, in bands where they are needed, only the channels that are compared, and nothing
@@ -149,9 +151,12 @@ TONETOOL_API bool hdr_flip(std::vector<OIIO::ImageBuf>& dst, const OIIO::ImageBu
 TONETOOL_API std::vector<std::string> flip_tonemappers();
 
 /// A quantity of the summary by name: mean, weighted-median, weighted-q1, weighted-q3, p50, p95,
-/// p99, p99.9, min, max; nullopt for any other name.
+/// p99, p99.9, min, max, and what PairOptions::quantities asked for; nullopt for any other name.
 TONETOOL_API std::optional<double> flip_quantity(const FlipPool& pool, const std::string& name);
 TONETOOL_API std::vector<std::string> flip_quantities();
+/// The name of a quantity as the summary has it: "p99.9" for "p99.90"; nullopt for what is neither
+/// one of flip_quantities() nor a percentile ("p99.95") nor a share ("above0.2").
+TONETOOL_API std::optional<std::string> flip_quantity_name(const std::string& name);
 
 /// What the filmstrip looks like.
 struct FilmstripOptions {

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <map>
 #include <string>
 
 namespace tonetool {
@@ -19,6 +20,8 @@ struct FlipPool {
     /// 100 equal buckets over [0, 1]; the last one holds 1 as well.
     std::array<int64_t, 100> histogram{};
     int64_t pixels = 0;
+    /// What PairOptions::quantities asked for beside these, by name: "p99.95", "above0.2".
+    std::map<std::string, double> further;
 };
 
 /// Luminance 0.2126 R + 0.7152 G + 0.0722 B of linear Rec.709, negative components set to 0,

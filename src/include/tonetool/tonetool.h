@@ -10,6 +10,7 @@
 #include "tonetool/lights.h"
 #include "tonetool/luminance.h"
 #include "tonetool/lut.h"
+#include "tonetool/parts.h"
 #include "tonetool/pixels.h"
 #include "tonetool/qc.h"
 #include "tonetool/texture.h"

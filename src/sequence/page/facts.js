@@ -65,10 +65,11 @@ function settingsOf(measurement) {
 }
 
 function measurementBoxes(measurement) {
-  const limit = measurement.threshold;
   const rows = entries(measurement.quantities);
-  if (limit && typeof limit.fail === "number") rows.push([`fail (${limit.quantity})`, limit.fail]);
-  if (limit && typeof limit.warn === "number") rows.push([`warn (${limit.quantity})`, limit.warn]);
+  for (const limit of thresholdsOf(measurement)) {
+    if (typeof limit.fail === "number") rows.push([`fail (${limit.quantity})`, limit.fail]);
+    if (typeof limit.warn === "number") rows.push([`warn (${limit.quantity})`, limit.warn]);
+  }
   if (measurement.pixels) rows.push(["pixels", measurement.pixels]);
   const boxes = [table(`${measurement.command} (${measurement.status})`, rows)];
   const settings = settingsOf(measurement);

@@ -105,15 +105,29 @@ function valueOf(frame, place, quantity) {
   if (!measurement) return null;
   const entry = entries(measurement.quantities).find(([key]) => key === quantity);
   if (entry && typeof entry[1] === "number") return entry[1];
-  const limit = measurement.threshold;
-  return limit && limit.quantity === quantity && typeof limit.value === "number" ? limit.value : null;
+  const limit = thresholdsOf(measurement).find((one) => one.quantity === quantity);
+  return limit && typeof limit.value === "number" ? limit.value : null;
+}
+
+function thresholdsOf(measurement) {
+  return measurement.thresholds || [];
+}
+
+function exceeds(limit, bound) {
+  return typeof bound === "number" && (limit.higher_is_better ? limit.value < bound : limit.value > bound);
+}
+
+/** The threshold that gave the measurement its status, else the first. */
+function decidingOf(measurement) {
+  const all = thresholdsOf(measurement);
+  return all.find((one) => exceeds(one, one.fail)) || all.find((one) => exceeds(one, one.warn)) || all[0] || null;
 }
 
 /** Of the measurement that gave the frame its status, else of the first. */
 function thresholdOf(place) {
   for (const frame of frames) {
     const measurement = place >= 0 && measurementOf(frame, place);
-    if (measurement && measurement.threshold) return measurement.threshold;
+    if (measurement && thresholdsOf(measurement).length) return thresholdsOf(measurement)[0];
   }
   return null;
 }
@@ -126,9 +140,9 @@ const mainQuantity = (thresholdOf(mainPlace) || {}).quantity || quantitiesOf(mai
 function verdictOf(frame) {
   const measurement = measurementOf(frame, mainPlace) || frame.measurements[0];
   if (!measurement) return "";
-  const limit = measurement.threshold;
+  const limit = decidingOf(measurement);
   if (limit) {
-    const bound = limit.fail ?? limit.warn;
+    const bound = exceeds(limit, limit.warn) && !exceeds(limit, limit.fail) ? limit.warn : limit.fail ?? limit.warn;
     if (typeof bound !== "number") return `${limit.quantity} ${number(limit.value)}`;
     const sign = limit.value > bound ? ">" : limit.value < bound ? "<" : "=";
     return `${limit.quantity} ${number(limit.value)} ${sign} ${number(bound)}`;

@@ -43,6 +43,8 @@ TEST(Annotate, HdrMapsCarryTheirSummary) {
                                                       {"testNegative", 0},
                                                       {"testUncovered", 0},
                                                       {"bothNonfinite", 0},
+                                                      {"unlikeNonfinite", 0},
+                                                      {"alphaIgnored", 0},
                                                       {"ppd", s.ppd},
                                                       {"startExposure", s.exposures.front()},
                                                       {"stopExposure", s.exposures.back()},

@@ -14,6 +14,7 @@ namespace {
 using testing::Contains;
 using testing::HasSubstr;
 using testing::IsEmpty;
+using testing::Not;
 using ToneAlgo::hdr_flip;
 using ToneAlgo::ldr_flip;
 
@@ -106,7 +107,7 @@ TEST_P(NonFinite, FarPixelsDoNotNotice) {
 
 TEST_P(NonFinite, InBothImagesIsEqual) {
     const auto reference = with_pixel(m_reference, 20, 15, m_bad);
-    const auto test = with_pixel(m_test, 20, 15, {kNan, 0, 0});
+    const auto test = with_pixel(m_test, 20, 15, m_bad);
     const Outcome r = run(reference, test);
     EXPECT_EQ(at(r.map, 20, 15), 0.0f);
     EXPECT_EQ(r.result.summary.nonfinite_both, 1);
@@ -117,6 +118,74 @@ TEST_P(NonFinite, InBothImagesIsEqual) {
         r.map, run(with_pixel(m_reference, 20, 15, black), with_pixel(m_test, 20, 15, black)).map,
         20, 15);
     EXPECT_EQ(run(reference, reference).result.summary.pool.max, 0.0);
+}
+
+TEST_P(NonFinite, InBothImagesOfAnotherKindIsAnErrorOf1) {
+    const auto reference = with_pixel(m_reference, 20, 15, m_bad);
+    for (std::vector<float> other : {std::vector<float>{kNan, kInf, 0.25f}, {-kInf, -kInf, -kInf}}) {
+        const Outcome r = run(reference, with_pixel(m_test, 20, 15, other));
+        EXPECT_EQ(at(r.map, 20, 15), 1.0f);
+        for (const auto& exposure : r.result.exposures)
+            EXPECT_EQ(at(exposure.flip, 20, 15), 1.0f);
+        EXPECT_EQ(r.result.summary.nonfinite_both, 0);
+        EXPECT_EQ(r.result.summary.nonfinite_unlike, 1);
+        EXPECT_THAT(r.result.summary.warnings, Contains(HasSubstr("count as different")));
+    }
+}
+
+std::vector<std::string> warnings_of(const ImageBuf& reference, const ImageBuf& test,
+                                     double start = -2, double stop = 2) {
+    HdrFlipOptions options;
+    options.start_exposure = start;
+    options.stop_exposure = stop;
+    return run(reference, test, options).result.summary.warnings;
+}
+
+TEST(Clipped, DifferencesThatNoExposureShowsAreSaid) {
+    const auto plain = noise(40, 30, 1);
+    auto light = plain, lighter = plain, dark = plain, darker = plain;
+    for (int x = 0; x < 8; ++x) {
+        light = with_pixel(light, x, 3, {5000, 5000, 5000});
+        lighter = with_pixel(lighter, x, 3, {20000, 20000, 20000});
+        dark = with_pixel(dark, x, 3, {0, 0, 0});
+        darker = with_pixel(darker, x, 3, {1e-7f, 2e-7f, 0});
+    }
+    EXPECT_THAT(warnings_of(light, lighter), Contains(HasSubstr("8 of 8 differing pixel(s) are "
+                                                                "white")));
+    EXPECT_THAT(warnings_of(dark, darker), Contains(HasSubstr("are black in both images")));
+    EXPECT_THAT(warnings_of(light, lighter, -20, 0), Not(Contains(HasSubstr("are white"))));
+    EXPECT_THAT(warnings_of(light, with_pixel(light, 0, 3, {5000, 1, 5000})),
+                Not(Contains(HasSubstr("are white"))));
+    FlipResult ldr;
+    ldr_flip(light, lighter, {}, &ldr);
+    EXPECT_THAT(ldr.summary.warnings, Contains(HasSubstr("are white")));
+    const auto few = disturbed(light, 0.2, 3); // 8 of more than 1000 pixels: below 1 %
+    EXPECT_THAT(warnings_of(light, few), Not(Contains(HasSubstr("are white"))));
+}
+
+TEST(IgnoredAlpha, IsCounted) {
+    const auto with_alpha = [](int holes) {
+        auto image = constant(make_spec(20, 10, {"R", "G", "B", "A"}), {0.5f, 0.5f, 0.5f, 1});
+        for (int x = 0; x < holes; ++x)
+            image = with_pixel(image, x, 2, {0.5f, 0.5f, 0.5f, 0});
+        return image;
+    };
+    const auto opaque = constant(20, 10, {0.5f, 0.5f, 0.5f});
+    const struct {
+        ImageBuf reference, test;
+        int differing;
+    } cases[] = {{with_alpha(0), with_alpha(7), 7},  {with_alpha(7), with_alpha(7), 0},
+                 {opaque, with_alpha(3), 3},         {with_alpha(3), opaque, 3},
+                 {opaque, with_alpha(0), 0}};
+    for (const auto& c : cases) {
+        const FlipSummary s = run(c.reference, c.test).result.summary;
+        EXPECT_EQ(s.alpha_ignored, c.differing);
+        EXPECT_EQ(s.pool.max, 0);
+        EXPECT_EQ(s.warnings.empty(), c.differing == 0);
+    }
+    HdrFlipOptions compared = fixed_exposures();
+    compared.alpha = AlphaPolicy::Error;
+    EXPECT_EQ(run(with_alpha(0), with_alpha(7), compared).result.summary.alpha_ignored, 0);
 }
 
 TEST_P(NonFinite, DoesNotReachTheExposures) {

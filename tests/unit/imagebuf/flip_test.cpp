@@ -204,5 +204,36 @@ TEST(FlipQuantity, KnowsEveryNameItLists) {
         EXPECT_FALSE(ToneAlgo::flip_quantity(pool, name).has_value()) << name;
 }
 
+TEST(FlipQuantity, PercentilesAndSharesThatWereAskedFor) {
+    const auto reference = noise(40, 30, 1);
+    HdrFlipOptions options;
+    options.quantities = {"p99.95", "p0", "p100", "p99.90", "above0.2", "above0", "p25"};
+    FlipResult result;
+    const auto map = ToneAlgo::hdr_flip(reference, disturbed(reference, 0.5, 2), options, &result);
+    const FlipPool& pool = result.summary.pool;
+    std::vector<float> sorted(1200);
+    ASSERT_TRUE(map.get_pixels(map.roi(), OIIO::TypeFloat, sorted.data()));
+    std::sort(sorted.begin(), sorted.end());
+    const auto above = [&](double error) {
+        return double(std::count_if(sorted.begin(), sorted.end(),
+                                    [&](float v) { return v > error; })) /
+               1200;
+    };
+    EXPECT_EQ(ToneAlgo::flip_quantity(pool, "p99.95"), double(sorted[1199]));
+    EXPECT_EQ(ToneAlgo::flip_quantity(pool, "p25"), double(sorted[299]));
+    EXPECT_EQ(ToneAlgo::flip_quantity(pool, "p0"), pool.min);
+    EXPECT_EQ(ToneAlgo::flip_quantity(pool, "p100"), pool.max);
+    EXPECT_EQ(ToneAlgo::flip_quantity(pool, "p99.90"), pool.p999);
+    EXPECT_EQ(ToneAlgo::flip_quantity(pool, "above0.2"), above(0.2));
+    EXPECT_EQ(ToneAlgo::flip_quantity(pool, "above0"), above(0));
+    EXPECT_EQ(map.spec().get_float_attribute("FLIP:above0.2"), float(above(0.2)));
+    for (const char* name : {"p101", "p-1", "p", "px", "pnan", "above", "above-1", "aboveinf",
+                             "P50", "p5 0"}) {
+        options.quantities = {name};
+        EXPECT_THAT(ToneAlgo::hdr_flip(reference, reference, options).geterror(),
+                    HasSubstr("unknown quantity")) << name;
+    }
+}
+
 } // namespace
 } // namespace tonetool

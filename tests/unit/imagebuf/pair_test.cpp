@@ -70,7 +70,9 @@ TEST(MendNonfinite, TakesTheOtherImagesPixel) {
     std::string error;
     ASSERT_TRUE(read_planes(r, {}, r.roi(), false, 1, pr, error));
     ASSERT_TRUE(read_planes(t, {}, t.roi(), false, 1, pt, error));
-    EXPECT_EQ(mend_nonfinite(pr, pt, 0, 1), 1);
+    const NonfiniteBoth both = mend_nonfinite(pr, pt, 0, 1);
+    EXPECT_EQ(both.alike, 0);
+    EXPECT_EQ(both.unlike, 1) << "NaN in another component";
     for (int p = 0; p < 3; ++p) {
         EXPECT_EQ(pr.plane[p][0], pt.plane[p][0]);
         EXPECT_EQ(pr.plane[p][0], pixel_of(other, 0, 0)[size_t(p)]);
@@ -79,6 +81,58 @@ TEST(MendNonfinite, TakesTheOtherImagesPixel) {
         EXPECT_EQ(pt.plane[p][2], 0.0f);
         EXPECT_EQ(pr.plane[p][3], pixel_of(clean, 3, 0)[size_t(p)]);
     }
+}
+
+// One pixel that is non-finite in both images.
+NonfiniteBoth both_of(std::vector<float> in_reference, std::vector<float> in_test,
+                      const std::string& space = "") {
+    ColorPlanes pr, pt;
+    std::string error;
+    const auto r = with_pixel(noise(4, 1, 1), 2, 0, std::move(in_reference));
+    const auto t = with_pixel(noise(4, 1, 2), 2, 0, std::move(in_test));
+    EXPECT_TRUE(read_planes(r, {}, r.roi(), false, 1, pr, error)) << error;
+    EXPECT_TRUE(read_planes(t, {"", space}, t.roi(), false, 1, pt, error)) << error;
+    return mend_nonfinite(pr, pt, 0, 1);
+}
+
+TEST(MendNonfinite, TellsKindsAndTheOtherComponents) {
+    const float inf = std::numeric_limits<float>::infinity();
+    const struct {
+        std::vector<float> reference, test;
+        bool alike;
+    } cases[] = {{{inf, 1, 1}, {inf, 1, 1}, true},
+                 {{kNan, kNan, kNan}, {kNan, kNan, kNan}, true},
+                 {{-inf, 0, 0.1f}, {-inf, 0, 0.1f}, true},
+                 {{inf, 0.1f, 1}, {inf, 0.0999755859375f, 1}, true}, // rounded to half
+                 {{inf, 1, 1}, {kNan, 1, 1}, false},
+                 {{inf, 1, 1}, {-inf, 1, 1}, false},
+                 {{inf, 1, 1}, {1, inf, 1}, false},
+                 {{inf, 1, 1}, {inf, inf, 1}, false},
+                 {{inf, 1, 1}, {inf, 1.001f, 1}, false},
+                 {{1, 2, kNan}, {1, 2.5f, kNan}, false}};
+    for (const auto& c : cases) {
+        const NonfiniteBoth found = both_of(c.reference, c.test);
+        EXPECT_EQ(found.alike, c.alike ? 1 : 0);
+        EXPECT_EQ(found.unlike, c.alike ? 0 : 1);
+    }
+    EXPECT_EQ(both_of({inf, 1, 1}, {inf, 2, 2}, "acescg").alike, 1) << "not of one space";
+}
+
+TEST(CheckOrientation, PicturesTurnedAlikeGoTogether) {
+    const auto turned = [](int tag) {
+        auto spec = make_spec(4, 4, {"R", "G", "B"});
+        if (tag != 0)
+            spec.attribute("Orientation", tag);
+        return constant(spec, {1, 1, 1});
+    };
+    std::string error;
+    for (const auto& [r, t] : {std::pair(0, 0), {0, 1}, {1, 0}, {6, 6}, {3, 3}})
+        EXPECT_TRUE(check_orientation(turned(r), turned(t), error)) << r << "," << t;
+    for (const auto& [r, t] : {std::pair(0, 3), {6, 1}, {2, 4}, {8, 0}})
+        EXPECT_FALSE(check_orientation(turned(r), turned(t), error)) << r << "," << t;
+    EXPECT_THAT(error, HasSubstr("the Orientation of the reference is 8, that of the test 1"));
+    FittedTest fitted;
+    EXPECT_FALSE(fitted.open(turned(1), turned(6), {}, 1, error));
 }
 
 bool read(const FittedTest& fitted, bool alpha, ColorPlanes& planes, std::string& error) {

@@ -24,7 +24,7 @@ TEST(Probe, Says_what_is_wrong_with_files) {
 TEST(Settle, An_error_is_never_a_pass_whatever_was_measured) {
     FrameResult frame;
     Measurement measured;
-    measured.threshold = Threshold{"mean", 0, false, 1.0, {}};
+    measured.thresholds = {Threshold{"mean", 0, false, 1.0, {}}};
     frame.measurements = {measured};
     settle(frame, "no space left", {image("plain.exr")});
     EXPECT_EQ(frame.status, Status::Error);
@@ -38,7 +38,7 @@ TEST(Settle, An_error_is_never_a_pass_whatever_was_measured) {
 TEST(Settle, A_warning_keeps_from_passing) {
     FrameResult frame;
     Measurement measured;
-    measured.threshold = Threshold{"mean", 0, false, 1.0, {}};
+    measured.thresholds = {Threshold{"mean", 0, false, 1.0, {}}};
     frame.measurements = {measured};
     frame.warnings = {"3 pixels are not finite"};
     settle(frame, "", {});

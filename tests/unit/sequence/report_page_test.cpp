@@ -19,7 +19,7 @@ FrameResult frame(int number, double value) {
     result.status = Status::Passed;
     Measurement one;
     one.command = "hdrflip";
-    one.threshold = Threshold{"p99", value, false, 0.5, {}};
+    one.thresholds = {Threshold{"p99", value, false, 0.5, {}}};
     one.quantities = {{"p99", value}};
     one.histogram.assign(100, 7);
     result.measurements = {one};

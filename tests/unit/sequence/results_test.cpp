@@ -18,7 +18,7 @@ Measurement measured(double value, std::optional<double> fail) {
     one.command = "hdrflip";
     one.reference = "ref.exr";
     one.test = "test.exr";
-    one.threshold = Threshold{"p99", value, false, fail, {}};
+    one.thresholds = {Threshold{"p99", value, false, fail, {}}};
     one.quantities = {{"mean", value / 3}, {"p99", value}};
     one.histogram = {1, 2, 3};
     one.worst = Position{4, -5};
@@ -64,6 +64,38 @@ TEST(Judge, A_value_at_its_threshold_passes_and_above_fails) {
 
 TEST(Judge, A_value_that_is_no_number_fails) {
     EXPECT_EQ(frame(1, std::nan("")).status, Status::Failed);
+}
+
+TEST(Judge, All_thresholds_must_hold) {
+    const auto judged = [](std::vector<Threshold> thresholds) {
+        FrameResult result = frame(1, 0.1);
+        result.measurements.at(0).thresholds = std::move(thresholds);
+        judge(result);
+        return result;
+    };
+    const Threshold mean{"mean", 0.1, false, 0.2, {}}, p99{"p99", 0.6, false, 0.5, {}},
+        warned{"max", 0.9, false, {}, 0.8}, psnr{"psnr", 20, true, 30.0, {}};
+    EXPECT_EQ(judged({mean}).status, Status::Passed);
+    EXPECT_EQ(judged({mean, p99}).status, Status::Failed);
+    EXPECT_EQ(judged({p99, mean}).message, "hdrflip: p99 0.6 > 0.5");
+    EXPECT_EQ(judged({p99, psnr}).message, "hdrflip: p99 0.6 > 0.5, psnr 20 < 30");
+    EXPECT_EQ(judged({mean, warned}).status, Status::Warning);
+    EXPECT_EQ(judged({warned, p99}).message, "hdrflip: p99 0.6 > 0.5");
+    EXPECT_GT(badness(judged({mean, psnr})), badness(judged({mean, p99})));
+    const FrameResult both = judged({mean, p99});
+    EXPECT_EQ(frame_from_json(to_json(both)).measurements.at(0).thresholds.size(), 2u);
+}
+
+TEST(Judge, A_threshold_of_an_older_part_is_read) {
+    std::string text = to_json(frame(1, 0.6));
+    const auto at = text.find("\"thresholds\"");
+    ASSERT_NE(at, std::string::npos);
+    const auto begin = text.find('{', at), end = text.find('}', begin) + 1;
+    const std::string one = text.substr(begin, end - begin);
+    text = text.substr(0, at) + "\"threshold\": " + one + text.substr(text.find(']', end) + 1);
+    FrameResult result = frame_from_json(text);
+    judge(result);
+    EXPECT_EQ(result.status, Status::Failed);
 }
 
 TEST(Judge, Without_a_threshold_nothing_is_passed) {
@@ -142,7 +174,7 @@ TEST(Json, Comes_back_to_the_byte) {
     result.exposures = ShotExposures{1.0 / 3, 0.1, 8};
     const std::string text = to_json(result);
     EXPECT_EQ(to_json(shot_from_json(text)), text);
-    EXPECT_EQ(shot_from_json(text).frames[1].measurements[0].threshold->value,
+    EXPECT_EQ(shot_from_json(text).frames[1].measurements[0].thresholds.at(0).value,
               std::nextafter(0.1, 1.0));
     EXPECT_EQ(to_json(frame_from_json(to_json(second))), to_json(second));
 }

@@ -25,7 +25,7 @@ ShotResult shot() {
     made.frames[1].message = "p99 1 > 0.5";
     Measurement measured;
     measured.command = "hdrflip";
-    measured.threshold = Threshold{"p99", 1, false, 0.5, {}};
+    measured.thresholds = {Threshold{"p99", 1, false, 0.5, {}}};
     measured.quantities = {{"mean", 0.1}, {"p99", std::nan("")}};
     made.frames[1].measurements = {measured, measured};
     return made;
@@ -39,6 +39,15 @@ TEST(Csv, Cells_are_quoted_and_no_formula) {
     EXPECT_THAT(text, HasSubstr("1,,passed,,,a.exr,,,,,,,\r\n"));
     EXPECT_THAT(text, HasSubstr("2,,failed,p99 1 > 0.5,,\"'=x,\"\"y\"\".exr\",,0.5,0.1,nan,"));
     EXPECT_THAT(text, HasSubstr("b\xEF\xBF\xBD.exr"));
+}
+
+TEST(Csv, Further_thresholds_have_columns_of_their_own) {
+    ShotResult made = shot();
+    made.frames[1].measurements.resize(1);
+    made.frames[1].measurements[0].thresholds.push_back({"mean", 0.1, false, 0.25, {}});
+    EXPECT_THAT(csv_text(made), HasSubstr("faults,hdrflip.threshold,hdrflip.threshold.mean,"
+                                          "hdrflip.mean,hdrflip.p99\r\n"));
+    EXPECT_THAT(csv_text(made), HasSubstr(",,0.5,0.25,0.1,nan\r\n"));
 }
 
 TEST(Junit, Only_what_passed_is_a_plain_case) {
