@@ -23,17 +23,17 @@ namespace fs = std::filesystem;
 // one machine: a file of another one must also have been left alone for a while.
 constexpr long kSecondsOfOthers = 3600;
 
-bool is_left_alone(int fd) {
-    struct stat info {};
-    return ::fstat(fd, &info) == 0 && S_ISREG(info.st_mode) &&
-           std::time(nullptr) - info.st_mtime > kSecondsOfOthers;
+bool is_left_alone(const struct stat& info, const std::string& machine) {
+    return machine == machine_tag() || std::time(nullptr) - info.st_mtime > kSecondsOfOthers;
 }
 
 void remove_if_unlocked(const std::string& path, const std::string& machine) {
     const int fd = ::open(path.c_str(), O_RDWR | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK);
     if (fd < 0)
         return;
-    if ((machine == machine_tag() || is_left_alone(fd)) && ::flock(fd, LOCK_EX | LOCK_NB) == 0)
+    struct stat info {};
+    if (::fstat(fd, &info) == 0 && S_ISREG(info.st_mode) && is_left_alone(info, machine) &&
+        ::flock(fd, LOCK_EX | LOCK_NB) == 0)
         ::unlink(path.c_str());
     ::close(fd);
 }

@@ -145,13 +145,15 @@ bool OutputTarget::commit(std::string& error) {
     return true;
 }
 
-// Tells remove_abandoned_outputs that somebody still writes. False where that was quicker and
-// has removed the file; a file system without locks is none of its business.
+// Tells who removes what killed writers left that somebody still writes. False where that was
+// quicker and has removed the file, or is about to; a file system without locks is none of its
+// business.
 bool OutputTarget::hold() {
     struct stat info {};
-    ::flock(m_fd, LOCK_EX | LOCK_NB);
-    if (::fstat(m_fd, &info) != 0 || info.st_nlink > 0)
+    const bool taken = ::flock(m_fd, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
+    if (!taken && (::fstat(m_fd, &info) != 0 || info.st_nlink > 0))
         return true;
+    ::unlink(m_temporary.c_str());
     ::close(m_fd);
     return false;
 }

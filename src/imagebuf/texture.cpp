@@ -27,6 +27,7 @@ struct Job {
     OutputTarget target;
     CheckedProxy proxy;
     std::unique_ptr<ImageOutput> writer;
+    std::string opened; ///< the name that make_texture opens
 };
 
 thread_local Job* g_job = nullptr;
@@ -42,7 +43,7 @@ public:
     int supports(OIIO::string_view feature) const override { return m_writer->supports(feature); }
     bool open(const std::string& name, const ImageSpec& spec, OpenMode mode) override {
         if (mode == Create) {
-            m_name = name;
+            m_job.opened = name;
             if (takes_proxy(*m_writer))
                 m_writer->set_ioproxy(&m_job.proxy);
         }
@@ -51,7 +52,7 @@ public:
     }
     bool close() override {
         const bool closed = told(m_writer->close());
-        const int fd = ::open(m_name.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0600);
+        const int fd = ::open(m_job.opened.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0600);
         if (fd >= 0)
             ::close(fd);
         return closed;
@@ -92,7 +93,6 @@ private:
 
     Job& m_job;
     std::unique_ptr<ImageOutput> m_writer;
-    std::string m_name;
 };
 
 constexpr char kFormat[] = "tonetool_texture";
@@ -118,7 +118,8 @@ bool make(OIIO::ImageBufAlgo::MakeTextureMode mode, const OIIO::ImageBuf& image,
     g_job = &job;
     const bool made = OIIO::ImageBufAlgo::make_texture(mode, image, name, config, &told);
     g_job = nullptr;
-    ::unlink(name.c_str());
+    for (const std::string& left : {name, job.opened})
+        ::unlink(left.c_str());
     if (made)
         return true;
     error = OIIO::geterror();

@@ -92,6 +92,7 @@ TEST_F(Abandoned, LinksAndPipesOfSuchNamesAreNoMatter) {
     ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
     remove_abandoned_outputs({(m_folder / "a.exr").string(), (m_folder / "b.exr").string()});
     EXPECT_TRUE(fs::exists(target));
+    EXPECT_TRUE(fs::exists(pipe));
 }
 
 TEST(TemporaryNames, AreToldFromOthers) {
