@@ -2,6 +2,7 @@
 
 #include <OpenImageIO/strutil.h>
 #include <algorithm>
+#include <cstdio>
 #include <iostream>
 #include <unistd.h>
 
@@ -9,6 +10,7 @@
 #include "sequence/file_sequence.h"
 #include "sequence/pairing.h"
 #include "text/error.h"
+#include "text/printable.h"
 
 namespace tonetool::runs {
 
@@ -207,12 +209,14 @@ void Progress::done(const FrameRun& run, int status, const std::string& words, d
     } else if (m_verbose) {
         m_stream << OIIO::Strutil::fmt::format("frame {}{}{}: {}, {:.2f} s, {:.0f} s left",
                                                run.frame.number, run.frame.view.empty() ? "" : " ",
-                                               run.frame.view, words, seconds, left)
+                                               printable(run.frame.view), words, seconds, left)
                  << std::endl;
     } else if (m_terminal) {
-        m_stream << OIIO::Strutil::fmt::format("\r{} of {} frames, {:.3g} a second, {:.0f} s left ",
-                                               m_done, m_total, rate, left)
-                 << (m_done == m_total ? "\n" : "") << std::flush;
+        // Past the stream, which lets no name go back in its line, and nothing else either.
+        const std::string text =
+            OIIO::Strutil::fmt::format("\r{} of {} frames, {:.3g} a second, {:.0f} s left {}",
+                                       m_done, m_total, rate, left, m_done == m_total ? "\n" : "");
+        std::fputs(text.c_str(), stderr);
     }
 }
 

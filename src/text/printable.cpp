@@ -139,10 +139,9 @@ std::streamsize PrintableBuffer::xsputn(const char* text, std::streamsize size) 
     return put(std::string(text, size_t(size)), false) ? size : 0;
 }
 
+// The standard error is flushed after every piece: a character goes on in the next one.
 int PrintableBuffer::sync() {
-    const bool written = put("", true);
-    m_at_start = true;
-    return m_to->pubsync() == 0 && written ? 0 : -1;
+    return m_to->pubsync();
 }
 
 bool PrintableBuffer::put(const std::string& more, bool all) {

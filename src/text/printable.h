@@ -22,6 +22,8 @@ std::string printable_json(const std::string& json);
 class PrintableBuffer final : public std::streambuf {
 public:
     explicit PrintableBuffer(std::streambuf* to) : m_to(to) {}
+    /// What has waited for its end is written without it.
+    void finish() { put("", true); }
 
 protected:
     int_type overflow(int_type c) override;
@@ -44,6 +46,7 @@ public:
           m_buffer(stream.rdbuf()),
           m_before(stream.rdbuf(&m_buffer)) {}
     ~PrintableStream() {
+        m_buffer.finish();
         m_stream.flush();
         m_stream.rdbuf(m_before);
     }
