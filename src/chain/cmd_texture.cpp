@@ -56,6 +56,7 @@ OIIO::ImageSpec texture_config(const Session& session, const Call& call) {
 // -otex and its like.
 void run_texture(Session& session, const Call& call) {
     namespace IBA = OIIO::ImageBufAlgo;
+    session.claim(call.argument(0));
     const std::string label = call.row().label();
     const auto mode = label == "oenv"    ? IBA::MakeTxEnvLatl
                       : label == "obump" ? IBA::MakeTxBumpWithSlopes

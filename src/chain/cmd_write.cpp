@@ -110,6 +110,7 @@ void write_one(Session& session, const Call& call, const ImagePtr& image,
         session.out << (session.debug ? "Output: " + filename + "\n" : "");
         session.print("Writing " + filename);
     }
+    session.claim(filename);
     session.wrote = image->written = true;
     if (session.dry_run) {
         return;

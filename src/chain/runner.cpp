@@ -5,6 +5,7 @@
 #include <OpenImageIO/imageio.h>
 #include <OpenImageIO/strutil.h>
 #include <OpenImageIO/sysutil.h>
+#include <algorithm>
 #include <cstring>
 #include <new>
 #include <ostream>
@@ -24,6 +25,7 @@ void execute(Session& session, Call& call) {
     stack.erase(first, stack.end());
     for (const ImagePtr& image : call.images) {
         image->used = true;
+        image->worked_on |= call.row().group != Group::Stack;
         if (call.row().group != Group::Stack) {
             session.note_format(*image);
         }
@@ -121,8 +123,9 @@ void Runner::run_word() {
     const std::string raw = m_words[flow.next];
     flow.command = flow.next++;
     m_where = raw.substr(0, raw.find(':'));
-    const std::string word = flow.running() ? with_values(m_session, raw) : raw;
+    const std::string word = flow.running() ? evaluated(flow.command) : raw;
     Token token = parse_token(word, m_session.compat);
+    note_varying(flow.command);
     if (!token.is_command) {
         run_file(word);
         return;
@@ -133,6 +136,7 @@ void Runner::run_word() {
     check_policy(Call(row, token, {}, m_session.compat));
     Strings arguments = take_arguments(row, token);
     locate_files(m_session, row, token, arguments);
+    note_varying(flow.command);
     if (flow.running() || row.control) {
         run_or_postpone(Call(row, std::move(token), std::move(arguments), m_session.compat));
     }
@@ -169,8 +173,12 @@ void Runner::run_file(const std::string& word) {
         m_where = "read";
         OIIO::Timer time;
         double& seconds = m_session.seconds["-i"];
+        const bool from_file = m_session.labels.count(word) == 0;
         push_file_or_label(m_session, word);
         seconds += time();
+        if (from_file) {
+            m_session.stack.back()->same_in_all_frames = !m_varies;
+        }
         run_postponed();
     }
 }
@@ -224,8 +232,8 @@ Strings Runner::take_arguments(const Command& row, const Token& token) {
             }
         }
         // Outputs of checks were taken from the command line as they are, before it ran.
-        const bool evaluated = m_session.flow.running() && row.group != Group::Check;
-        arguments.push_back(evaluated ? with_values(m_session, word) : word);
+        const bool runs = m_session.flow.running() && row.group != Group::Check;
+        arguments.push_back(runs ? evaluated(next) : word);
         ++next;
     }
     return arguments;
@@ -236,6 +244,59 @@ void Runner::refuse_to_overtake(const Call& call) const {
     if (call.pops() > 0 && !m_postponed.empty() && !m_session.compat) {
         throw CommandError("--" + m_session.waiting +
                            " still waits for an image, so this would not work on its result");
+    }
+}
+
+bool Runner::is_found_name(size_t at) const {
+    const std::vector<size_t>& found = m_session.frame.found;
+    return std::find(found.begin(), found.end(), at) != found.end();
+}
+
+// Of a name that was found on the disk nothing is an expression.
+std::string Runner::evaluated(size_t at) const {
+    return is_found_name(at) ? m_words[at] : with_values(m_session, m_words[at]);
+}
+
+void Runner::note_varying(size_t begin) {
+    const Frame& frame = m_session.frame;
+    m_varies = !frame.loops;
+    for (size_t at = begin; at < m_session.flow.next && !m_varies; ++at) {
+        m_varies = m_words[at].find('{') != std::string::npos ||
+                   std::find(frame.varying.begin(), frame.varying.end(), at) != frame.varying.end();
+    }
+}
+
+// Against a sequence it is a slip as often as it is meant: what is meant has to be said.
+void Runner::refuse_the_same_in_all_frames(const Call& call) const {
+    if (!m_session.judges || m_varies || call.row().group != Group::Compare) {
+        return;
+    }
+    for (auto image = m_session.stack.end() - call.pops(); image != m_session.stack.end();
+         ++image) {
+        if ((*image)->same_in_all_frames) {
+            const std::string& name = (*image)->name();
+            throw CommandError("\"" + name +
+                               "\" has no wildcard, it is the same in every frame "
+                               "(valid: # in its name; of a still that is meant for all frames: "
+                               "--wildcardoff " +
+                               name + " --wildcardon)");
+        }
+    }
+}
+
+// What the call has pushed, from `first` on.
+void Runner::mark_pushed(const Call& call, size_t first) const {
+    const auto& popped = call.images;
+    const bool same = !m_varies && (call.row().group == Group::Read || !popped.empty()) &&
+                      std::all_of(popped.begin(), popped.end(),
+                                  [](const ImagePtr& image) { return image->same_in_all_frames; });
+    const bool measured = call.row().group == Group::Compare || call.row().group == Group::Measure;
+    for (size_t i = first; i < m_session.stack.size(); ++i) {
+        const ImagePtr& image = m_session.stack[i];
+        if (std::find(popped.begin(), popped.end(), image) == popped.end()) {
+            image->same_in_all_frames = same;
+            image->worked_on |= measured;
+        }
     }
 }
 
@@ -263,8 +324,11 @@ void Runner::run_call(Call& call) {
         m_session.print("Performing '-" + call.row().names.front() +
                         (call.has_argument(0) ? "' with args:  " : "' ") + call.quoted_words());
     }
+    refuse_the_same_in_all_frames(call);
     OIIO::Timer time;
+    const size_t first = m_session.stack.size() - size_t(call.pops());
     execute(m_session, call);
+    mark_pushed(call, first);
     if (call.row().group != Group::General && call.row().group != Group::Control) {
         m_session.seconds["-" + call.row().names.front()] += time();
     }
@@ -301,6 +365,17 @@ void Runner::run_postponed() {
     }
 }
 
+// A shell's * in place of #, or a forgotten tests=, leaves images that nothing has looked at.
+void Runner::refuse_what_was_not_compared() const {
+    for (const ImagePtr& image : m_session.stack) {
+        if (m_session.judges && !image->worked_on && !image->written) {
+            throw CommandError("\"" + image->name() +
+                               "\" was never compared (valid: names with # "
+                               "for sequences, tests=K for K tests of one reference, or --pop)");
+        }
+    }
+}
+
 // "ref a b --hdrflip" compares a with b: the forgotten tests=2 must not go unnoticed.
 void Runner::warn_of_unused() {
     const bool listing = m_session.listing() || m_session.produced_by_name;
@@ -332,6 +407,7 @@ void Runner::finish() {
                            "measurements have their own, as --hdrflip:fail=X)");
     }
     check_outputs(m_session);
+    refuse_what_was_not_compared();
     warn_of_unused();
     if (!m_session.produced && !m_session.wrote && !m_session.for_images) {
         throw CommandError("produced no output. Did you forget -o?");
@@ -339,6 +415,7 @@ void Runner::finish() {
 }
 
 void Runner::finish_leniently() {
+    refuse_what_was_not_compared();
     if (!m_postponed.empty()) {
         m_session.warning(m_postponed.front().text(), "pending command never executed");
     }

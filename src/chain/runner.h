@@ -30,9 +30,15 @@ private:
         return static_cast<size_t>(call.pops()) <= m_session.stack.size();
     }
     void refuse_to_overtake(const Call& call) const;
+    bool is_found_name(size_t at) const;
+    std::string evaluated(size_t at) const;
+    void note_varying(size_t begin);
+    void refuse_the_same_in_all_frames(const Call& call) const;
+    void mark_pushed(const Call& call, size_t first) const;
     void run_or_postpone(Call call);
     void run_call(Call& call);
     void run_postponed();
+    void refuse_what_was_not_compared() const;
     void warn_of_unused();
     void finish();
     void finish_leniently();
@@ -43,7 +49,8 @@ private:
     std::string m_where; ///< the command that an error belongs to
     std::deque<Call> m_postponed;
     bool m_ended = false;
-    size_t m_count = 0; ///< of words that were run
+    bool m_varies = true; ///< the word in hand and its arguments may be others in other frames
+    size_t m_count = 0;   ///< of words that were run
     OIIO::Timer m_time;
 };
 

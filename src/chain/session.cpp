@@ -5,6 +5,8 @@
 #include <filesystem>
 #include <ostream>
 
+#include "text/error.h"
+
 namespace tonetool::chain {
 
 namespace {
@@ -105,6 +107,21 @@ void Session::keep_pixels_of(const std::string& filename) {
     }
     for (const auto& [name, image] : labels) {
         keep(*image);
+    }
+}
+
+void Session::claim(const std::string& filename) const {
+    if (!written || compat || dry_run) {
+        return;
+    }
+    std::lock_guard<std::mutex> lock(written->mutex);
+    const auto [first, is_new] =
+        written->frame_of.emplace(std::filesystem::path(filename).lexically_normal().string(),
+                                  std::pair(frame.number, frame.view));
+    if (!is_new && first->second != std::pair(frame.number, frame.view)) {
+        throw CommandError("\"" + filename + "\" was written by frame " +
+                           std::to_string(first->second.first) +
+                           " (valid: a name with # or {FRAME_NUMBER}, another for each frame)");
     }
 }
 

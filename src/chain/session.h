@@ -7,6 +7,7 @@
 #include <iosfwd>
 #include <map>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <set>
 #include <string>
@@ -39,6 +40,15 @@ struct Frame {
     int number = 0, padding = 0;
     std::string view;
     bool loops = false;
+    std::vector<size_t> varying{}; ///< places of words that are others in other frames, or that
+                                   ///< --wildcardoff says to be the same
+    std::vector<size_t> found{};   ///< of names found on the disk, in which nothing is evaluated
+};
+
+/// The frames of a command line, which may run at the same time, must not write one file.
+struct WrittenFiles {
+    std::mutex mutex;
+    std::map<std::string, std::pair<int, std::string>> frame_of; ///< number and view
 };
 
 /// What --diff lets pass.
@@ -125,6 +135,13 @@ struct Session {
 
     /// The name of an operator that waits for images; empty if none does.
     std::string waiting;
+
+    /// What was not compared must not be passed: an image that no command used is an error.
+    bool judges = false;
+    /// Which frame has written which file, of all frames of the command line.
+    std::shared_ptr<WrittenFiles> written;
+    /// A CommandError if another frame has written that file.
+    void claim(const std::string& filename) const;
 
     /// Where a file is that the chain names.
     std::string file(const std::string& name);

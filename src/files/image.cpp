@@ -38,8 +38,11 @@ std::unique_ptr<OIIO::ImageInput> open_input(const std::string& filename, const 
         throw CommandError("File does not exist: \"" + filename + "\"");
     }
     std::error_code ignored;
-    if (std::filesystem::is_fifo(filename, ignored)) {
-        throw CommandError("\"" + filename + "\" is a pipe, which images cannot be read from");
+    if (OIIO::Filesystem::exists(filename) &&
+        std::filesystem::is_other(filename, ignored)) { // or a socket
+        const bool pipe = std::filesystem::is_fifo(filename, ignored);
+        throw CommandError("\"" + filename + "\" is a " + (pipe ? "pipe" : "device") +
+                           ", which images cannot be read from");
     }
     auto input = OIIO::ImageInput::open(filename, &how.config);
     if (!input) {

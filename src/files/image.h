@@ -122,6 +122,10 @@ public:
 
     /// Whether some command has taken the image from the stack, or has written it.
     bool used = false, written = false;
+    /// Whether one has done more with it than move it about, or has measured it.
+    bool worked_on = false;
+    /// It is made of files that are the same in every frame, and of nothing else.
+    bool same_in_all_frames = false;
     bool noted = false; ///< its data type has gone into Session::read_format
 
     void rename(std::string name) { m_name = std::move(name); }

@@ -139,6 +139,7 @@ int hdrflip_pushes(const Call& call) {
 }
 
 void save(Session& session, const OIIO::ImageBuf& image, const std::string& filename) {
+    session.claim(filename);
     session.keep_pixels_of(filename);
     std::string why;
     if (!write_image(image, filename, why)) {

@@ -18,6 +18,7 @@ void measure_sample(Session& session, const Call& call) {
     if (!ToneAlgo::luminance_stats(stats, pixels, why, pixel_options(call))) {
         throw CommandError(why);
     }
+    session.check->sample->reference = reference.name();
     session.check->sample->max_luminance = stats.max;
     session.check->sample->median_luminance = stats.median > 0 ? stats.median : stats.median_lit;
     throw EndOfRun();
@@ -48,6 +49,14 @@ void read_shot_exposures(Session& session, const Call& call, HdrFlipOptions& opt
         measure_sample(session, call);
     }
     const sequence::ShotExposures range = range_of(session, from);
+    const std::string& name = call.images.front()->name();
+    if (from != "shot" && !sequence::was_measured_on(range, name)) {
+        session.warning(call.row().label(),
+                        "the exposures of \"" + from + "\" were measured on other files, \"" +
+                            name +
+                            "\" is not among them (valid: exposures=shot, or a FILE of "
+                            "--statistics with these references)");
+    }
     options.max_luminance = range.max_luminance;
     options.median_luminance = range.median_luminance;
 }

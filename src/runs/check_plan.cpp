@@ -17,7 +17,7 @@ using chain::Group;
 
 class Walk {
 public:
-    explicit Walk(const Strings& words) : m_words(words) {}
+    Walk(const Strings& words, bool compat) : m_words(words), m_compat(compat) {}
 
     CheckPlan plan() {
         while (m_next < m_words.size()) {
@@ -50,6 +50,8 @@ private:
     void take_command(const Command& row, size_t at) {
         const std::string& name = row.names.front();
         const bool check = row.group == Group::Check, manner = check || row.manner;
+        note_blocks(name);
+        note_what_is_judged(row, at);
         if (!manner) {
             keep(at, with_shot_exposures(m_words[at]));
         }
@@ -62,6 +64,30 @@ private:
                 break;
             }
             take_argument(row, manner, m_next++);
+        }
+    }
+
+    void note_blocks(const std::string& name) {
+        const bool begins = name == "if" || name == "while" || name == "for";
+        const bool ends = name == "endif" || name == "endwhile" || name == "endfor";
+        m_depth += begins ? 1 : ends && m_depth > 0 ? -1 : 0;
+    }
+
+    // oiiotool's own commands are as lenient as it is with --compat.
+    void note_what_is_judged(const Command& row, size_t at) {
+        if (m_compat && !row.own) {
+            return;
+        }
+        const std::string& name = row.names.front();
+        m_plan.compares |= row.group == Group::Compare && row.pops > 0;
+        m_plan.has_limits |= name == "diff" || name == "pdiff";
+        for (const auto& [key, text] : parse_token(m_words[at], true).modifiers) {
+            m_plan.has_limits |= key == "fail" || key == "warn";
+            for (const chain::Modifier& modifier : row.modifiers) {
+                if (modifier.key == key && modifier.writes() && m_depth == 0) {
+                    m_plan.always_written.push_back(at);
+                }
+            }
         }
     }
 
@@ -81,7 +107,7 @@ private:
     void take_argument(const Command& row, bool manner, size_t at) {
         const std::string& name = row.names.front();
         if (name == "frames") {
-            for (int frame : sequence::parse_frames(m_words[at])) {
+            for (int frame : sequence::parse_frames(m_words[at], m_compat)) {
                 m_plan.expected.push_back({frame, ""});
             }
         }
@@ -90,6 +116,9 @@ private:
         }
         if (row.group == Group::Write && name[0] == 'o') {
             m_plan.outputs.push_back(at);
+            if (m_depth == 0 && !m_compat) {
+                m_plan.always_written.push_back(at);
+            }
         } else if (name == "i") {
             m_plan.inputs.push_back(at);
         } else if (name == "label") {
@@ -145,7 +174,9 @@ private:
     size_t m_next = 0;
     CheckPlan m_plan;
     std::set<std::string> m_labels;
+    bool m_compat;
     int m_shot_commands = 0;
+    int m_depth = 0; ///< of --if, --while and --for
 };
 
 } // namespace
@@ -154,8 +185,8 @@ bool CheckPlan::is_input(size_t at) const {
     return std::find(inputs.begin(), inputs.end(), at) != inputs.end();
 }
 
-CheckPlan plan_check(const Strings& words) {
-    return Walk(words).plan();
+CheckPlan plan_check(const Strings& words, bool compat) {
+    return Walk(words, compat).plan();
 }
 
 } // namespace tonetool::runs

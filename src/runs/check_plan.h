@@ -19,6 +19,9 @@ struct CheckPlan {
     std::map<std::string, std::string> words; ///< of Group::Check, with their arguments: "json"
     std::string exposures;                    ///< of exposures=; empty: each frame has its own
     std::vector<size_t> inputs, outputs;      ///< indices of the words that name files
+    std::vector<size_t> always_written;       ///< and of those that write one in every frame
+    bool compares = false;                    ///< a command compares images
+    bool has_limits = false;                  ///< one has fail= or warn=, or is --diff
     /// The words without those that say which frames, where to and how fast; and where they are.
     Strings essence;
     std::vector<size_t> essence_at;
@@ -28,12 +31,18 @@ struct CheckPlan {
     std::string argument(const std::string& word) const { return has(word) ? words.at(word) : ""; }
     /// Frames are paired by number, and what is wrong with one is a result.
     bool is_check() const { return !words.empty() && !has("statistics") && !has("merge"); }
+    /// Something is passed or not: what was not compared must not be passed.
+    bool judges() const {
+        return is_check() || (has_limits && !has("statistics") && !has("merge"));
+    }
+    /// Over frames the line ends with a verdict.
+    bool has_verdict() const { return judges() || (compares && !has("statistics")); }
     /// So are those whose exposures are measured.
-    bool pairs_frames() const { return is_check() || has("statistics") || exposures == "shot"; }
+    bool pairs_frames() const { return judges() || has("statistics") || exposures == "shot"; }
     bool is_input(size_t at) const;
 };
 
 /// A CommandError where the words of a check are not whole or exclude each other.
-CheckPlan plan_check(const Strings& words);
+CheckPlan plan_check(const Strings& words, bool compat = false);
 
 } // namespace tonetool::runs

@@ -53,7 +53,7 @@ int PlanRun::run() {
     if (m_plan.check.has("statistics")) {
         return found;
     }
-    if (m_plan.check.is_check()) {
+    if (m_plan.check.is_check() || (m_plan.loops && m_plan.check.has_verdict())) {
         return check();
     }
     PlainFrames frames(m_context);

@@ -104,9 +104,10 @@ void evaluate_one(Session& session, std::vector<OIIO::ImageBuf>& images, FramePl
 
 } // namespace
 
-Evaluation evaluate(const Strings& words, std::vector<OIIO::ImageBuf> images,
+Evaluation evaluate(const Strings& given, std::vector<OIIO::ImageBuf> images,
                     const chain::Policy& policy) {
     know_all_commands();
+    const Strings words = with_values_apart(given);
     Evaluation result;
     std::ostringstream out, err;
     Session session(out, err, full_command_line(words, false));
@@ -114,7 +115,7 @@ Evaluation evaluate(const Strings& words, std::vector<OIIO::ImageBuf> images,
     session.policy = policy;
     session.for_images = true;
     try {
-        evaluate_one(session, images, plan_frames(words, policy.directory), result);
+        evaluate_one(session, images, plan_frames(words, policy.directory, true), result);
     } catch (const std::exception& problem) {
         session.error("", problem.what());
     }

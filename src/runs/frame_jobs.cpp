@@ -64,6 +64,8 @@ Session FrameContext::session(size_t index, std::ostream& out, std::ostream& err
         }
         return names;
     };
+    session.judges = plan.check.judges();
+    session.written = written;
     session.parallel = plan.parallel;
     session.memory = share_of_memory(plan.parallel);
     return session;
@@ -193,6 +195,7 @@ FrameResult CheckedFrames::unchecked(size_t index) const {
     FrameResult result;
     result.frame = run.frame.number;
     result.view = run.frame.view;
+    result.test_frame = run.test_frame;
     result.reference = names.size() > 1 ? names[0] : "";
     result.test = names.empty() ? "" : names[names.size() > 1 ? 1 : 0];
     return result;
@@ -219,6 +222,10 @@ CheckedFrames::Checked CheckedFrames::check(size_t index) const {
                                   ? "the command line cannot be run"
                                   : session.first_error;
     sequence::settle(result, error, words_at(run.words, plan.check.inputs));
+    if (!plan.check.judges() && error.empty() && result.measurements.empty()) {
+        result.status = Status::Measured; // an --if may have left the frame out
+        result.message.clear();
+    }
     if (painter.drawn) {
         checked.pictures = m_pictures.texts(result, *painter.drawn);
     }

@@ -18,6 +18,7 @@ namespace tonetool::runs {
 struct FrameContext {
     const FramePlan& plan;
     std::optional<sequence::ShotExposures> shot; ///< of exposures=
+    std::shared_ptr<chain::WrittenFiles> written = std::make_shared<chain::WrittenFiles>();
 
     chain::Session session(size_t index, std::ostream& out, std::ostream& err) const;
     measure::CheckPart part() const;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <iostream>
+#include <map>
 #include <unistd.h>
 
 #include "chain/call.h"
@@ -29,6 +30,9 @@ struct Scan {
     std::string directory{};
     sequence::PatternOptions options;
     std::vector<Pattern> patterns;
+    bool for_images = false;
+    std::vector<sequence::Item> tests; ///< of the second sequence, where they are others
+    std::vector<size_t> same; ///< words that --wildcardoff says to be the same in all frames
 };
 
 bool is_output(const std::string& name) {
@@ -71,6 +75,8 @@ Scan scan_words(const Strings& words) {
         }
         if (wildcards && !all && sequence::is_pattern(word)) {
             scan.patterns.push_back({i, output});
+        } else if (!wildcards) {
+            scan.same.push_back(i);
         }
         output = is_output(name.substr(0, name.find(':')));
         all = output && name.find(":all=") != std::string::npos;
@@ -112,34 +118,83 @@ void check_length(const Strings& words, const Scan& scan, const Pattern& pattern
     }
 }
 
-// What the frames of a check are: paired by number, whatever is on the disk.
-void pair_frames(const Strings& words, Scan& scan, const Files& numbered,
-                 std::vector<Files>& listings) {
-    FramePlan& plan = scan.plan;
+// The sequences that are read.
+std::vector<sequence::Side> sides_of(const Strings& words, const Scan& scan) {
     std::vector<sequence::Side> sides;
     for (const Pattern& pattern : scan.patterns) {
-        if (plan.check.is_input(pattern.at)) {
+        if (scan.plan.check.is_input(pattern.at)) {
             sides.push_back(
                 {words[pattern.at], sequence::list_files(words[pattern.at], scan.options)});
-            plan.sequences.push_back(pattern.at);
+            sequence::check_numbers(sides.back().pattern, sides.back().files);
         }
     }
-    const std::vector<sequence::Item> items =
-        sides.empty() ? numbered.items : sequence::paired(sides);
-    if (items.empty() && !scan.patterns.empty()) {
-        throw CommandError("no file matches \"" + words[scan.patterns.front().at] + "\"");
+    return sides;
+}
+
+// A range that no name takes would check the same files again and again, or others.
+void check_range_is_used(const Strings& words, const Scan& scan,
+                         const std::vector<sequence::Side>& sides) {
+    const std::vector<size_t>& inputs = scan.plan.check.inputs;
+    const auto evaluated = [](const std::string& word) {
+        return word.find('{') != std::string::npos;
+    };
+    if (scan.options.frames.empty() || inputs.empty()) {
+        return;
     }
-    auto side = sides.begin();
-    for (const Pattern& pattern : scan.patterns) {
-        const bool input = plan.check.is_input(pattern.at);
-        listings.push_back({items,
-                            input ? sequence::names_of(*side++, scan.options, items)
-                                  : sequence::file_names(words[pattern.at], scan.options, items),
-                            false});
+    if (sides.empty() && std::none_of(words.begin(), words.end(), evaluated)) {
+        throw CommandError("--frames " + scan.options.frames + ": no image that is read has a " +
+                           "wildcard, so each frame would be the same as \"" +
+                           words[inputs.front()] + "\" (valid: # in the name, or no --frames)");
+    }
+    const auto numbers = sequence::parse_frames(scan.options.frames, scan.options.lenient);
+    for (const sequence::Side& side : sides) {
+        std::vector<int> own;
+        for (const sequence::Item& item : side.files.items) {
+            own.push_back(item.frame);
+        }
+        if (!side.files.own_range || own == numbers) {
+            return;
+        }
+    }
+    if (!sides.empty()) {
+        throw CommandError("--frames " + scan.options.frames + " holds for no name: \"" +
+                           sides.front().pattern +
+                           "\" has a range of its own (valid: one of them)");
     }
 }
 
+// What the frames of a check are, whatever is on the disk.
+void pair_frames(const Strings& words, Scan& scan, const Files& numbered,
+                 std::vector<Files>& listings) {
+    FramePlan& plan = scan.plan;
+    const std::vector<sequence::Side> sides = sides_of(words, scan);
+    check_range_is_used(words, scan, sides);
+    sequence::Pairing pairs{numbered.items, {}, {}};
+    if (!sides.empty()) {
+        pairs = sequence::pair_sides(sides, scan.options);
+    }
+    if (pairs.items.empty() && !scan.patterns.empty()) {
+        throw CommandError("no file matches \"" + words[scan.patterns.front().at] + "\"");
+    }
+    size_t side = 0;
+    for (const Pattern& pattern : scan.patterns) {
+        Files listing{pairs.items, {}};
+        if (plan.check.is_input(pattern.at)) {
+            listing.from_disk = sides[side].files.from_disk;
+            listing.names = pairs.names[side++];
+            plan.sequences.push_back(pattern.at);
+        } else {
+            listing.names = sequence::file_names(words[pattern.at], scan.options, pairs.items);
+        }
+        listings.push_back(std::move(listing));
+    }
+    scan.tests = sides.size() > 1 ? pairs.own[1] : std::vector<sequence::Item>{};
+}
+
 void list_frames(const Strings& words, Scan& scan, Files& first, std::vector<Files>& listings) {
+    if (scan.plan.check.compares && !scan.for_images) {
+        sequence::check_same_numbers(sides_of(words, scan));
+    }
     for (const Pattern& pattern : scan.patterns) {
         listings.push_back(listing_of(scan, pattern, words[pattern.at], first));
         first = listings.front();
@@ -151,40 +206,79 @@ void list_frames(const Strings& words, Scan& scan, Files& first, std::vector<Fil
     }
 }
 
+void make_runs(const Strings& words, Scan& scan, const Files& first,
+               const std::vector<Files>& listings) {
+    FramePlan& plan = scan.plan;
+    Frame frame{0, scan.options.padding, "", true, scan.same, {}};
+    for (size_t p = 0; p < listings.size(); ++p) {
+        frame.varying.push_back(scan.patterns[p].at);
+        if (listings[p].from_disk && !plan.compat) {
+            frame.found.push_back(scan.patterns[p].at);
+        }
+    }
+    plan.loops = !scan.patterns.empty() || !first.items.empty();
+    plan.runs.resize(plan.loops ? first.items.size() : 1);
+    for (size_t i = 0; i < plan.runs.size(); ++i) {
+        FrameRun& run = plan.runs[i];
+        run.words = words;
+        for (size_t p = 0; p < listings.size(); ++p) {
+            run.words[scan.patterns[p].at] = listings[p].names[i];
+        }
+        if (plan.loops) {
+            run.frame = frame;
+            run.frame.number = first.items[i].frame;
+            run.frame.view = first.items[i].view;
+        }
+        if (!scan.tests.empty()) {
+            run.test_frame = scan.tests[i].frame;
+        }
+    }
+}
+
+// Each frame would be written over the one before. What an expression or an --if makes of it is
+// seen when it is written.
+void check_outputs_differ(const FramePlan& plan) {
+    for (size_t at : plan.check.always_written) {
+        std::map<std::string, Frame> frames;
+        for (const FrameRun& run : plan.runs) {
+            const std::string& name = run.words[at];
+            const Frame& first = frames.emplace(name, run.frame).first->second;
+            const bool same = first.number == run.frame.number && first.view == run.frame.view;
+            if (!same && name.find('{') == std::string::npos) {
+                throw CommandError("\"" + name +
+                                   "\" would be written by every frame over the one "
+                                   "before (valid: # or {FRAME_NUMBER} in the name)");
+            }
+        }
+    }
+}
+
 } // namespace
 
-FramePlan plan_frames(const Strings& words, const std::string& directory) {
+FramePlan plan_frames(const Strings& words, const std::string& directory, bool for_images) {
     Scan scan = scan_words(words);
     scan.directory = directory;
-    scan.plan.check = plan_check(words);
+    scan.for_images = for_images;
+    scan.plan.check = plan_check(words, scan.plan.compat);
+    scan.options.lenient = scan.plan.compat && !scan.plan.check.judges();
     if (scan.plan.check.has("merge")) {
         return scan.plan;
     }
-    std::vector<FrameRun>& runs = scan.plan.runs;
     Files first;
     for (int frame : scan.options.frames.empty() || !scan.patterns.empty()
                          ? std::vector<int>{}
-                         : sequence::parse_frames(scan.options.frames)) {
+                         : sequence::parse_frames(scan.options.frames, scan.options.lenient)) {
         first.items.push_back({frame, ""});
     }
     std::vector<Files> listings;
-    if (scan.plan.check.pairs_frames()) {
+    if (scan.plan.check.pairs_frames() && !for_images) {
         pair_frames(words, scan, first, listings);
         first = listings.empty() ? first : listings.front();
     } else {
         list_frames(words, scan, first, listings);
     }
-    scan.plan.loops = !scan.patterns.empty() || !first.items.empty();
-    runs.resize(scan.plan.loops ? first.items.size() : 1);
-    for (size_t i = 0; i < runs.size(); ++i) {
-        runs[i].words = words;
-        for (size_t p = 0; p < listings.size(); ++p) {
-            runs[i].words[scan.patterns[p].at] = listings[p].names[i];
-        }
-        if (scan.plan.loops) {
-            runs[i].frame = {first.items[i].frame, scan.options.padding, first.items[i].view, true};
-        }
-    }
+    make_runs(words, scan, first, listings);
+    check_outputs_differ(scan.plan);
     return scan.plan;
 }
 

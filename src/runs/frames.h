@@ -2,6 +2,7 @@
 #pragma once
 
 #include <OpenImageIO/timer.h>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,6 +18,8 @@ using chain::Frame;
 struct FrameRun {
     Strings words;
     Frame frame;
+    /// The number of its second sequence where that is paired by position and has another.
+    std::optional<int> test_frame{};
 };
 
 /// What the whole command line says about its frames.
@@ -30,6 +33,10 @@ struct FramePlan {
     std::vector<size_t> sequences; ///< of a check: indices of the input words with wildcards
 };
 
+/// "--frames=1-3" as "--frames", "1-3": of what says which frames, how many at a time and where
+/// results go.
+Strings with_values_apart(const Strings& words);
+
 /// --compat holds for the whole command line.
 bool is_compat(const Strings& words);
 
@@ -37,8 +44,10 @@ bool is_compat(const Strings& words);
 std::string full_command_line(const Strings& words, bool compat);
 
 /// A CommandError where sequences do not fit together or match no file.
-/// `directory` is that of relative file names; empty: the current one.
-FramePlan plan_frames(const Strings& words, const std::string& directory = "");
+/// `directory` is that of relative file names; empty: the current one. `for_images`: the line is
+/// run for one frame's images, and judges nothing.
+FramePlan plan_frames(const Strings& words, const std::string& directory = "",
+                      bool for_images = false);
 
 /// Frames done, rate and time left: a line on a terminal, or a line for each frame.
 class Progress {

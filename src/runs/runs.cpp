@@ -1,7 +1,10 @@
 #include "runs/runs.h"
 
+#include <iostream>
 #include <mutex>
 #include <ostream>
+#include <poll.h>
+#include <unistd.h>
 
 #include "chain/runner.h"
 #include "manual/help.h"
@@ -9,6 +12,7 @@
 #include "runs/check_run.h"
 #include "runs/frames.h"
 #include "runs/loop.h"
+#include "sequence/check_files.h"
 
 namespace tonetool::runs {
 
@@ -21,8 +25,19 @@ void know_all_commands() {
     });
 }
 
-int run(const Strings& words, std::ostream& out, std::ostream& err, bool workers) {
+namespace {
+
+// "| head" has read enough: no error, though what was not written is no success either.
+bool reader_has_gone() {
+    pollfd standard_output{STDOUT_FILENO, POLLOUT, 0};
+    return poll(&standard_output, 1, 0) > 0 && (standard_output.revents & (POLLERR | POLLHUP)) != 0;
+}
+
+} // namespace
+
+int run(const Strings& given, std::ostream& out, std::ostream& err, bool workers) {
     know_all_commands();
+    const Strings words = with_values_apart(given);
     if (words.empty()) {
         err << manual::usage_text();
         return 1;
@@ -33,7 +48,8 @@ int run(const Strings& words, std::ostream& out, std::ostream& err, bool workers
     whole.compat = compat;
     try {
         const FramePlan plan = plan_frames(words);
-        status = run_plan(words, plan, out, err, workers);
+        std::ostream& told = sequence::has_standard_output(plan.check.words) ? err : out;
+        status = run_plan(words, plan, told, err, workers);
         if (plan.runs.empty() && !plan.check.has("merge")) {
             whole.warning("", chain::no_output);
         }
@@ -41,7 +57,9 @@ int run(const Strings& words, std::ostream& out, std::ostream& err, bool workers
         whole.error("", problem.what());
     }
     out.flush();
-    if (!out) {
+    if (!out && &out == &std::cout && reader_has_gone()) {
+        status = worse(status, 1);
+    } else if (!out) {
         whole.error("", "cannot write to the standard output");
     }
     return worse(status, whole.exit_status());

@@ -1,6 +1,8 @@
 #include "sequence/check_files.h"
 
+#include <algorithm>
 #include <filesystem>
+#include <iostream>
 #include <set>
 #include <stdexcept>
 #include <string>
@@ -25,7 +27,28 @@ const std::map<std::string, Text>& texts() {
     return all;
 }
 
+// Texts alone go to the standard output, one of them.
+void check_standard_output(const std::string& start, const std::string& command,
+                           const CheckFiles& files) {
+    if (texts().count(command) == 0 && command != "statistics") {
+        throw std::runtime_error(start + "\"-\" is the standard output, which takes texts alone "
+                                         "(valid: --json -, --csv -, --junit -, --statistics -)");
+    }
+    for (const auto& [other, file] : files) {
+        if (file == "-" && other != command) {
+            throw std::runtime_error(start + "--" + other +
+                                     " has the standard output already "
+                                     "(valid: one of them)");
+        }
+    }
+}
+
 } // namespace
+
+bool has_standard_output(const CheckFiles& files) {
+    return std::any_of(files.begin(), files.end(),
+                       [](const auto& item) { return item.second == "-"; });
+}
 
 void check_places(const CheckFiles& files) {
     std::set<std::string> seen;
@@ -34,6 +57,10 @@ void check_places(const CheckFiles& files) {
             continue;
         }
         const std::string start = "--" + command + ": ";
+        if (file == "-") {
+            check_standard_output(start, command, files);
+            continue;
+        }
         const bool is_folder = command == "state" || command == "pictures";
         const fs::path folder = fs::path(file).parent_path();
         std::error_code none;
@@ -71,6 +98,10 @@ void attempt(std::vector<std::string>& errors, const std::function<void()>& writ
 }
 
 void write_text(const std::string& text, const std::string& file) {
+    if (file == "-") { // whether it could be written is asked at the program's end
+        std::cout << text << std::flush;
+        return;
+    }
     std::string why;
     if (!write_bytes(text, file, why)) {
         throw std::runtime_error(why);

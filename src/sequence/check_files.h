@@ -22,7 +22,10 @@ std::vector<std::string> write_results(const ShotResult& shot, const CheckFiles&
 /// Runs `write`; what it throws is added to the errors.
 void attempt(std::vector<std::string>& errors, const std::function<void()>& write);
 
-/// A text as a file; a runtime_error says why not.
+/// Whether one of the files is "-": the standard output is for it alone.
+bool has_standard_output(const CheckFiles& files);
+
+/// A text as a file, or as what the standard output gets of "-"; a runtime_error says why not.
 void write_text(const std::string& text, const std::string& file);
 
 } // namespace tonetool::sequence

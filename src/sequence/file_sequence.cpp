@@ -1,13 +1,17 @@
 #include "sequence/file_sequence.h"
 
 #include <OpenImageIO/filesystem.h>
-#include <OpenImageIO/strutil.h>
+#include <algorithm>
+#include <filesystem>
+#include <map>
 #include <regex>
 #include <stdexcept>
 
 namespace tonetool::sequence {
 
 namespace {
+
+namespace fs = std::filesystem;
 
 struct Parsed {
     std::string printf_style, frames;
@@ -29,37 +33,11 @@ Parsed parse(const std::string& pattern, int padding) {
     return result;
 }
 
-bool has_view(const std::string& pattern) {
-    return pattern.find("%V") != std::string::npos || pattern.find("%v") != std::string::npos;
-}
-
-std::string filled(const std::string& pattern, const Item& item) {
-    std::string name;
-    for (size_t at = 0; at < pattern.size(); ++at) {
-        size_t end = at + 1;
-        while (pattern[at] == '%' && end < pattern.size() && isdigit(pattern[end])) {
-            ++end;
-        }
-        char kind = pattern[at] == '%' && end < pattern.size() ? pattern[end] : '\0';
-        if (kind == 'd') {
-            int width = end > at + 1 ? OIIO::Strutil::stoi(pattern.substr(at + 1)) : 0;
-            name += OIIO::Strutil::fmt::format("{:0{}d}", item.frame, width);
-            at = end;
-        } else if ((kind == 'V' || kind == 'v') && end == at + 1 && !item.view.empty()) {
-            name += kind == 'V' ? item.view : item.view.substr(0, 1);
-            at = end;
-        } else {
-            name += pattern[at];
-        }
-    }
-    return name;
-}
-
-std::vector<Item> items_of(const std::vector<int>& frames, const std::string& pattern,
+std::vector<Item> items_of(const std::vector<int>& frames, const NamePattern& pattern,
                            const PatternOptions& options) {
     std::vector<Item> items;
     for (int frame : frames) {
-        if (!has_view(pattern)) {
+        if (!pattern.has_view()) {
             items.push_back({frame, ""});
             continue;
         }
@@ -68,6 +46,59 @@ std::vector<Item> items_of(const std::vector<int>& frames, const std::string& pa
         }
     }
     return items;
+}
+
+struct Found {
+    Item item;
+    std::string name;
+    bool operator<(const Found& o) const {
+        return std::tie(item.frame, item.view, name) < std::tie(o.item.frame, o.item.view, o.name);
+    }
+};
+
+// The files of one view in the folder that the pattern names.
+void look_into_folder(const std::string& printf_style, const std::string& view, bool negative,
+                      std::vector<Found>& found, Files& listing) {
+    const size_t begin = printf_style.rfind('/') + 1; // 0 without a folder
+    const NamePattern folder(begin == 0 ? "./" : printf_style.substr(0, begin));
+    const NamePattern name(printf_style.substr(begin));
+    if (folder.has_number()) { // only views have folders of their own
+        return;
+    }
+    const std::string place = folder.filled({0, view});
+    std::error_code problem;
+    for (fs::directory_iterator entry(place, problem), end; !problem && entry != end;
+         entry.increment(problem)) {
+        const std::string file = entry->path().filename().string();
+        const auto number = name.number_of(file, view);
+        if (!number || (number->value < 0 && !negative)) {
+            continue;
+        }
+        if (!number->of_width) {
+            listing.narrow.push_back(place + file);
+            continue;
+        }
+        if (number->beyond) {
+            listing.beyond.push_back(place + file);
+        }
+        found.push_back({{number->value, view}, place + file});
+    }
+}
+
+Files on_disk(const std::string& printf_style, const PatternOptions& options) {
+    Files listing;
+    listing.from_disk = true;
+    std::vector<Found> found;
+    const bool views = NamePattern(printf_style).has_view();
+    for (const std::string& view : views ? options.views : std::vector<std::string>{""}) {
+        look_into_folder(printf_style, view, !options.lenient, found, listing);
+    }
+    std::sort(found.begin(), found.end());
+    for (Found& one : found) {
+        listing.items.push_back(std::move(one.item));
+        listing.names.push_back(std::move(one.name));
+    }
+    return listing;
 }
 
 } // namespace
@@ -81,42 +112,67 @@ std::string without_range(const std::string& word) {
     return is_pattern(word) ? parse(word, 0).printf_style : word;
 }
 
-std::vector<int> parse_frames(const std::string& range) {
-    std::vector<int> frames;
-    if (!OIIO::Filesystem::enumerate_sequence(range, frames) || frames.empty()) {
-        throw std::runtime_error("no frame range: \"" + range +
-                                 "\" (valid: 1-10, 1,3,5-9, 1-10x2)");
+Files list_files(const std::string& pattern, const PatternOptions& options) {
+    const Parsed parsed = parse(pattern, options.padding);
+    const std::string& range = parsed.frames.empty() ? options.frames : parsed.frames;
+    if (range.empty()) {
+        return on_disk(parsed.printf_style, options);
     }
-    return frames;
+    Files listing;
+    listing.own_range = !parsed.frames.empty();
+    listing.items =
+        items_of(parse_frames(range, options.lenient), NamePattern(parsed.printf_style), options);
+    listing.names = file_names(pattern, options, listing.items);
+    return listing;
 }
 
-Files list_files(const std::string& pattern, const PatternOptions& options) {
-    Parsed parsed = parse(pattern, options.padding);
-    const std::string& range = parsed.frames.empty() ? options.frames : parsed.frames;
-    Files listing;
-    if (!range.empty()) {
-        listing.items = items_of(parse_frames(range), pattern, options);
-        listing.names = file_names(pattern, options, listing.items);
-        return listing;
+void check_numbers(const std::string& pattern, const Files& files) {
+    if (!files.beyond.empty()) {
+        throw std::runtime_error("the frame number of \"" + files.beyond.front() +
+                                 "\" is beyond 2147483647, so \"" + pattern +
+                                 "\" cannot tell frames apart (valid: the file's name itself)");
     }
-    std::vector<OIIO::string_view> views(options.views.begin(), options.views.end()), found;
-    std::vector<int> frames;
-    OIIO::Filesystem::scan_for_matching_filenames(parsed.printf_style, views, frames, found,
-                                                  listing.names);
-    for (size_t i = 0; i < listing.names.size(); ++i) {
-        listing.items.push_back({i < frames.size() ? frames[i] : 0,
-                                 i < found.size() ? std::string(found[i]) : std::string()});
+    std::map<std::pair<int, std::string>, std::string> names;
+    for (size_t i = 0; files.from_disk && i < files.items.size(); ++i) {
+        const Item& item = files.items[i];
+        const auto [known, is_new] =
+            names.emplace(std::pair(item.frame, item.view), files.names[i]);
+        if (!is_new) {
+            throw std::runtime_error("\"" + known->second + "\" and \"" + files.names[i] +
+                                     "\" are both frame " + std::to_string(item.frame) + " of \"" +
+                                     pattern +
+                                     "\" (valid: one file for each number; more # or @ "
+                                     "for more digits)");
+        }
     }
-    listing.from_disk = true;
-    return listing;
+    if (!files.narrow.empty()) {
+        throw std::runtime_error(
+            "\"" + files.narrow.front() + "\" has fewer digits than \"" + pattern +
+            "\", which does not see it (valid: @ for numbers "
+            "without leading zeros, or --frames for the frames that are meant)");
+    }
 }
 
 std::vector<std::string> file_names(const std::string& pattern, const PatternOptions& options,
                                     const std::vector<Item>& items) {
-    const std::string printf_style = parse(pattern, options.padding).printf_style;
+    const NamePattern name(parse(pattern, options.padding).printf_style);
     std::vector<std::string> names;
     for (const Item& item : items) {
-        names.push_back(filled(printf_style, item));
+        names.push_back(name.filled(item));
+    }
+    return names;
+}
+
+std::vector<std::string> input_names(const std::string& pattern, const PatternOptions& options,
+                                     const std::vector<Item>& items) {
+    const NamePattern name(parse(pattern, options.padding).printf_style);
+    std::vector<std::string> names = file_names(pattern, options, items);
+    for (size_t i = 0; i < items.size(); ++i) {
+        const std::string other = items[i].frame < 0 ? name.filled(items[i], true) : "";
+        if (!other.empty() && !OIIO::Filesystem::exists(names[i]) &&
+            OIIO::Filesystem::exists(other)) {
+            names[i] = other;
+        }
     }
     return names;
 }

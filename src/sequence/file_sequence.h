@@ -4,17 +4,16 @@
 #include <string>
 #include <vector>
 
-namespace tonetool::sequence {
+#include "sequence/frame_range.h"
+#include "sequence/name_pattern.h"
 
-struct Item {
-    int frame = 0;
-    std::string view; ///< empty where the pattern has no %V or %v
-};
+namespace tonetool::sequence {
 
 struct PatternOptions {
     std::string frames; ///< for patterns without numbers of their own; empty: what is on the disk
     int padding = 0;    ///< digits instead of the pattern's; 0: the pattern's
     std::vector<std::string> views{"left", "right"};
+    bool lenient = false; ///< as oiiotool: ranges, and no negative numbers on the disk
 };
 
 /// Whether the word has #, @, %d, %04d, %V or %v.
@@ -24,20 +23,30 @@ bool is_pattern(const std::string& word);
 /// other word stays as it is.
 std::string without_range(const std::string& word);
 
-/// "1-10", "1,3,5-9", "1-10x2", "10-1", "1-10y3". A runtime_error for anything else.
-std::vector<int> parse_frames(const std::string& range);
-
 struct Files {
-    std::vector<Item> items;
-    std::vector<std::string> names; ///< one each
-    bool from_disk = false;         ///< and not from a range
+    std::vector<Item> items{};
+    std::vector<std::string> names{}; ///< one each
+    bool from_disk = false;           ///< and not from a range
+    bool own_range = false;           ///< which the pattern has itself
+    /// Of the disk: names with numbers of fewer digits than the pattern's, which are not listed,
+    /// and such with numbers beyond an int.
+    std::vector<std::string> narrow{}, beyond{};
 };
 
 /// The files of a pattern, by its own numbers, by options.frames or by what is on the disk.
 Files list_files(const std::string& pattern, const PatternOptions& options);
 
+/// A runtime_error where it is not certain which file has which number: two have one number, a
+/// number is beyond an int, or there are files of the same name with fewer digits.
+void check_numbers(const std::string& pattern, const Files& files);
+
 /// The pattern with the numbers and views of `items`.
 std::vector<std::string> file_names(const std::string& pattern, const PatternOptions& options,
                                     const std::vector<Item>& items);
+
+/// The same of files to be read: one with a negative number is looked for in both forms that
+/// programs give it, "a.-002.exr" and "a.-0002.exr".
+std::vector<std::string> input_names(const std::string& pattern, const PatternOptions& options,
+                                     const std::vector<Item>& items);
 
 } // namespace tonetool::sequence

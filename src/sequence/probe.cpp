@@ -5,6 +5,7 @@
 #include <OpenImageIO/imageio.h>
 #include <OpenImageIO/strutil.h>
 #include <algorithm>
+#include <filesystem>
 #include <optional>
 
 #include "imagebuf/guard.h"
@@ -42,6 +43,11 @@ struct Size {
 
 // Of the first subimage; nullopt with the reason where something of the file cannot be read.
 std::optional<Size> readable(const std::string& file, std::string& why) {
+    std::error_code ignored;
+    if (std::filesystem::is_other(file, ignored)) {
+        why = "it is a pipe or a device";
+        return std::nullopt;
+    }
     const auto in = OIIO::ImageInput::open(file);
     if (!in) {
         why = OIIO::geterror();

@@ -98,7 +98,18 @@ std::map<Status, size_t> counts_of(const ShotResult& shot) {
 }
 
 std::string name_of(const FrameResult& frame) {
-    return std::to_string(frame.frame) + (frame.view.empty() ? "" : " " + frame.view);
+    return std::to_string(frame.frame) + (frame.view.empty() ? "" : " " + frame.view) +
+           (frame.test_frame ? " (test " + std::to_string(*frame.test_frame) + ")" : "");
+}
+
+// What is said of a worst frame that is not bad.
+std::string measured_text(const FrameResult& frame) {
+    if (!frame.message.empty() || frame.measurements.empty() ||
+        frame.measurements.front().quantities.empty()) {
+        return frame.message;
+    }
+    const auto& [quantity, value] = frame.measurements.front().quantities.front();
+    return format("{}: {} {:.6g}", frame.measurements.front().command, quantity, value);
 }
 
 std::string sentence_of(const ShotResult& shot) {
@@ -110,10 +121,10 @@ std::string sentence_of(const ShotResult& shot) {
     std::string text =
         format("{} {}: {}", shot.frames.size(), shot.frames.size() == 1 ? "frame" : "frames",
                OIIO::Strutil::join(parts, ", "));
-    if (has_problem(shot.verdict) && !shot.worst.empty()) {
-        const FrameResult& worst = shot.frames[shot.worst.front()];
-        text += format("; worst: frame {}{}", name_of(worst),
-                       worst.message.empty() ? "" : " (" + worst.message + ")");
+    const FrameResult& worst = shot.frames[shot.worst.front()];
+    const std::string why = measured_text(worst);
+    if (has_problem(shot.verdict) || (shot.frames.size() > 1 && !why.empty())) {
+        text += format("; worst: frame {}{}", name_of(worst), why.empty() ? "" : " (" + why + ")");
     }
     return text;
 }

@@ -84,6 +84,7 @@ struct Measurement {
 struct FrameResult {
     int frame = 0;
     std::string view;
+    std::optional<int> test_frame; ///< of the test, paired by position with another number
     Status status = Status::Error;
     std::string message;         ///< the first thing that a person must know; empty where passed
     std::string reference, test; ///< files; reference is empty where there is only one sequence
@@ -96,12 +97,14 @@ struct FrameResult {
 
 /// The luminance that the exposures of a whole shot follow from.
 struct ShotExposures {
-    double max_luminance = 0;    ///< the maximum of the frames' maxima
-    double median_luminance = 0; ///< the median of the frames' medians
-    int frames = 0;              ///< that were measured
+    double max_luminance = 0;              ///< the maximum of the frames' maxima
+    double median_luminance = 0;           ///< the median of the frames' medians
+    int frames = 0;                        ///< that were measured
+    std::vector<std::string> references{}; ///< the files that were, by frame
+    std::string folder{}; ///< of the file that this was read from; not part of any file
     bool operator==(const ShotExposures& o) const {
         return max_luminance == o.max_luminance && median_luminance == o.median_luminance &&
-               frames == o.frames;
+               frames == o.frames && references == o.references;
     }
 };
 

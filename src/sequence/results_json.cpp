@@ -227,6 +227,9 @@ Measurement measurement_of(const ordered_json& from) {
 ordered_json json_of(const FrameResult& frame) {
     ordered_json to{{"frame", frame.frame}};
     put(to, "view", frame.view);
+    if (frame.test_frame) {
+        to["test_frame"] = *frame.test_frame;
+    }
     to["status"] = status_name(frame.status);
     put(to, "message", frame.message);
     put(to, "reference", frame.reference);
@@ -250,6 +253,9 @@ FrameResult frame_of(const ordered_json& from) {
     FrameResult frame;
     frame.frame = whole_number<int>(from.at("frame"), "frame");
     frame.view = text(from, "view");
+    if (from.contains("test_frame")) {
+        frame.test_frame = whole_number<int>(from["test_frame"], "test_frame");
+    }
     frame.status = status(from);
     frame.message = text(from, "message");
     frame.reference = text(from, "reference");
@@ -270,15 +276,20 @@ FrameResult frame_of(const ordered_json& from) {
 }
 
 ordered_json json_of(const ShotExposures& exposures) {
-    return {{"max_luminance", of(exposures.max_luminance)},
-            {"median_luminance", of(exposures.median_luminance)},
-            {"frames", exposures.frames}};
+    ordered_json to{{"max_luminance", of(exposures.max_luminance)},
+                    {"median_luminance", of(exposures.median_luminance)},
+                    {"frames", exposures.frames}};
+    if (!exposures.references.empty()) {
+        to["references"] = exposures.references;
+    }
+    return to;
 }
 
 ShotExposures exposures_of(const ordered_json& from) {
     return {number(from.at("max_luminance"), "max_luminance"),
             number(from.at("median_luminance"), "median_luminance"),
-            whole_number<int>(from.at("frames"), "frames")};
+            whole_number<int>(from.at("frames"), "frames"), values<std::string>(from, "references"),
+            ""};
 }
 
 ordered_json worst_of(const ShotResult& shot) {
@@ -294,9 +305,9 @@ ordered_json worst_of(const ShotResult& shot) {
 
 ordered_json counts_of(const ShotResult& shot) {
     ordered_json counts = ordered_json::object();
-    for (Status one : {Status::Passed, Status::Measured, Status::Warning, Status::Failed,
-                       Status::SizeMismatch, Status::Missing, Status::Unreadable, Status::Error,
-                       Status::Crashed}) {
+    for (Status one :
+         {Status::Passed, Status::Measured, Status::Warning, Status::Failed, Status::SizeMismatch,
+          Status::Missing, Status::Unreadable, Status::Error, Status::Crashed}) {
         counts[status_name(one)] = 0;
     }
     for (const FrameResult& frame : shot.frames) {

@@ -14,12 +14,13 @@ struct ExposureSample {
     std::string view;
     double max_luminance = 0;
     double median_luminance = 0; ///< as HDR-FLIP takes it: of the lit pixels if most are black
+    std::string reference{};     ///< the file
 };
 
 using ExposureSamples = std::vector<ExposureSample>;
 
-/// The maximum of the maxima and the median of the medians (of an even number the upper one) of
-/// the frames that are not black. A runtime_error where there is none.
+/// Of the samples by frame: the maximum of the maxima and the median of the medians (of an even
+/// number the upper one) of the frames that are not black. A runtime_error where there is none.
 ShotExposures shot_exposures(const ExposureSamples& samples);
 
 /// The range as a text that tells it from any other.
@@ -33,6 +34,10 @@ ExposureSamples samples_from_json(const std::string& text);
 /// The range that an exposure file, or the --json of a check, holds. A runtime_error names the
 /// file.
 ShotExposures read_exposures(const std::string& file);
+
+/// Whether the range was measured on that file, among others. Files that keep no names are taken
+/// at their word.
+bool was_measured_on(const ShotExposures& range, const std::string& file);
 
 /// The whole of a file; a runtime_error where that cannot be read.
 std::string read_text(const std::string& file);

@@ -71,6 +71,9 @@ Row row_of(Columns& columns, const FrameResult& frame) {
     Row row;
     columns.put(row, "frame", std::to_string(frame.frame));
     columns.put(row, "view", cell(frame.view));
+    if (frame.test_frame) {
+        columns.put(row, "test_frame", std::to_string(*frame.test_frame));
+    }
     columns.put(row, "status", status_name(frame.status));
     columns.put(row, "message", cell(frame.message));
     columns.put(row, "reference", cell(frame.reference));
@@ -127,8 +130,9 @@ std::string outcome(const FrameResult& frame) {
 }
 
 std::string test_case(const FrameResult& frame) {
-    const std::string name =
-        format("frame {:04d}{}{}", frame.frame, frame.view.empty() ? "" : " ", escaped(frame.view));
+    const std::string name = format(
+        "frame {:04d}{}{}{}", frame.frame, frame.view.empty() ? "" : " ", escaped(frame.view),
+        frame.test_frame ? format(" (test {:04d})", *frame.test_frame) : "");
     const std::string file = escaped(frame.test);
     const std::string inside = outcome(frame);
     return format("  <testcase classname=\"{}\" name=\"{}\"", file.empty() ? "check" : file, name) +

@@ -78,7 +78,8 @@ function number(value) {
 const stops = (value) => (value > 0 ? "+" : value < 0 ? "\u2212" : "") +
   Math.abs(Math.round(value * 10) / 10).toFixed(1);
 
-const frameName = (frame) => String(frame.frame) + (frame.view ? ` ${frame.view}` : "");
+const frameName = (frame) => String(frame.frame) + (frame.view ? ` ${frame.view}` : "")
+  + (frame.test_frame === undefined ? "" : ` (test ${frame.test_frame})`);
 const entries = (list) => (Array.isArray(list) ? list : Object.entries(list || {}));
 
 /** Every command that measured, in the order of the command line. */

@@ -29,6 +29,22 @@ TEST(ShotExposures, Order_has_no_say_and_black_frames_have_none) {
     EXPECT_THROW(shot_exposures({{4, "", 0, 0}}), std::runtime_error);
 }
 
+TEST(ShotExposures, Keep_the_names_of_what_they_were_measured_on) {
+    ExposureSamples named = samples;
+    for (ExposureSample& sample : named) {
+        sample.reference = "nowhere/r." + std::to_string(sample.frame) + ".exr";
+    }
+    const ShotExposures range = shot_exposures(samples_from_json(to_json(named)));
+    EXPECT_THAT(range.references,
+                testing::ElementsAre("nowhere/r.1.exr", "nowhere/r.2.exr", "nowhere/r.3.exr"));
+    EXPECT_TRUE(was_measured_on(range, "nowhere/./r.2.exr"));
+    EXPECT_FALSE(was_measured_on(range, "elsewhere/r.2.exr"));
+    EXPECT_FALSE(was_measured_on(range, "r.2.exr"));
+    EXPECT_FALSE(was_measured_on(range, "nowhere/r.4.exr"));
+    EXPECT_TRUE(was_measured_on(shot_exposures(samples), "r.4.exr")); // nothing is known
+    EXPECT_FALSE(range == shot_exposures(samples));
+}
+
 TEST(ShotExposures, Files_come_back_to_the_bit_sorted) {
     const ExposureSamples back = samples_from_json(to_json(samples));
     ASSERT_EQ(back.size(), 3u);
