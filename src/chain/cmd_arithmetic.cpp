@@ -28,8 +28,8 @@ bool contrast(Op& op) {
     const Floats low = given("min", 0), high = given("max", 1);
     bool done = IBA::contrast_remap(op.dst, op.a(), given("black", 0), given("white", 1), low, high,
                                     given("scontrast", 1), given("sthresh", 0.5F));
-    if (op.call.has("gamma") && !op.session.compat) {
-        throw CommandError("gamma= has no effect in oiiotool (valid: --powc after --contrast)");
+    if (op.call.has("gamma")) {
+        op.session.warning(op.call.text(), "gamma= has no effect, as in oiiotool (--powc has)");
     }
     return done && (!op.flag("clamp") || IBA::clamp(op.dst, op.dst, low, high));
 }
@@ -44,17 +44,17 @@ const std::string limits = "min=VALUES: lowest value, one or one per channel\n"
                            "max=VALUES: highest value, one or one per channel\n";
 
 const std::vector<OpRow> constant_rows = {
-    {"addc VALUES", 1, "Add a constant (0.5) or one per channel (1,1.25,0.5)",
+    {"addc|cadd VALUES", 1, "Add a constant (0.5) or one per channel (1,1.25,0.5)",
      [](Op& op) { return IBA::add(op.dst, op.a(), op.constants(0)); }},
-    {"subc VALUES", 1, "Subtract a constant or one per channel",
+    {"subc|csub VALUES", 1, "Subtract a constant or one per channel",
      [](Op& op) { return IBA::sub(op.dst, op.a(), op.constants(0)); }},
-    {"mulc VALUES", 1, "Multiply by a constant or one per channel",
+    {"mulc|cmul VALUES", 1, "Multiply by a constant or one per channel",
      [](Op& op) { return IBA::mul(op.dst, op.a(), op.constants(1)); }},
     {"divc VALUES", 1, "Divide by a constant or one per channel",
      [](Op& op) { return IBA::div(op.dst, op.a(), op.constants(1)); }},
     {"absdiffc VALUES", 1, "Absolute difference to a constant or one per channel",
      [](Op& op) { return IBA::absdiff(op.dst, op.a(), op.constants(0)); }},
-    {"powc VALUES", 1, "Raise to a power or one per channel",
+    {"powc|cpow VALUES", 1, "Raise to a power or one per channel",
      [](Op& op) { return IBA::pow(op.dst, op.a(), op.constants(1)); }},
     {"maxc VALUES", 1, "The larger of the values and a constant or one per channel",
      [](Op& op) { return IBA::max(op.dst, op.a(), op.constants(0)); }},

@@ -80,7 +80,12 @@ void print_count(Session& session, OIIO::imagesize_t count, const std::string& o
 }
 
 void colorcount(const Op& op) {
-    const Strings colors = split(op.call.argument(0), ';');
+    // oiiotool's help has a semicolon between the colours, but what it takes is a colon.
+    std::string list = op.call.argument(0);
+    if (!op.session.compat) {
+        std::replace(list.begin(), list.end(), ';', ':');
+    }
+    const Strings colors = split(list, ':');
     Floats values;
     for (const std::string& color : colors) {
         const Floats one = op.per_channel("COLORLIST", color, 0);
@@ -164,7 +169,7 @@ std::vector<Command> channel_commands() {
     }
     all.push_back(free_row(
         Group::Print, "colorcount COLORLIST", 1, 1,
-        "Count the pixels of each colour (COLOR;COLOR...)",
+        "Count the pixels of each colour (COLOR:COLOR:...)",
         [](Session& session, const Call& call) { run_count(session, call, colorcount); },
         "eps=VALUES: how near a value must be (0.001)"));
     all.push_back(free_row(

@@ -3,6 +3,7 @@
 
 #include "chain/call.h"
 #include "chain/session.h"
+#include "files/attributes.h"
 #include "text/error.h"
 #include "text/expression.h"
 
@@ -103,6 +104,11 @@ void run_set(Session& session, const Call& call) {
         session.variables.attribute(name, OIIO::Strutil::stof(value));
     } else if (type.empty() || type == "string") {
         session.variables.attribute(name, value);
+    } else if (const OIIO::TypeDesc packed(type);
+               packed == OIIO::TypeTimeCode || packed == OIIO::TypeRational) {
+        OIIO::ImageSpec spec;
+        files::set_attribute(spec, name, value, packed);
+        session.variables.merge(spec.extra_attribs, true);
     } else {
         session.variables.attribute(name, OIIO::TypeDesc(type), value);
     }

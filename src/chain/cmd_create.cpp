@@ -45,12 +45,23 @@ void run_create(Session& session, const Call& call) {
     push_created(session, blank(session, call, 0));
 }
 
+// A value for each channel. Beyond them there may be an alpha, which these commands do not use, as
+// oiiotool's do not.
+Floats color_of(const Op& op, const std::string& key, float otherwise = 1) {
+    const size_t channels = size_t(op.a().nchannels());
+    const auto words = op.call.text(key);
+    Floats color = words ? op.per_value(key, *words, otherwise, channels + 1)
+                         : Floats(channels, otherwise);
+    color.resize(channels);
+    return color;
+}
+
 // The values of all of these modifiers, or none.
 Corners colors(const Op& op, const Strings& keys) {
     Corners found;
     for (const std::string& key : keys) {
         if (op.call.has(key)) {
-            found.push_back(op.values(key, 1));
+            found.push_back(color_of(op, key));
         }
     }
     return found.size() == keys.size() ? found : Corners();
@@ -79,13 +90,13 @@ bool fill(Op& op, const OIIO::ROI& window) {
         }
         op.session.warning(op.call.text(), why + ": filling with white.");
     }
-    return IBA::fill(op.dst, op.values("color", 1), window);
+    return IBA::fill(op.dst, color_of(op, "color"), window);
 }
 
 bool checker(Op& op) {
     const int width = op.integer("width", 8);
     return IBA::checker(op.dst, width, op.integer("height", width), op.integer("depth", width),
-                        op.values("color1", 0), op.values("color2", 1));
+                        color_of(op, "color1", 0), color_of(op, "color2"));
 }
 
 bool draw_pattern(Op& op, const std::string& pattern) {
@@ -100,7 +111,7 @@ bool draw_pattern(Op& op, const std::string& pattern) {
         return fill(op, op.dst.roi());
     }
     if (pattern == "constant") {
-        return IBA::fill(op.dst, op.values("color", 1));
+        return IBA::fill(op.dst, color_of(op, "color"));
     }
     if (!op.session.compat) {
         check_choice("pattern", pattern, names);
@@ -145,11 +156,19 @@ std::vector<int> positions(const Op& op, size_t least) {
     return all;
 }
 
+// A colour to draw with: after the channels its alpha, which counts where the image has none. As in
+// oiiotool one value is that of the alpha, too.
+Floats paint(const Op& op) {
+    const size_t values = size_t(op.a().nchannels()) + 1;
+    const auto words = op.call.text("color");
+    return words ? op.per_value("color", *words, 1, values) : Floats(values, 1.0F);
+}
+
 bool point(Op& op) {
     const std::vector<int> at = positions(op, 2);
     bool done = op.dst.copy(op.a());
     for (size_t i = 0; done && i + 1 < at.size(); i += 2) {
-        done = IBA::render_point(op.dst, at[i], at[i + 1], op.values("color", 1));
+        done = IBA::render_point(op.dst, at[i], at[i + 1], color_of(op, "color"));
     }
     return done;
 }
@@ -159,7 +178,7 @@ bool line(Op& op) {
     bool done = op.dst.copy(op.a());
     for (size_t i = 0; done && i + 3 < at.size(); i += 2) {
         done = IBA::render_line(op.dst, at[i], at[i + 1], at[i + 2], at[i + 3],
-                                op.values("color", 1), i > 0);
+                                paint(op), i > 0);
     }
     return done;
 }
@@ -167,7 +186,7 @@ bool line(Op& op) {
 bool box(Op& op) {
     const std::vector<int> at = positions(op, 4);
     return op.dst.copy(op.a()) && IBA::render_box(op.dst, at[0], at[1], at[2], at[3],
-                                                  op.values("color", 1), op.flag("fill"));
+                                                  paint(op), op.flag("fill"));
 }
 
 bool fill_window(Op& op) {
@@ -204,7 +223,7 @@ bool text(Op& op) {
     return op.dst.copy(op.a()) &&
            IBA::render_text(op.dst, op.integer("x", spec.x + spec.width / 2),
                             op.integer("y", spec.y + spec.height / 2), op.call.argument(0),
-                            op.integer("size", 16), op.text("font"), op.values("color", 1), x, y,
+                            op.integer("size", 16), op.text("font"), paint(op), x, y,
                             op.integer("shadow", 0));
 }
 

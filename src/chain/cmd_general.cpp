@@ -61,6 +61,8 @@ std::vector<Command> talk_rows() {
                       set_on<&Session::runstats>)),
         of_manner(row("warnings-exit", "Exit with status 2 when there were warnings",
                       set_on<&Session::warnings_exit>)),
+        row("nostderr", "Errors and warnings go to the standard output",
+            set_on<&Session::complains_to_out>),
         row("no-error-exit", "After an error go on with the next command",
             set_off<&Session::error_exit>),
     };
@@ -73,7 +75,7 @@ std::vector<Command> work_rows() {
         row("a", "Do operations on all subimages and MIP levels", set_on<&Session::all_subimages>),
         row("u", "Update: outputs that are newer than all inputs stay as they are",
             set_on<&Session::update>),
-        row("no-clobber", "Outputs that exist stay as they are", set_on<&Session::no_clobber>),
+        row("no-clobber|noclobber", "Outputs that exist stay as they are", set_on<&Session::no_clobber>),
         row("no-autopremult", "Do not multiply colour by an alpha that is not associated",
             [](Session& session, const Call&) {
                 session.input.config.attribute("oiio:UnassociatedAlpha", 1);
@@ -84,7 +86,7 @@ std::vector<Command> work_rows() {
                     session.input.config.attribute("oiio:UnassociatedAlpha", 0);
                 }
             }),
-        row("autoorient", "--reorient every image that is read", set_on<&Session::autoorient>),
+        row("autoorient|auto-orient", "--reorient every image that is read", set_on<&Session::autoorient>),
         row(
             "autocc", "Convert colour by file names, to the linear space and back",
             [](Session& session, const Call& call) {

@@ -207,7 +207,7 @@ const std::vector<OpRow> scale_rows = {
 const std::vector<OpRow> turn_rows = {
     {"rotate90", 1, "Rotate by 90 degrees clockwise",
      [](Op& op) { return IBA::rotate90(op.dst, op.a()); }},
-    {"rotate180", 1, "Rotate by 180 degrees",
+    {"rotate180|flipflop", 1, "Rotate by 180 degrees",
      [](Op& op) { return IBA::rotate180(op.dst, op.a()); }},
     {"rotate270", 1, "Rotate by 270 degrees clockwise",
      [](Op& op) { return IBA::rotate270(op.dst, op.a()); }},

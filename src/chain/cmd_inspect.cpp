@@ -47,8 +47,14 @@ void print_listing(Session& session, const Call& call, Listing what) {
 void run_printinfo(Session& session, const Call& call) {
     Listing what;
     what.verbose = call.flag("verbose", true);
+    what.stats = call.flag("stats", false);
     const auto format = call.choice("format", {"text", "xml"});
-    what.format = session.compat ? "" : format.value_or(""); // oiiotool takes no notice of it
+    if (format && session.compat) {
+        session.warning(call.text(), "format= has no effect here, as in oiiotool");
+    } else if (call.flag("native", false) && !session.compat) {
+        what.named = call.images[0]->part().from_file();
+    }
+    what.format = session.compat ? "" : format.value_or("");
     print_listing(session, call, what);
 }
 
@@ -56,14 +62,26 @@ void run_printstats(Session& session, const Call& call) {
     Listing what;
     what.stats = true;
     what.verbose = session.verbose;
-    if (auto text = call.text("roi"); text && !session.compat) {
-        int end = 0, x = 0, y = 0, width = 0, height = 0;
-        if (std::sscanf(text->c_str(), "%dx%d%d%d%n", &width, &height, &x, &y, &end) != 4 ||
-            size_t(end) < text->size()) {
-            throw CommandError("roi \"" + *text + "\" is not WxH+X+Y");
+    // Its help says roi=, but what oiiotool takes is window=.
+    if (call.has("roi") && session.compat) {
+        session.warning(call.text(), "roi= has no effect, as in oiiotool (window= has)");
+    }
+    auto text = call.text("window");
+    text = text || session.compat ? text : call.text("roi");
+    if (text) {
+        const OIIO::ImageSpec& spec = call.images[0]->part().header();
+        OIIO::ROI window = spec.roi();
+        try {
+            adjust_window(session, call, *text, Geometry::Scalable, window);
+            window.chbegin = 0;
+            window.chend = spec.nchannels;
+            what.roi = window;
+        } catch (const CommandError& problem) {
+            if (!session.compat) {
+                throw;
+            }
+            session.error(call.text(), problem.what()); // and of all pixels, as oiiotool
         }
-        what.roi = {x, x + width, y, y + height,
-                    0, 1,         0, call.images[0]->part().header().nchannels};
     }
     print_listing(session, call, what);
 }
@@ -114,9 +132,13 @@ std::vector<Command> inspect_commands() {
         row("echo", {"TEXT"}, "Print a text", run_echo,
             {{"newline", "N", "line ends after it (1)"}}),
         image_row("printinfo", "Print information about the current image", run_printinfo,
-                  {format, {"verbose", "0|1", "with the metadata (1)"}}),
+                  {format,
+                   {"verbose", "0|1", "with the metadata (1)"},
+                   {"stats", "0|1", "and with pixel statistics (0)"},
+                   {"native", "0|1", "the data type of the file, not of the memory (0)"}}),
         image_row("printstats", "Print pixel statistics of the current image", run_printstats,
-                  {{"roi", "WxH+X+Y", "of that part of it"}}),
+                  {{"window", "GEOM", "of that part of it"},
+                   {"roi", "GEOM", "the same"}}),
         row("list-formats", {}, "List the image formats and their file name extensions",
             run_list_formats),
     };

@@ -111,15 +111,15 @@ const std::vector<HeaderRow> attribute_rows = {
 
 const std::vector<HeaderRow> window_rows = {
     {"orientation ORIENT", "Say how the image is turned (1 to 8)", orientation},
-    {"orientcw", "Turn the Orientation by 90 degrees clockwise",
+    {"orientcw|rotcw", "Turn the Orientation by 90 degrees clockwise",
      [](ImageSpec& spec, const Call&, Session&) {
          turn(spec, {0, 6, 7, 8, 5, 2, 3, 4, 1});
      }},
-    {"orientccw", "Turn the Orientation by 90 degrees counter-clockwise",
+    {"orientccw|rotccw", "Turn the Orientation by 90 degrees counter-clockwise",
      [](ImageSpec& spec, const Call&, Session&) {
          turn(spec, {0, 8, 5, 6, 7, 4, 1, 2, 3});
      }},
-    {"orient180", "Turn the Orientation by 180 degrees",
+    {"orient180|rot180", "Turn the Orientation by 180 degrees",
      [](ImageSpec& spec, const Call&, Session&) {
          turn(spec, {0, 3, 4, 1, 2, 7, 8, 5, 6});
      }},

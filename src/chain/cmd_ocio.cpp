@@ -1,4 +1,5 @@
 // Colour spaces, looks and views of the OpenColorIO configuration, and ICC profiles.
+#include <Imath/ImathMatrix.h>
 #include <OpenImageIO/color.h>
 
 #include "chain/ops.h"
@@ -47,9 +48,10 @@ bool display(Op& op) {
     if (!op.session.compat) {
         check_view(op.session, name, view);
     }
-    if (op.call.has("looks") && !op.session.compat && !oiio::display_takes_looks) {
-        throw CommandError("looks= has no effect with OpenImageIO " OIIO_VERSION_STRING
-                           " (valid: --ociolook before --ociodisplay)");
+    if (op.call.has("looks") && !oiio::display_takes_looks) {
+        op.session.warning(op.call.text(),
+                           "looks= has no effect with OpenImageIO " OIIO_VERSION_STRING
+                           " (--ociolook before --ociodisplay applies a look)");
     }
     return oiio::ociodisplay(op.dst, op.a(), name, view, space_of(op, op.text("from")),
                              op.text("looks"), op.flag("unpremult"), op.text("key"),
@@ -64,11 +66,18 @@ bool matrix(Op& op) {
     if (m.size() != 16) {
         throw CommandError("expected 9 or 16 comma-separated floats to form a matrix", "", true);
     }
-    float values[4][4];
-    for (size_t i = 0; i < 16; ++i) {
-        (op.flag("transpose") ? values[i % 4][i / 4] : values[i / 4][i % 4]) = m[i];
+    Imath::M44f matrix(m[0], m[1], m[2], m[3], m[4], m[5], m[6], m[7], m[8], m[9], m[10], m[11],
+                       m[12], m[13], m[14], m[15]);
+    if (op.flag("transpose")) {
+        matrix.transpose();
     }
-    return IBA::colormatrixtransform(op.dst, op.a(), values, op.flag("unpremult"));
+    if (op.flag("invert") || op.flag("inverse")) {
+        if (matrix.determinant() == 0 && !op.session.compat) {
+            throw CommandError("\"" + op.call.argument(0) + "\" has no inverse matrix");
+        }
+        matrix.invert();
+    }
+    return IBA::colormatrixtransform(op.dst, op.a(), matrix, op.flag("unpremult"));
 }
 
 void read_profile(OIIO::ImageSpec& spec, const Call& call, Session&) {
@@ -109,7 +118,9 @@ const std::vector<OpRow> rows = {
      },
      alpha + "inverse=0|1: undo the transform"},
     {"ccmatrix MATRIXVALS", 1, "Multiply the colour by a matrix of 9 or 16 numbers", matrix,
-     alpha + "transpose=0|1: the numbers go down the columns"},
+     alpha + "transpose=0|1: the numbers go down the columns\n"
+             "invert=0|1: by the inverse of the matrix\n"
+             "inverse=0|1: the same"},
 };
 
 } // namespace

@@ -205,6 +205,8 @@ std::vector<Command> output_setting_rows() {
             [](Session& session, const Call& call) {
                 session.output.set_tile(call.argument(0) + "x" + call.argument(1));
             }),
+        set("force-tiles", "Has no effect, as in oiiotool (valid: --tile WIDTH HEIGHT)",
+            [](Session&, const Call&) {}),
         set("planarconfig CONFIG", "How channels are stored: contig, separate, default",
             [](Session& session, const Call& call) {
                 check_choice("CONFIG", call.argument(0), {"contig", "separate", "default"});

@@ -4,17 +4,47 @@
 #include <algorithm>
 #include <cstdio>
 #include <iterator>
+#include <set>
 
 namespace tonetool::chain {
 
 namespace {
 
-bool listed(const Strings& list, const Image& image, size_t subimage) {
-    const std::string name =
-        image.part(subimage).header().get_string_attribute("oiio:subimagename");
-    return std::any_of(list.begin(), list.end(), [&](const std::string& word) {
-        return parse_integer(word) ? size_t(*parse_integer(word)) == subimage : word == name;
-    });
+// What subimages= asks for: "all", "0,2", "-1" (all but that one), "albedo,-2".
+struct Listed {
+    std::set<size_t> taken, left_out;
+    bool all = false;
+    Strings unknown; // names that no subimage has
+
+    bool says_nothing() const { return !all && taken.empty() && left_out.empty(); }
+    bool has(size_t subimage) const {
+        return (taken.empty() || taken.count(subimage) > 0) && left_out.count(subimage) == 0;
+    }
+};
+
+Listed listed(const std::string& text, const Image& image) {
+    Listed found;
+    for (const std::string& given : split(text, ',')) {
+        std::string word = OIIO::Strutil::strip(given);
+        const bool except = word.size() > 1 && word.front() == '-';
+        word.erase(0, except ? 1 : 0);
+        if (OIIO::Strutil::iequals(word, "all")) {
+            found = {{}, {}, true, found.unknown};
+            continue;
+        }
+        const auto named =
+            std::find_if(image.parts().begin(), image.parts().end(), [&](const PartPtr& part) {
+                return part->header().get_string_attribute("oiio:subimagename") == word;
+            });
+        const auto index = parse_integer(word);
+        if (!index && named == image.parts().end()) {
+            found.unknown.push_back(word);
+            continue;
+        }
+        (except ? found.left_out : found.taken)
+            .insert(index ? size_t(*index) : size_t(named - image.parts().begin()));
+    }
+    return found;
 }
 
 OIIO::ImageBuf made(Session& session, const Call& call, const Kernel& kernel, int subimage,
@@ -41,7 +71,7 @@ OIIO::ImageBuf made(Session& session, const Call& call, const Kernel& kernel, in
 
 Shape shape_of(const std::string& usage, int pops, int pushes, Group group) {
     Strings words = split(usage, ' ');
-    return {{words.front()}, {words.begin() + 1, words.end()}, pops, pushes, group};
+    return {split(words.front(), '|'), {words.begin() + 1, words.end()}, pops, pushes, group};
 }
 
 std::vector<Modifier> modifiers_of(const std::string& lines, bool of_subimages) {
@@ -54,7 +84,7 @@ std::vector<Modifier> modifiers_of(const std::string& lines, bool of_subimages) 
         }
     }
     if (of_subimages) {
-        all.push_back({"subimages", "N,NAME,...", "of these subimages (-...: of all but these)"});
+        all.push_back({"subimages", "N,NAME,...", "of these subimages (-N: of all but N), or all"});
         all.push_back({"allsubimages", "0|1", "of all subimages (as -a says)"});
     }
     return all;
@@ -75,18 +105,29 @@ Floats Op::list(const std::string& what, const std::string& words) const {
 }
 
 Floats Op::per_channel(const std::string& what, const std::string& words, float rest) const {
-    Floats values = list(what, words);
-    const size_t channels = size_t(a().nchannels());
-    if (values.size() > channels && values.size() > 1 && !session.compat) {
-        throw CommandError(what + " \"" + words + "\" has " + std::to_string(values.size()) +
-                           " numbers (valid: one, or up to one for each of the " +
-                           std::to_string(channels) + " channels)");
-    }
-    if (session.compat) { // where it is empty, the rest too
-        values.assign(channels, rest);
+    return per_value(what, words, rest, size_t(a().nchannels()));
+}
+
+Floats Op::per_value(const std::string& what, const std::string& words, float rest,
+                     size_t count) const {
+    Floats values(count, rest);
+    if (session.compat) {
         OIIO::Strutil::extract_from_list_string(values, words);
+        values.resize(count, values.size() == 1 ? values.front() : rest);
+        return values;
     }
-    values.resize(channels, values.size() == 1 ? values.front() : rest);
+    const Strings given = split(words, ',');
+    if (given.size() > count && given.size() > 1) {
+        throw CommandError(what + " \"" + words + "\" has " + std::to_string(given.size()) +
+                           " numbers (valid: one, or up to " + std::to_string(count) +
+                           " for the channels of this image)");
+    }
+    if (given.size() == 1) {
+        return Floats(count, list(what, words).front());
+    }
+    for (size_t i = 0; i < given.size(); ++i) { // ",,3": the first two stay as they are
+        values[i] = OIIO::Strutil::strip(given[i]).empty() ? rest : list(what, given[i]).front();
+    }
     return values;
 }
 
@@ -97,16 +138,20 @@ Floats Op::values(const std::string& key, float rest) const {
 
 Chosen chosen_subimages(const Session& session, const Call& call, const Image& image) {
     const size_t count = image.part_count();
-    auto subimages = call.text("subimages");
-    if (!subimages) {
+    const auto subimages = call.text("subimages");
+    const Listed which = subimages ? listed(*subimages, image) : Listed();
+    if (!session.compat && !which.unknown.empty()) {
+        throw CommandError("subimages \"" + *subimages + "\": " + image.name() +
+                           " has no subimage \"" + which.unknown.front() +
+                           "\" (valid: all, numbers from 0, names, -N for all but N)");
+    }
+    if (which.says_nothing()) {
         bool all = call.flag("allsubimages", session.all_subimages);
         return {all ? count : 1, std::vector<bool>(all ? count : 1, true)};
     }
-    bool except = OIIO::Strutil::starts_with(*subimages, "-");
-    Strings list = split(subimages->substr(except ? 1 : 0), ',');
     Chosen chosen{count, {}};
     for (size_t s = 0; s < count; ++s) {
-        chosen.active.push_back(listed(list, image, s) != except);
+        chosen.active.push_back(which.has(s));
     }
     if (!session.compat && std::count(chosen.active.begin(), chosen.active.end(), true) == 0) {
         throw CommandError("subimages \"" + *subimages + "\" chooses none of the " +

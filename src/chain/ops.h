@@ -49,6 +49,9 @@ struct Op {
     std::string text(const std::string& key, const std::string& otherwise = "") const;
     /// "V" for all channels, or "V,V,...", the rest of them `rest`.
     Floats per_channel(const std::string& what, const std::string& list, float rest) const;
+    /// The same of so many values instead of one for each channel.
+    Floats per_value(const std::string& what, const std::string& list, float rest,
+                     size_t count) const;
     Floats constants(float rest) const { return per_channel("VALUES", call.argument(0), rest); }
     Floats values(const std::string& key, float rest) const;
     /// Numbers with commas between them.

@@ -102,7 +102,7 @@ void Runner::guarded(void (Runner::*step)()) {
         ++m_session.errors;
         m_session.aborted = true;
         m_session.misused = true;
-        m_session.err << problem.what() << "\n\nFull command line was:\n> "
+        m_session.complaints() << problem.what() << "\n\nFull command line was:\n> "
                       << m_session.command_line << std::endl;
     } catch (const CommandError& problem) {
         const bool renamed = m_session.compat && !problem.place.empty();
@@ -226,7 +226,7 @@ Strings Runner::take_arguments(const Command& row, const Token& token) {
         bool dashed = word.size() > 1 && word[0] == '-' && !parse_number(word);
         if (!optional && dashed && !m_session.compat) {
             std::string bare = word.substr(word[1] == '-' ? 2 : 1);
-            if (find_command(bare.substr(0, bare.find(':')))) {
+            if (bare != "compat" && find_command(bare.substr(0, bare.find(':')))) {
                 throw CommandError("missing argument " + name + ", \"" + word +
                                    "\" is a command (a file of that name is \"./" + word + "\")");
             }

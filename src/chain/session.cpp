@@ -37,7 +37,7 @@ void Session::error(const std::string& where, const std::string& what, bool ends
         first_error = (where.empty() ? "" : where + " : ") + what;
     }
     out.flush();
-    err << (what.empty()
+    complaints() << (what.empty()
                 ? "tonetool ERROR: " + where + " (unknown error)"
                 : prefix("ERROR", where, compat) + indented(what, compat) + of_frame(*this))
         << "\nFull command line was:\n> " << command_line << std::endl;
@@ -47,7 +47,7 @@ void Session::warning(const std::string& where, const std::string& what) {
     ++warnings;
     warning_texts.push_back((where.empty() ? "" : where + " : ") + what);
     out.flush();
-    err << prefix("WARNING", where, compat) << indented(what, compat) << of_frame(*this)
+    complaints() << prefix("WARNING", where, compat) << indented(what, compat) << of_frame(*this)
         << std::endl;
 }
 

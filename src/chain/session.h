@@ -102,7 +102,8 @@ struct Session {
     bool evaluate = true;    ///< {expressions} are replaced by their values
     bool for_images = false; ///< what is left on the stack is the result
     bool autocc = false, autocc_unpremult = false, autoorient = false;
-    bool metamerge = false; ///< results have the metadata of all inputs
+    bool complains_to_out = false; ///< errors and warnings go to the standard output
+    bool metamerge = false;        ///< results have the metadata of all inputs
 
     ReadOptions input;
     std::string missing_file = "error"; ///< or what stands in for it: "black", "checker"
@@ -160,6 +161,8 @@ struct Session {
 
     void push(ImagePtr image) { stack.push_back(std::move(image)); }
 
+    /// Where errors and warnings go.
+    std::ostream& complaints() { return complains_to_out ? out : err; }
     /// `ends`: unless --no-error-exit, the command line ends with it.
     void error(const std::string& where, const std::string& what, bool ends = true);
     void warning(const std::string& where, const std::string& what);

@@ -27,34 +27,49 @@ std::string full_command_line(const Strings& words, bool compat) {
     return line;
 }
 
+std::vector<bool> commands_among(const Strings& words) {
+    std::vector<bool> found(words.size());
+    for (size_t i = 0; i < words.size(); ++i) {
+        const std::string& word = words[i];
+        found[i] = word.size() > 1 && word[0] == '-';
+        const Token token = parse_token(found[i] ? word : "", true);
+        const chain::Command* row = found[i] ? chain::find_command(token.name) : nullptr;
+        const bool value_follows = row && !row->args.empty() && row->args.front()[0] != '=';
+        i += value_follows ? row->args.size() - token.value.size() : 0;
+    }
+    return found;
+}
+
 Strings with_values_apart(const Strings& words) {
     static const Strings names = {"frames", "views", "framepadding", "parallel-frames", "jobs"};
+    const std::vector<bool> commands = commands_among(words);
     Strings apart;
-    size_t arguments = 0; // that the last command still takes
-    for (const std::string& word : words) {
+    for (size_t i = 0; i < words.size(); ++i) {
+        const std::string& word = words[i];
         const size_t equals = word.find('=');
-        const bool dashed = arguments == 0 && word.size() > 1 && word[0] == '-';
-        const Token token = parse_token(dashed ? word : "", true);
-        const chain::Command* row = dashed ? chain::find_command(token.name) : nullptr;
+        const Token token = parse_token(commands[i] ? word : "", true);
+        const chain::Command* row = commands[i] ? chain::find_command(token.name) : nullptr;
         const bool takes =
             row && (row->group == chain::Group::Check ||
                     std::find(names.begin(), names.end(), token.name) != names.end());
         if (takes && !row->args.empty() && equals < word.find(':')) {
             apart.push_back(word.substr(0, equals));
             apart.push_back(word.substr(equals + 1));
-            continue;
+        } else {
+            apart.push_back(word);
         }
-        apart.push_back(word);
-        const bool value_follows = row && !row->args.empty() && row->args.front()[0] != '=';
-        arguments = value_follows   ? row->args.size() - token.value.size()
-                    : arguments > 0 ? arguments - 1
-                                    : 0;
     }
     return apart;
 }
 
 bool is_compat(const Strings& words) {
-    return std::find(words.begin(), words.end(), "--compat") != words.end();
+    const std::vector<bool> command = commands_among(words);
+    for (size_t i = 0; i < words.size(); ++i) {
+        if (command[i] && (words[i] == "--compat" || words[i] == "-compat")) {
+            return true;
+        }
+    }
+    return false;
 }
 
 } // namespace tonetool::runs

@@ -60,10 +60,11 @@ Scan scan_words(const Strings& words) {
     Scan scan;
     scan.plan.compat = is_compat(words);
     bool wildcards = true, output = false, all = false;
+    const std::vector<bool> command = commands_among(words);
     for (size_t i = 0; i < words.size(); ++i) {
         const std::string& word = words[i];
         std::string name =
-            word.size() > 1 && word[0] == '-' ? word.substr(word[1] == '-' ? 2 : 1) : std::string();
+            command[i] ? word.substr(word[1] == '-' ? 2 : 1) : std::string();
         wildcards = name == "wildcardon" || (wildcards && name != "wildcardoff");
         scan.plan.skip_bad |= name == "skip-bad-frames";
         scan.plan.warnings_exit |= name == "warnings-exit";
@@ -94,7 +95,8 @@ Files listing_of(const Scan& scan, const Pattern& pattern, const std::string& wo
     if (sequence::is_pattern(prefix)) {
         throw CommandError("the folder \"" + scan.directory + "\" has wildcards in its name");
     }
-    if (!(inherits && pattern.is_output && scan.options.frames.empty())) {
+    const bool numbered = !scan.options.frames.empty() || sequence::has_range(word);
+    if (!(inherits && pattern.is_output && !numbered)) {
         listing = sequence::list_files(prefix + word, scan.options);
         for (std::string& name : listing.names) {
             name.erase(0, prefix.size());

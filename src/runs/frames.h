@@ -33,11 +33,14 @@ struct FramePlan {
     std::vector<size_t> sequences; ///< of a check: indices of the input words with wildcards
 };
 
+/// Which words are commands: a word with a dash that another command takes as its argument is not.
+std::vector<bool> commands_among(const Strings& words);
+
 /// "--frames=1-3" as "--frames", "1-3": of what says which frames, how many at a time and where
 /// results go.
 Strings with_values_apart(const Strings& words);
 
-/// --compat holds for the whole command line.
+/// --compat, or -compat, holds for the whole command line.
 bool is_compat(const Strings& words);
 
 /// The words for messages and outputs, quoted as a shell wants them unless `compat`.

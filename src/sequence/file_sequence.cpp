@@ -112,6 +112,10 @@ std::string without_range(const std::string& word) {
     return is_pattern(word) ? parse(word, 0).printf_style : word;
 }
 
+bool has_range(const std::string& word) {
+    return is_pattern(word) && !parse(word, 0).frames.empty();
+}
+
 Files list_files(const std::string& pattern, const PatternOptions& options) {
     const Parsed parsed = parse(pattern, options.padding);
     const std::string& range = parsed.frames.empty() ? options.frames : parsed.frames;

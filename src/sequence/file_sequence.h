@@ -23,6 +23,9 @@ bool is_pattern(const std::string& word);
 /// other word stays as it is.
 std::string without_range(const std::string& word);
 
+/// Whether the word has a frame range of its own: "a.1-20#.exr".
+bool has_range(const std::string& word);
+
 struct Files {
     std::vector<Item> items{};
     std::vector<std::string> names{}; ///< one each
