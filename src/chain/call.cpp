@@ -10,11 +10,16 @@ namespace tonetool::chain {
 
 namespace {
 
-void check_keys(const Command& row, const Token& token) {
+Strings keys_of(const Command& row) {
     Strings keys;
     for (const Modifier& modifier : row.modifiers) {
         keys.push_back(modifier.key);
     }
+    return keys;
+}
+
+void check_keys(const Command& row, const Token& token) {
+    const Strings keys = keys_of(row);
     for (const auto& [key, value] : token.modifiers) {
         if (std::find(keys.begin(), keys.end(), key) == keys.end()) {
             throw CommandError(
@@ -34,6 +39,17 @@ Call::Call(const Command& row, Token token, Strings arguments, bool lenient)
     if (!m_lenient) {
         check_keys(row, m_token);
     }
+}
+
+Strings Call::dropped() const {
+    const Strings keys = keys_of(*m_row);
+    Strings found = m_token.dropped;
+    for (const auto& [key, value] : m_token.modifiers) {
+        if (std::find(keys.begin(), keys.end(), key) == keys.end()) {
+            found.push_back(key + "=" + value);
+        }
+    }
+    return found;
 }
 
 int Call::pops() const {

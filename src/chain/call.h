@@ -35,6 +35,8 @@ public:
     }
     const std::string& argument(size_t index) const { return m_arguments.at(index); }
     bool has_argument(size_t index) const { return index < m_arguments.size(); }
+    /// With --compat: the modifiers that have no effect, as they are unknown or malformed.
+    Strings dropped() const;
     int pops() const;
     int pushes() const;
 

@@ -129,8 +129,10 @@ std::vector<Command> control_commands() {
         row("set", {"NAME", "VALUE"}, "Set a variable, the {NAME} of expressions", run_set, false);
     set.modifiers = {{"type", "TYPE", "its data type: int, float, string, ... (as it looks)"}};
     Command parallel =
-        of_manner(row("parallel-frames", {"N"},
-                      "Work on N frames at a time; --memory is for all of them", nothing, false));
+        of_manner(row("parallel-frames", {"[N]"},
+                      "Work on N frames at a time, on one per core without N; --memory is for all "
+                      "of them",
+                      nothing, false));
     parallel.names.push_back("jobs");
     return {
         set,

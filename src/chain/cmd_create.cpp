@@ -50,8 +50,8 @@ void run_create(Session& session, const Call& call) {
 Floats color_of(const Op& op, const std::string& key, float otherwise = 1) {
     const size_t channels = size_t(op.a().nchannels());
     const auto words = op.call.text(key);
-    Floats color = words ? op.per_value(key, *words, otherwise, channels + 1)
-                         : Floats(channels, otherwise);
+    Floats color =
+        words ? op.per_value(key, *words, otherwise, channels + 1) : Floats(channels, otherwise);
     color.resize(channels);
     return color;
 }
@@ -177,16 +177,15 @@ bool line(Op& op) {
     const std::vector<int> at = positions(op, 4);
     bool done = op.dst.copy(op.a());
     for (size_t i = 0; done && i + 3 < at.size(); i += 2) {
-        done = IBA::render_line(op.dst, at[i], at[i + 1], at[i + 2], at[i + 3],
-                                paint(op), i > 0);
+        done = IBA::render_line(op.dst, at[i], at[i + 1], at[i + 2], at[i + 3], paint(op), i > 0);
     }
     return done;
 }
 
 bool box(Op& op) {
     const std::vector<int> at = positions(op, 4);
-    return op.dst.copy(op.a()) && IBA::render_box(op.dst, at[0], at[1], at[2], at[3],
-                                                  paint(op), op.flag("fill"));
+    return op.dst.copy(op.a()) &&
+           IBA::render_box(op.dst, at[0], at[1], at[2], at[3], paint(op), op.flag("fill"));
 }
 
 bool fill_window(Op& op) {

@@ -75,7 +75,8 @@ std::vector<Command> work_rows() {
         row("a", "Do operations on all subimages and MIP levels", set_on<&Session::all_subimages>),
         row("u", "Update: outputs that are newer than all inputs stay as they are",
             set_on<&Session::update>),
-        row("no-clobber|noclobber", "Outputs that exist stay as they are", set_on<&Session::no_clobber>),
+        row("no-clobber|noclobber", "Outputs that exist stay as they are",
+            set_on<&Session::no_clobber>),
         row("no-autopremult", "Do not multiply colour by an alpha that is not associated",
             [](Session& session, const Call&) {
                 session.input.config.attribute("oiio:UnassociatedAlpha", 1);
@@ -86,7 +87,8 @@ std::vector<Command> work_rows() {
                     session.input.config.attribute("oiio:UnassociatedAlpha", 0);
                 }
             }),
-        row("autoorient|auto-orient", "--reorient every image that is read", set_on<&Session::autoorient>),
+        row("autoorient|auto-orient", "--reorient every image that is read",
+            set_on<&Session::autoorient>),
         row(
             "autocc", "Convert colour by file names, to the linear space and back",
             [](Session& session, const Call& call) {

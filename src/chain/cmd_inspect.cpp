@@ -52,7 +52,7 @@ void run_printinfo(Session& session, const Call& call) {
     if (format && session.compat) {
         session.warning(call.text(), "format= has no effect here, as in oiiotool");
     } else if (call.flag("native", false) && !session.compat) {
-        what.named = call.images[0]->part().from_file();
+        what.native = call.images[0]->part().from_file();
     }
     what.format = session.compat ? "" : format.value_or("");
     print_listing(session, call, what);
@@ -137,8 +137,7 @@ std::vector<Command> inspect_commands() {
                    {"stats", "0|1", "and with pixel statistics (0)"},
                    {"native", "0|1", "the data type of the file, not of the memory (0)"}}),
         image_row("printstats", "Print pixel statistics of the current image", run_printstats,
-                  {{"window", "GEOM", "of that part of it"},
-                   {"roi", "GEOM", "the same"}}),
+                  {{"window", "GEOM", "of that part of it"}, {"roi", "GEOM", "the same"}}),
         row("list-formats", {}, "List the image formats and their file name extensions",
             run_list_formats),
     };

@@ -16,10 +16,12 @@ std::string linear_space(Session& session) {
 }
 
 void convert_current(Session& session, const std::string& from, const std::string& to,
-                     bool unpremult) {
+                     bool unpremult, bool all_subimages) {
     if (!OIIO::Strutil::iequals(from, to)) {
         run_command(session,
-                    unpremult ? "colorconvert:strict=0:unpremult=1" : "colorconvert:strict=0",
+                    std::string("colorconvert:strict=0") +
+                        (all_subimages ? ":allsubimages=1" : "") +
+                        (unpremult ? ":unpremult=1" : ""),
                     {from, to});
     }
 }

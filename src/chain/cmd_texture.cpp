@@ -10,40 +10,98 @@ namespace tonetool::chain {
 
 namespace {
 
-// What make_texture is to do: its options have the names of the modifiers, but for these.
-OIIO::ImageSpec texture_config(const Session& session, const Call& call) {
-    static const std::map<std::string, std::string> others = {
-        {"filter", "filtername"}, {"prman", "prman_options"}, {"oiio", "oiio_options"}};
+// One setting of make_texture: the modifiers that set it, the first that is there counts.
+struct Setting {
+    const char* name;
+    Strings keys;
+    char kind;        ///< i, f or s
+    double otherwise; ///< i and f: without a modifier; s: is not set then
+};
+
+const std::vector<Setting>& settings_of_textures() {
+    static const std::vector<Setting> all = {
+        {"maketx:resize", {"resize"}, 'i', 0},
+        {"maketx:nomipmap", {"nomipmap"}, 'i', 0},
+        {"maketx:updatemode", {"updatemode"}, 'i', 0},
+        {"maketx:constant_color_detect", {"constant_color_detect"}, 'i', 0},
+        {"maketx:monochrome_detect", {"monochrome_detect"}, 'i', 0},
+        {"maketx:opaque_detect", {"opaque_detect"}, 'i', 0},
+        {"maketx:compute_average", {"compute_average"}, 'i', 1},
+        {"maketx:unpremult", {"unpremult"}, 'i', 0},
+        {"maketx:incolorspace", {"incolorspace"}, 's', 0},
+        {"maketx:outcolorspace", {"outcolorspace"}, 's', 0},
+        {"maketx:highlightcomp", {"highlightcomp", "hicomp"}, 'i', 0},
+        {"maketx:sharpen", {"sharpen"}, 'f', 0},
+        {"maketx:filtername", {"filtername", "filter"}, 's', 0},
+        {"maketx:fileformatname", {"fileformatname"}, 's', 0},
+        {"maketx:prman_metadata", {"prman_metadata"}, 'i', 0},
+        {"maketx:prman_options", {"prman_options", "prman"}, 'i', 0},
+        {"maketx:oiio_options", {"oiio_options", "oiio"}, 'i', 0},
+        {"maketx:bumpformat", {"bumpformat"}, 's', 0},
+        {"maketx:uvslopes_scale", {"uvslopes_scale"}, 'f', 0},
+        {"handed", {"handed"}, 's', 0},
+        {"maketx:cdf", {"cdf"}, 'i', 0},
+        {"maketx:cdfbits", {"cdfbits"}, 'i', 8},
+        {"maketx:cdfsigma", {"cdfsigma"}, 'f', 1.0 / 6},
+    };
+    return all;
+}
+
+void add_setting(OIIO::ImageSpec& config, const Call& call, const Setting& setting) {
+    std::string key = setting.keys.back();
+    for (auto each = setting.keys.rbegin(); each != setting.keys.rend(); ++each) {
+        key = call.has(*each) ? *each : key;
+    }
+    if (setting.kind == 'i') {
+        config.attribute(setting.name,
+                         call.integer(key, any_integer).value_or(int(setting.otherwise)));
+    } else if (setting.kind == 'f') {
+        config.attribute(setting.name,
+                         float(call.number(key, any_number_at_all).value_or(setting.otherwise)));
+    } else if (auto value = call.text(key)) {
+        config.attribute(setting.name, *value);
+    }
+}
+
+void set_layout(OIIO::ImageSpec& config, const OutputSettings& output) {
+    config.tile_width = output.tile_width > 0 ? output.tile_width : 64;
+    config.tile_height = output.tile_width > 0 ? output.tile_height : 64;
+    config.tile_depth = 1;
+    if (output.type && output.type->bits > 0) {
+        config.attribute("oiio:BitsPerSample", output.type->bits);
+    }
+    if (!output.compression.empty()) {
+        config.attribute("compression", output.compression);
+    }
+    if (output.quality > 0) {
+        config.attribute("CompressionQuality", output.quality);
+    }
+    if (!output.planarconfig.empty() && output.planarconfig != "default") {
+        config.attribute("planarconfig", output.planarconfig);
+    }
+}
+
+// What make_texture is to do.
+OIIO::ImageSpec texture_config(Session& session, const Call& call, const Image& image,
+                               const OutputSettings& output) {
     OIIO::ImageSpec config;
-    for (const Modifier& modifier : call.row().modifiers) {
-        auto value = call.text(modifier.key);
-        auto other = others.find(modifier.key);
-        const std::string name = "maketx:" + (other == others.end() ? modifier.key : other->second);
-        if (modifier.hint == "0|1") {
-            config.attribute(name, int(call.flag(modifier.key, false)));
-        } else if (modifier.hint == "X" &&
-                   (modifier.key != "fovcot" || (value && !session.compat))) {
-            config.attribute(modifier.key == "fovcot" ? modifier.key : name,
-                             float(call.number(modifier.key, any_number_at_all).value_or(0)));
-        } else if (modifier.hint != "X" && value) {
-            config.attribute(name, *value);
-        }
+    for (const Setting& setting : settings_of_textures()) {
+        add_setting(config, call, setting);
+    }
+    const auto fov = call.number("fovcot", any_number_at_all);
+    if (fov && session.compat) {
+        session.warning(call.text(), "fovcot= has no effect, as in oiiotool");
+    } else if (fov) {
+        config.attribute("fovcot", float(*fov));
     }
     const std::string wrap = call.text("wrap").value_or("black");
     config.attribute("wrapmodes",
                      call.text("swrap").value_or(wrap) + "," + call.text("twrap").value_or(wrap));
     config.attribute("maketx:bumpformat", call.text("bumpformat").value_or("auto"));
-    config.attribute("maketx:compute_average", 1);
     config.attribute("maketx:colorconfig", session.color_config);
-    const OutputSettings& output = session.output;
+    set_layout(config, output);
     config.set_format(output.type ? output.type->type
-                                  : session.types.of(call.images[0]->part(), session.compat).type);
-    config.tile_width = output.tile_width > 0 ? output.tile_width : 64;
-    config.tile_height = output.tile_width > 0 ? output.tile_height : 64;
-    config.tile_depth = 1;
-    if (!output.compression.empty()) {
-        config.attribute("compression", output.compression);
-    }
+                                  : session.types.of(image.part(), session.compat).type);
     if (output.history) {
         // By that name readers trust the average and the hash that are in it.
         config.attribute("Software",
@@ -53,43 +111,53 @@ OIIO::ImageSpec texture_config(const Session& session, const Call& call) {
     return config;
 }
 
-// -otex and its like.
-void run_texture(Session& session, const Call& call) {
+void save_texture(Session& session, const Call& call, const Image& image,
+                  const std::string& filename, const OutputSettings& settings) {
     namespace IBA = OIIO::ImageBufAlgo;
-    session.claim(call.argument(0));
+    session.claim(filename);
     const std::string label = call.row().label();
     const auto mode = label == "oenv"    ? IBA::MakeTxEnvLatl
                       : label == "obump" ? IBA::MakeTxBumpWithSlopes
                                          : IBA::MakeTxTexture;
     std::string why;
-    const OIIO::ImageBuf& pixels = call.images[0]->part().pixels();
-    if (!write_texture(mode, pixels, call.argument(0), texture_config(session, call), why)) {
+    const OIIO::ImageBuf& pixels = image.part().pixels();
+    session.keep_pixels_of(filename);
+    if (!write_texture(mode, pixels, filename, texture_config(session, call, image, settings),
+                       why)) {
         throw CommandError("Could not make texture: " + why, call.text());
     }
-    session.wrote = call.images[0]->written = true;
-    session.push(call.images[0]);
+}
+
+// -otex and its like.
+void run_texture(Session& session, const Call& call) {
+    write_to_files(session, call, save_texture);
 }
 
 } // namespace
 
 std::vector<Command> texture_commands() {
     const std::string options =
+        output_modifiers() +
         "wrap=MODE: black, clamp, periodic, mirror\nswrap=MODE: in x\ntwrap=MODE: in y\n"
         "resize=0|1: to a power of 2\nnomipmap=0|1: the top level only\n"
         "updatemode=0|1: only if the texture would change\n"
         "constant_color_detect=0|1: one tile where all pixels are the same\n"
         "monochrome_detect=0|1: one channel where all are the same\n"
         "opaque_detect=0|1: without an alpha that is 1 everywhere\n"
-        "unpremult=0|1: divide by alpha for the colour conversion\n"
         "incolorspace=NAME: colour space of the image\noutcolorspace=NAME: of the texture\n"
-        "highlightcomp=0|1: soften highlights before filtering\n"
-        "sharpen=X: each level\nfilter=NAME: of the levels\n"
-        "prman=0|1: settings of RenderMan\noiio=0|1: settings of OpenImageIO\n"
-        "fovcot=X: field of view\nfileformatname=NAME: of the texture\n"
+        "highlightcomp=0|1: soften highlights before filtering\nhicomp=0|1: the same\n"
+        "sharpen=X: each level\nfilter=NAME: of the levels\nfiltername=NAME: the same\n"
+        "prman_options=0|1: settings of RenderMan\nprman=0|1: the same\n"
+        "prman_metadata=0|1: metadata of RenderMan\n"
+        "oiio_options=0|1: settings of OpenImageIO\noiio=0|1: the same\n"
+        "compute_average=0|1: metadata of the average colour (1)\n"
+        "handed=left|right|none: of a vector displacement or normal map\n"
+        "cdf=0|1: store the distribution of values in the metadata\n"
+        "cdfbits=N: its size (8)\ncdfsigma=X: its deviation (1/6)\nfovcot=X: field of view\n"
         "bumpformat=height|normal|auto: of a bump map\nuvslopes_scale=X: of its slopes";
     std::vector<Command> rows;
     for (const char* usage : {"otex FILENAME", "oenv FILENAME", "obump FILENAME"}) {
-        rows.push_back(free_row(Group::Write, usage, 1, 1,
+        rows.push_back(free_row(Group::Write, usage, 0, any_number,
                                 usage[1] == 't'   ? "Write the current image as a texture"
                                 : usage[1] == 'e' ? "Write it as an environment map"
                                                   : "Write a bump map with its slopes",

@@ -2,6 +2,7 @@
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/strutil.h>
 #include <algorithm>
+#include <map>
 
 #include "chain/io.h"
 #include "chain/ops.h"
@@ -21,21 +22,37 @@ void check_outputs(const Session& session) {
 
 namespace {
 
-OutputSettings settings_of(const Session& session, const Call& call) {
+// oiiotool takes less than with -d, and has no word for what it does not know.
+void take_named_type(Session& session, const Call& call, const std::string& name,
+                     OutputSettings& settings) {
+    if (session.compat && OIIO::TypeDesc(name).basetype == OIIO::TypeDesc::UNKNOWN) {
+        session.warning(call.text(), "\"" + name + "\" has no effect here, as in oiiotool");
+        return;
+    }
+    settings.type = files::parse_data_type(name, session.compat);
+    settings.type_of_channel.clear();
+}
+
+OutputSettings settings_of(Session& session, const Call& call) {
     OutputSettings settings = session.output;
-    if (auto name = call.text("datatype")) {
-        settings.type = files::parse_data_type(*name, session.compat);
-        settings.type_of_channel.clear();
+    if (auto name = call.has("type") ? call.text("type") : call.text("datatype")) {
+        take_named_type(session, call, *name, settings);
     }
     if (auto bits = call.integer("bits", {1, 32})) {
-        if (!settings.type && !session.compat) { // oiiotool takes no notice of it then
+        if (!settings.type && !session.compat) {
             settings.type = NamedType{OIIO::TypeUInt16, 0};
+        } else if (!settings.type) {
+            session.warning(call.text(), "bits= has no effect without datatype=, as in oiiotool");
         }
         if (settings.type) {
             settings.type->bits = *bits;
         }
     }
-    if (auto compression = call.text("compression"); compression && !session.compat) {
+    const auto compression = call.text("compression");
+    if (compression && session.compat) {
+        session.warning(call.text(),
+                        "compression= has no effect, as in oiiotool (--compression has)");
+    } else if (compression) {
         files::check_compression(*compression);
         settings.compression = *compression;
     }
@@ -69,10 +86,20 @@ void take_type_of(const std::string& space, Session& session, const Call& call,
                             "overriding prior request for {}.",
                             filename, space, implied, implied.size() * 8, asked->type));
     }
-    settings.type = call.has("datatype") ? settings.type : NamedType{implied, 0};
+    settings.type =
+        call.has("datatype") || call.has("type") ? settings.type : NamedType{implied, 0};
 }
 
-// The colour space that the file's name tells; else sRGB for 8 bits and the linear one for more.
+// The one colour space that files of the format have, or "".
+std::string space_of_format(const std::string& filename) {
+    static const std::map<std::string, std::string> spaces = {
+        {".jpg", "sRGB"},  {".jpeg", "sRGB"},  {".gif", "sRGB"},
+        {".webp", "sRGB"}, {".ppm", "Rec709"}, {".pnm", "Rec709"}};
+    const auto known = spaces.find(OIIO::Strutil::lower(OIIO::Filesystem::extension(filename)));
+    return known == spaces.end() ? "" : known->second;
+}
+
+// To the colour space that the file's name tells, or else its format.
 void convert_output(Session& session, const Call& call, const std::string& filename,
                     OutputSettings& settings) {
     const std::string linear = linear_space(session);
@@ -82,14 +109,12 @@ void convert_output(Session& session, const Call& call, const std::string& filen
         take_type_of(space, session, call, filename, settings);
     }
     if (space.empty()) {
-        OIIO::TypeDesc type = settings.type ? settings.type->type : part.header().format;
-        const std::string extension = OIIO::Strutil::lower(OIIO::Filesystem::extension(filename));
-        bool bytes = type == OIIO::TypeUInt8 || extension == ".jpg" || extension == ".gif" ||
-                     extension == ".webp";
-        space = bytes ? "sRGB" : linear;
+        space = space_of_format(filename);
     }
-    convert_current(session, part.header().get_string_attribute("oiio:ColorSpace", linear), space,
-                    call.flag("unpremult", false));
+    if (!space.empty()) {
+        convert_current(session, part.header().get_string_attribute("oiio:ColorSpace", linear),
+                        space, call.flag("unpremult", session.autocc_unpremult), true);
+    }
 }
 
 bool keeps_old(Session& session, const std::string& filename) {
@@ -102,7 +127,7 @@ bool keeps_old(Session& session, const std::string& filename) {
 }
 
 void write_one(Session& session, const Call& call, const ImagePtr& image,
-               const std::string& filename) {
+               const std::string& filename, const Save& save) {
     if (keeps_old(session, filename)) {
         return;
     }
@@ -124,14 +149,20 @@ void write_one(Session& session, const Call& call, const ImagePtr& image,
     if (settings.autotrim) {
         run_command(session, "trim", {});
     }
-    files::write_output(*session.stack.back(), filename, settings,
-                        session.writer(call.row().label()),
-                        [&] { session.keep_pixels_of(filename); });
+    save(session, call, *session.stack.back(), filename, settings);
     session.wrote = true;
     session.stack.pop_back();
 }
 
-void run_output(Session& session, const Call& call) {
+void save_image(Session& session, const Call& call, const Image& image, const std::string& filename,
+                const OutputSettings& settings) {
+    files::write_output(image, filename, settings, session.writer(call.row().label()),
+                        [&] { session.keep_pixels_of(filename); });
+}
+
+} // namespace
+
+void write_to_files(Session& session, const Call& call, const Save& save) {
     if (session.stack.empty()) {
         if (!session.compat) {
             throw CommandError("needs 1 image(s), the stack has 0");
@@ -150,8 +181,33 @@ void run_output(Session& session, const Call& call) {
         first ? session.stack : std::vector<ImagePtr>{session.stack.back()};
     for (size_t i = 0; i < all.size(); ++i) {
         write_one(session, call, all[i],
-                  first ? with_number(call.argument(0), *first + int(i)) : call.argument(0));
+                  first ? with_number(call.argument(0), *first + int(i)) : call.argument(0), save);
     }
+}
+
+std::string output_modifiers() {
+    const std::string types = join(files::data_type_names(), "|");
+    return "datatype=TYPE: data type of this file (" + types + ")\n" +
+           "type=TYPE: the same\n"
+           "bits=N: of each channel\n"
+           "compression=NAME: compression of this file, name or name:quality\n"
+           "all=N: write all images of the stack; the file name has a %d, from N on\n"
+           "autocc=0|1: convert to the colour space that the name tells\n"
+           "unpremult=0|1: divide by alpha for that\n"
+           "autocrop=0|1: to the display window where the format has no other\n"
+           "autotrim=0|1: cut off a black border\n"
+           "contig=0|1: channels interleaved\n"
+           "separate=0|1: each channel by itself\n"
+           "dither=0|1: add dither to 8 bits\n"
+           "fileformatname=NAME: instead of the one that the extension tells\n"
+           "scanline=0|1: not in tiles\n"
+           "tile=WxH: in tiles of this size\n";
+}
+
+namespace {
+
+void run_output(Session& session, const Call& call) {
+    write_to_files(session, call, save_image);
 }
 
 void run_data_type(Session& session, const Call& call) {
@@ -164,23 +220,8 @@ void run_compression(Session& session, const Call& call) {
 }
 
 Command output_row() {
-    const std::string types = join(files::data_type_names(), "|");
     return free_row(Group::Write, "o FILENAME", 0, any_number, "Write the current image",
-                    run_output,
-                    "datatype=TYPE: data type of this file (" + types + ")\n" +
-                        "bits=N: of each channel\n"
-                        "compression=NAME: compression of this file, name or name:quality\n"
-                        "all=N: write all images of the stack; the file name has a %d, from N on\n"
-                        "autocc=0|1: convert to the colour space that the name tells\n"
-                        "unpremult=0|1: divide by alpha for that\n"
-                        "autocrop=0|1: to the display window where the format has no other\n"
-                        "autotrim=0|1: cut off a black border\n"
-                        "contig=0|1: channels interleaved\n"
-                        "separate=0|1: each channel by itself\n"
-                        "dither=0|1: add dither to 8 bits\n"
-                        "fileformatname=NAME: instead of the one that the extension tells\n"
-                        "scanline=0|1: not in tiles\n"
-                        "tile=WxH: in tiles of this size");
+                    run_output, output_modifiers());
 }
 
 // What holds for the outputs that follow.
@@ -220,7 +261,9 @@ std::vector<Command> output_setting_rows() {
             [](Session& session, const Call&) { session.output.autocrop = false; }),
         set("autotrim", "Cut off a black border where the format can say so",
             [](Session& session, const Call&) { session.output.autotrim = true; }),
-        set("nosoftwareattrib", "Do not write the command line into the metadata",
+        set("history", "Write the command line into the metadata again",
+            [](Session& session, const Call&) { session.output.history = true; }),
+        set("nosoftwareattrib|no-history", "Do not write the command line into the metadata",
             [](Session& session, const Call&) { session.output.history = false; }),
         set("sansattrib", "Leave --attrib and --sattrib out of the command line that is written",
             [](Session&, const Call&) {}),

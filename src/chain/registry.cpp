@@ -57,6 +57,11 @@ bool names_file(const std::string& hint) {
     return last == "FILE" || last == "FILENAME";
 }
 
+bool is_left_out(const std::string& argument, const Strings& words, size_t at) {
+    return argument.front() == '[' &&
+           (at >= words.size() || (argument == "[N]" && !parse_integer(words[at])));
+}
+
 bool Command::writes() const {
     return group == Group::Check ||
            (group == Group::Write && std::any_of(args.begin(), args.end(), names_file));

@@ -87,6 +87,10 @@ struct Command : Shape {
 /// Whether an argument or modifier of that name or hint is a file, or may be one.
 bool names_file(const std::string& hint);
 
+/// Whether that argument, as a row names it, is left out where words[at] would be: "[X]" at the end
+/// of the words, "[N]" also before anything but a whole number.
+bool is_left_out(const std::string& argument, const Strings& words, size_t at);
+
 /// The row of a command that sets something of the process, or says how a line runs.
 Command of_process(Command row);
 Command of_manner(Command row);

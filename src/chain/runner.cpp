@@ -103,7 +103,7 @@ void Runner::guarded(void (Runner::*step)()) {
         m_session.aborted = true;
         m_session.misused = true;
         m_session.complaints() << problem.what() << "\n\nFull command line was:\n> "
-                      << m_session.command_line << std::endl;
+                               << m_session.command_line << std::endl;
     } catch (const CommandError& problem) {
         const bool renamed = m_session.compat && !problem.place.empty();
         m_session.error(renamed ? problem.place : m_where, problem.what());
@@ -138,7 +138,13 @@ void Runner::run_word() {
     locate_files(m_session, row, token, arguments);
     note_varying(flow.command);
     if (flow.running() || row.control) {
-        run_or_postpone(Call(row, std::move(token), std::move(arguments), m_session.compat));
+        Call call(row, std::move(token), std::move(arguments), m_session.compat);
+        for (const std::string& modifier : call.dropped()) {
+            m_session.warning(m_where, "\"" + modifier +
+                                           "\" is no modifier of this command, it has "
+                                           "no effect");
+        }
+        run_or_postpone(std::move(call));
     }
     run_postponed();
 }
@@ -212,7 +218,7 @@ Strings Runner::take_arguments(const Command& row, const Token& token) {
         const std::string& name = row.args[i];
         bool optional = name.front() == '[';
         const bool other = m_session.compat && next < m_words.size() && m_words[next][0] == '-';
-        if (name.front() == '=' || (optional && (next >= m_words.size() || other))) {
+        if (name.front() == '=' || is_left_out(name, m_words, next) || (optional && other)) {
             break;
         }
         if (next >= m_words.size()) {

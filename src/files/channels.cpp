@@ -76,7 +76,9 @@ OIIO::ImageBuf select_channels(const OIIO::ImageBuf& pixels, const std::string& 
         throw CommandError("0-channel images not supported");
     }
     Selection selection;
-    for (const std::string& part : split(list, ',')) {
+    const bool letters = (list == "RGB" || list == "RGBA") && channel_index(spec, list) < 0;
+    const std::string names = !letters ? list : list == "RGB" ? "R,G,B" : "R,G,B,A";
+    for (const std::string& part : split(names, ',')) {
         const std::string word = OIIO::Strutil::strip(part);
         size_t equals = word.find('=');
         if (equals == std::string::npos) {

@@ -176,12 +176,10 @@ std::string subimage_text(const Image& image, const Listing& what, size_t subima
     const Part& part = image.part(subimage);
     std::string text = what.verbose && part.mip_levels() > 1 ? mip_line(part) : "";
     if (what.hash) {
-        ImagePtr file = Image::open(image.name(), {{}, OIIO::TypeUnknown});
-        const OIIO::ImageBuf& stored = file->part(subimage).pixels();
-        text += "    SHA-1: " + OIIO::ImageBufAlgo::computePixelHashSHA1(stored) + "\n";
+        text += "    SHA-1: " + stored_hash(image.name(), int(subimage)) + "\n";
     }
     if (what.verbose) {
-        std::string detailed = header_text(image, subimage, true, what.named);
+        std::string detailed = header_text(image, subimage, true, what.named || what.native);
         text += detailed.substr(detailed.find('\n') + 1);
     }
     text += what.dump ? dump_text(image, what, subimage) : "";
@@ -237,7 +235,8 @@ std::string listing_text(const Image& image, const Listing& what) {
     const size_t count = image.part_count();
     const bool each = what.all_subimages && count > 1;
     auto brief = [&](size_t subimage) -> std::string {
-        return OIIO::Strutil::rstrip(header_text(image, subimage, false, what.named), "\n");
+        return OIIO::Strutil::rstrip(header_text(image, subimage, false, what.named || what.native),
+                                     "\n");
     };
     std::string more = what.verbose ? "" : (count > 1 ? format(" ({} subimages)", count) : "");
     std::string text = what.dump && !what.dump->empty() ? "// " : "";

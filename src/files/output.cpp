@@ -27,6 +27,8 @@ struct TypeRow {
 };
 
 const TypeRow type_rows[] = {
+    {"uint1", OIIO::TypeDesc::UINT8, 1},    {"uint2", OIIO::TypeDesc::UINT8, 2},
+    {"uint4", OIIO::TypeDesc::UINT8, 4},    {"uint6", OIIO::TypeDesc::UINT8, 6},
     {"uint8", OIIO::TypeDesc::UINT8, 0},    {"sint8", OIIO::TypeDesc::INT8, 0},
     {"uint10", OIIO::TypeDesc::UINT16, 10}, {"uint12", OIIO::TypeDesc::UINT16, 12},
     {"int8", OIIO::TypeDesc::INT8, 0},      {"int16", OIIO::TypeDesc::INT16, 0},

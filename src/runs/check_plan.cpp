@@ -60,7 +60,8 @@ private:
             take_check(row, at);
         }
         for (const std::string& argument : row.args) {
-            if (argument.front() == '=' || m_next >= m_words.size()) {
+            if (argument.front() == '=' || m_next >= m_words.size() ||
+                chain::is_left_out(argument, m_words, m_next)) {
                 break;
             }
             take_argument(row, manner, m_next++);

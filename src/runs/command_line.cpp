@@ -34,8 +34,10 @@ std::vector<bool> commands_among(const Strings& words) {
         found[i] = word.size() > 1 && word[0] == '-';
         const Token token = parse_token(found[i] ? word : "", true);
         const chain::Command* row = found[i] ? chain::find_command(token.name) : nullptr;
-        const bool value_follows = row && !row->args.empty() && row->args.front()[0] != '=';
-        i += value_follows ? row->args.size() - token.value.size() : 0;
+        for (size_t a = token.value.size(); row && a < row->args.size(); ++a) {
+            const std::string& argument = row->args[a];
+            i += argument.front() != '=' && !chain::is_left_out(argument, words, i + 1) ? 1 : 0;
+        }
     }
     return found;
 }

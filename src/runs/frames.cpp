@@ -1,6 +1,7 @@
 #include "runs/frames.h"
 
 #include <OpenImageIO/strutil.h>
+#include <OpenImageIO/sysutil.h>
 #include <algorithm>
 #include <cstdio>
 #include <iostream>
@@ -63,13 +64,17 @@ Scan scan_words(const Strings& words) {
     const std::vector<bool> command = commands_among(words);
     for (size_t i = 0; i < words.size(); ++i) {
         const std::string& word = words[i];
-        std::string name =
-            command[i] ? word.substr(word[1] == '-' ? 2 : 1) : std::string();
+        std::string name = command[i] ? word.substr(word[1] == '-' ? 2 : 1) : std::string();
         wildcards = name == "wildcardon" || (wildcards && name != "wildcardoff");
         scan.plan.skip_bad |= name == "skip-bad-frames";
         scan.plan.warnings_exit |= name == "warnings-exit";
         scan.plan.verbose = (name == "v" || scan.plan.verbose) && name != "q";
         scan.plan.progress = name == "progress=json" ? "json" : scan.plan.progress;
+        if ((name == "parallel-frames" || name == "jobs") &&
+            chain::is_left_out("[N]", words, i + 1)) {
+            scan.plan.parallel = int(std::max(1U, OIIO::Sysutil::hardware_concurrency()));
+            continue;
+        }
         if (i + 1 < words.size() && take_setting(scan, name, words[i + 1])) {
             ++i;
             continue;
@@ -185,6 +190,9 @@ void pair_frames(const Strings& words, Scan& scan, const Files& numbered,
             listing.from_disk = sides[side].files.from_disk;
             listing.names = pairs.names[side++];
             plan.sequences.push_back(pattern.at);
+        } else if (sequence::has_range(words[pattern.at])) { // by position
+            listing.names = sequence::list_files(words[pattern.at], scan.options).names;
+            check_length(words, scan, pattern, listing.names.size(), pairs.items.size());
         } else {
             listing.names = sequence::file_names(words[pattern.at], scan.options, pairs.items);
         }

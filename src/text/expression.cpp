@@ -215,7 +215,12 @@ std::string Evaluator::function(const std::string& name) {
         }
         return m_lenient ? m_text : (fail("unknown attribute name '" + key + "'"), "");
     }
-    fail("unknown function " + name + "() (valid: not, eq, neq, getattribute)");
+    if (name == "var") {
+        const std::string key = Strutil::strip(Strutil::parse_until(m_rest, ")"), "'\"");
+        (void)Strutil::parse_char(m_rest, ')');
+        return m_names.value(key).value_or("");
+    }
+    fail("unknown function " + name + "() (valid: not, eq, neq, getattribute, var)");
 }
 
 std::string Evaluator::named(const std::string& name) {

@@ -14,6 +14,7 @@ struct Token {
     std::string name;               ///< of a command: without dashes and modifiers
     std::vector<std::string> value; ///< of "--help=man": its first argument
     std::vector<std::pair<std::string, std::string>> modifiers;
+    std::vector<std::string> dropped; ///< what was malformed, if lenient
 };
 
 /// One or two dashes are the same. A modifier is `key=value`; a value that begins with ' or "

@@ -3,6 +3,6 @@
 import importlib
 
 FAMILIES = ("arithmetic", "channels", "color", "drawing", "errors", "files", "geometry",
-            "language", "printing")
+            "language", "printing", "surface")
 CASES = [case for family in FAMILIES
          for case in importlib.import_module(f"cases_{family}").CASES]

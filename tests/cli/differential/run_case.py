@@ -86,9 +86,12 @@ class StockRuns:
 
 def normalised(text, without=""):
     """Without what may differ between two programs that do the same: their name, the time that
-    passed, memory, names of unfinished files, the usage text after an unknown option."""
+    passed, memory, names of unfinished files, the usage text after an unknown option, warnings of
+    modifiers that do nothing."""
     text = re.sub(r"(?ms)^(oiiotool|tonetool) -- .*", "", text)
     text = re.sub(r"\b(oiiotool|tonetool)\b", "PROGRAM", text).replace(" --compat", "")
+    # What --compat says beyond oiiotool: a modifier that does nothing.
+    text = re.sub(r"(?m)^PROGRAM WARNING:? .*has no effect.*\n?", "", text)
     text = re.sub(r"\.[0-9a-f]{8}\.temp\.", ".", text)
     text = re.sub(r"\.(\w+\.\w+)\.\d+-\d+\.\w+", r"\1", text)
     text = re.sub(r"\b\d+(\.\d+)? ?[KMG]?B(?![\w=])", "SIZE", text)

@@ -1,4 +1,5 @@
-"""The registry against the tables: no command without help, a differential case, an error case."""
+"""What oiiotool takes against the tables, and the registry against both: no command or modifier
+without a case, no command without help and an error case."""
 
 import json
 import os
@@ -7,24 +8,18 @@ from collections import Counter
 
 import pytest
 from cases import CASES
+from stock_surface import (EXPRESSIONS, HIDDEN, SHARED, all_commands, all_modifiers,
+                           declared_commands, listed_commands)
 
 # Only tonetool has these; tests/cli/test_*.py run them.
 OWN_COMMANDS = set("""hdrflip ldrflip flipdiff exposure calibrate tonemap cgtmo lightindex errormap
     tmqi luminancestats qc exportlut report json csv junit contactsheet pictures state statistics
     merge doctor compat progress parallel-frames memory warnings-exit filmstrip tonecurves""".split())
 
-# Every command on one image takes these two; some of each family have cases with them.
-SHARED_MODIFIERS = {"allsubimages", "subimages"}
 OWN_TEXT = {"help"}     # each program's help is its own
 
-
-def stock_help(program):
-    return subprocess.run([program, "--help"], capture_output=True, text=True, check=True).stdout
-
-
-def stock_commands(program):
-    return {line.split()[0].lstrip("-") for line in stock_help(program).splitlines()
-            if line.startswith("    -")}
+# Newer versions of oiiotool have these.
+NEWER = {"history", "no-history", "parallel-frames"}
 
 
 @pytest.fixture(scope="module")
@@ -41,11 +36,21 @@ def lacking(registry, has):
 
 def test_every_command_of_oiiotool_is_there(registry, stock_program):
     names = {name for command in registry for name in command["names"]}
-    assert not stock_commands(stock_program) - names
+    assert not all_commands(stock_program) - names
 
 
 def test_own_commands_are_not_oiiotools(stock_program):
-    assert not OWN_COMMANDS & stock_commands(stock_program)
+    assert not (OWN_COMMANDS | NEWER) & all_commands(stock_program)
+
+
+def test_hidden_commands_are_those_that_the_binary_declares_beside_its_help(stock_program):
+    assert declared_commands(stock_program) - listed_commands(stock_program) == HIDDEN
+
+
+def test_every_modifier_of_oiiotool_is_there(registry, stock_program):
+    taken = {(name, modifier["key"]) for command in registry for name in command["names"]
+             for modifier in command["modifiers"]}
+    assert not all_modifiers(stock_program) - taken
 
 
 def test_every_command_has_help(registry):
@@ -68,12 +73,23 @@ def test_every_modifier_has_a_differential_case(registry):
     used = {one for case in CASES for one in case.modifiers()}
     unused = {(row["names"][0], modifier["key"]) for row in registry
               if not set(row["names"]) & OWN_COMMANDS for modifier in row["modifiers"]
-              if modifier["key"] not in SHARED_MODIFIERS
+              if modifier["key"] not in SHARED
               and not used & {(name, modifier["key"]) for name in row["names"]}}
     assert not unused
 
 
 def test_every_command_of_oiiotool_has_a_case(stock_program):
-    """Needs no registry: what oiiotool's own help lists is what the tables run."""
+    """Needs no registry: what oiiotool takes is what the tables run."""
     used = Counter(name for case in CASES for name in case.commands())
-    assert not {name for name in stock_commands(stock_program) - OWN_TEXT if used[name] < 2}
+    assert not {name for name in listed_commands(stock_program) - OWN_TEXT if used[name] < 2}
+    assert not HIDDEN - set(used)
+
+
+def test_every_modifier_of_oiiotool_has_a_case(stock_program):
+    used = {one for case in CASES for one in case.modifiers()}
+    assert not all_modifiers(stock_program) - used
+
+
+def test_every_word_of_expressions_has_a_case():
+    text = " ".join(case.line for case in CASES)
+    assert not [word for word in EXPRESSIONS if word not in text]
