@@ -26,9 +26,14 @@ Position asked_position(const Session& session, const std::string& text) {
     return position;
 }
 
-std::vector<const OIIO::ImageBuf*> pixels_of(const std::vector<ImagePtr>& images) {
+std::vector<const OIIO::ImageBuf*> flat_pixels_of(const std::vector<ImagePtr>& images) {
     std::vector<const OIIO::ImageBuf*> all;
     for (const ImagePtr& image : images) {
+        if (image->part().header().deep) {
+            throw CommandError("\"" + image->name() +
+                               "\" is deep, which this command cannot use (--flatten makes it "
+                               "flat)");
+        }
         all.push_back(&image->part().pixels());
     }
     return all;
@@ -38,7 +43,7 @@ void run_paste(Session& session, const Call& call) {
     std::vector<ImagePtr> images = take_images(session, call.flag("all", false) ? 0 : 2);
     const Position at = asked_position(session, call.argument(0));
     OIIO::ImageBuf result =
-        files::pasted(pixels_of(images), at.x, at.y, call.flag("mergeroi", false));
+        files::pasted(flat_pixels_of(images), at.x, at.y, call.flag("mergeroi", false));
     session.push(Image::derived(*images.back(), std::move(result)));
 }
 
@@ -64,7 +69,7 @@ void run_mosaic(Session& session, const Call& call) {
     }
     const size_t cells = size_t(sheet.columns) * size_t(sheet.rows);
     std::vector<ImagePtr> images = take_images(session, std::min(cells, session.stack.size()));
-    session.push(Image::created("mosaic", files::mosaic(sheet, pixels_of(images))));
+    session.push(Image::created("mosaic", files::mosaic(sheet, flat_pixels_of(images))));
 }
 
 const std::vector<OpRow> rows = {

@@ -1,7 +1,7 @@
 // Commands that write textures.
 #include <OpenImageIO/imagebufalgo.h>
-#include <map>
 
+#include "chain/io.h"
 #include "chain/ops.h"
 #include "include/tonetool/texture.h"
 #include "text/error.h"
@@ -114,7 +114,6 @@ OIIO::ImageSpec texture_config(Session& session, const Call& call, const Image& 
 void save_texture(Session& session, const Call& call, const Image& image,
                   const std::string& filename, const OutputSettings& settings) {
     namespace IBA = OIIO::ImageBufAlgo;
-    session.claim(filename);
     const std::string label = call.row().label();
     const auto mode = label == "oenv"    ? IBA::MakeTxEnvLatl
                       : label == "obump" ? IBA::MakeTxBumpWithSlopes

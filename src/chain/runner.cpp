@@ -12,11 +12,34 @@
 
 #include "chain/expression.h"
 #include "chain/io.h"
+#include "chain/ops.h"
 #include "text/error.h"
 
 namespace tonetool::chain {
 
 namespace {
+
+// OpenImageIO ends the process where these get depth samples.
+void refuse_deep(const Session& session, const Call& call) {
+    static const Strings flat_only = {"resample",   "transpose", "fft",      "maxchan",
+                                      "minchan",    "chsum",     "colormap", "colorcount",
+                                      "rangecheck", "pdiff"};
+    const std::string& name = call.row().names.front();
+    if (std::find(flat_only.begin(), flat_only.end(), name) == flat_only.end()) {
+        return;
+    }
+    for (const ImagePtr& image : call.images) {
+        const Chosen chosen = chosen_subimages(session, call, *image);
+        for (size_t s = 0; s < chosen.count; ++s) {
+            if (chosen.active[s] && image->part(s).header().deep) {
+                throw CommandError(session.compat ? "deep images not supported"
+                                                  : "\"" + image->name() +
+                                                        "\" is deep, which this command cannot use "
+                                                        "(--flatten makes it flat)");
+            }
+        }
+    }
+}
 
 void execute(Session& session, Call& call) {
     std::vector<ImagePtr>& stack = session.stack;
@@ -30,6 +53,7 @@ void execute(Session& session, Call& call) {
             session.note_format(*image);
         }
     }
+    refuse_deep(session, call);
     size_t expected = stack.size() + static_cast<size_t>(call.pushes());
     call.row().run(session, call);
     if (call.pushes() != any_number && stack.size() != expected) {
