@@ -5,6 +5,7 @@
 #include "chain/ops.h"
 #include "files/attributes.h"
 #include "imagebuf/oiio_compat.h"
+#include "include/tonetool/color_tags.h"
 
 namespace tonetool::chain {
 
@@ -17,21 +18,30 @@ std::string space_of(const Op& op, const std::string& name) {
                    : name;
 }
 
+// The source's profile and gamma do not describe converted pixels; oiiotool keeps them.
+bool converted(Op& op, bool done) {
+    if (done && !op.session.compat) {
+        drop_profile(op.dst.specmod());
+    }
+    return done;
+}
+
 bool convert(Op& op, const std::string& from, const std::string& to) {
     bool done = IBA::colorconvert(op.dst, op.a(), space_of(op, from), space_of(op, to),
                                   op.flag("unpremult"), op.text("key"), op.text("value"),
                                   &color_config(op.session));
     if (!done && !op.flag("strict", true)) {
         op.session.warning("colorconvert", op.dst.geterror());
-        done = op.dst.copy(op.a());
+        return op.dst.copy(op.a());
     }
-    return done;
+    return converted(op, done);
 }
 
 bool look(Op& op) {
-    return IBA::ociolook(op.dst, op.a(), op.call.argument(0), space_of(op, op.text("from")),
-                         space_of(op, op.text("to")), op.flag("unpremult"), op.flag("inverse"),
-                         op.text("key"), op.text("value"), &color_config(op.session));
+    return converted(op, IBA::ociolook(op.dst, op.a(), op.call.argument(0),
+                                       space_of(op, op.text("from")), space_of(op, op.text("to")),
+                                       op.flag("unpremult"), op.flag("inverse"), op.text("key"),
+                                       op.text("value"), &color_config(op.session)));
 }
 
 void check_view(Session& session, const std::string& display, const std::string& view) {
@@ -53,9 +63,10 @@ bool display(Op& op) {
                            "looks= has no effect with OpenImageIO " OIIO_VERSION_STRING
                            " (--ociolook before --ociodisplay applies a look)");
     }
-    return oiio::ociodisplay(op.dst, op.a(), name, view, space_of(op, op.text("from")),
-                             op.text("looks"), op.flag("unpremult"), op.text("key"),
-                             op.text("value"), color_config(op.session));
+    return converted(op,
+                     oiio::ociodisplay(op.dst, op.a(), name, view, space_of(op, op.text("from")),
+                                       op.text("looks"), op.flag("unpremult"), op.text("key"),
+                                       op.text("value"), color_config(op.session)));
 }
 
 bool matrix(Op& op) {
@@ -113,8 +124,9 @@ const std::vector<OpRow> rows = {
                "looks=NAMES: instead of those of the view"},
     {"ociofiletransform FILENAME", 1, "Apply the transform of a file (a LUT)",
      [](Op& op) {
-         return IBA::ociofiletransform(op.dst, op.a(), op.call.argument(0), op.flag("unpremult"),
-                                       op.flag("inverse"), &color_config(op.session));
+         return converted(op, IBA::ociofiletransform(op.dst, op.a(), op.call.argument(0),
+                                                     op.flag("unpremult"), op.flag("inverse"),
+                                                     &color_config(op.session)));
      },
      alpha + "inverse=0|1: undo the transform"},
     {"ccmatrix MATRIXVALS", 1, "Multiply the colour by a matrix of 9 or 16 numbers", matrix,

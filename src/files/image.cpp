@@ -7,6 +7,7 @@
 
 #include "imagebuf/allocation.h"
 #include "imagebuf/oiio_compat.h"
+#include "include/tonetool/color_tags.h"
 #include "text/error.h"
 #include "text/text.h"
 
@@ -55,10 +56,12 @@ std::unique_ptr<OIIO::ImageInput> open_input(const std::string& filename, const 
     return input;
 }
 
-std::vector<OIIO::ImageSpec> level_headers(OIIO::ImageInput& input, int subimage) {
+std::vector<OIIO::ImageSpec> level_headers(OIIO::ImageInput& input, const std::string& filename,
+                                           int subimage) {
     std::vector<OIIO::ImageSpec> levels;
     while (input.seek_subimage(subimage, int(levels.size()))) {
         levels.push_back(input.spec());
+        take_whole_exposure(levels.back(), filename);
     }
     (void)input.geterror();
     return levels;
@@ -94,7 +97,8 @@ Part::Part(std::vector<OIIO::ImageBuf> levels, std::optional<DataFormat> format,
     : m_format(std::move(format)),
       m_integer_encoded(integer_encoded),
       m_pixels(std::move(levels)) {
-    for (const OIIO::ImageBuf& level : m_pixels) {
+    for (OIIO::ImageBuf& level : m_pixels) {
+        level.specmod().erase_attribute(kStoredType); // of a view that it was made of
         m_headers.push_back(level.spec());
     }
 }
@@ -177,8 +181,14 @@ void Part::read(int level) {
 
 void Part::tag_encoding(OIIO::ImageSpec& spec) const {
     bool told = spec.find_attribute("oiio:ColorSpace") || spec.find_attribute("chromaticities");
-    if (m_integer_encoded && !told) {
+    if (!m_integer_encoded) {
+        return;
+    }
+    if (!told) {
         spec.attribute("oiio:ColorSpace", "sRGB");
+    }
+    if (!spec.find_attribute("tonemap:curve")) { // whose colour was encoded with its alpha in it
+        spec.attribute(kStoredType, m_format ? m_format->type.c_str() : "uint8");
     }
 }
 
@@ -229,7 +239,7 @@ ImagePtr Image::open(const std::string& filename, const ReadOptions& how) {
     std::vector<PartPtr> parts;
     for (int subimage = 0; input->seek_subimage(subimage, 0); ++subimage) {
         parts.push_back(
-            std::make_shared<Part>(filename, subimage, level_headers(*input, subimage), how));
+            std::make_shared<Part>(filename, subimage, level_headers(*input, filename, subimage), how));
     }
     (void)input->geterror();
     if (parts.empty()) {

@@ -8,8 +8,9 @@
 #include <ctime>
 #include <deque>
 
-#include "files/channels.h"
+#include "files/fitting.h"
 #include "imagebuf/oiio_compat.h"
+#include "include/tonetool/color_tags.h"
 #include "include/tonetool/tonetool.h"
 #include "text/error.h"
 #include "text/values.h"
@@ -38,13 +39,6 @@ const TypeRow type_rows[] = {
     {"float", OIIO::TypeDesc::FLOAT, 0},    {"double", OIIO::TypeDesc::DOUBLE, 0},
 };
 
-// One subimage on its way to the file: pixels (owned here where they had to change), data types.
-struct Outgoing {
-    OIIO::ImageBuf owned;
-    const OIIO::ImageBuf* pixels;
-    DataFormat format;
-};
-
 std::unique_ptr<OIIO::ImageOutput> find_writer(const std::string& filename,
                                                const std::string& format_name) {
     auto writer = OIIO::ImageOutput::create(format_name.empty() ? filename : format_name);
@@ -53,64 +47,6 @@ std::unique_ptr<OIIO::ImageOutput> find_writer(const std::string& filename,
         throw CommandError(why.empty() ? "no format for \"" + filename + "\"" : why);
     }
     return writer;
-}
-
-// Formats without a data window get the display window; those without a negative origin get the
-// part of it that they can hold.
-void fit_windows(Outgoing& image, const OIIO::ImageOutput& writer) {
-    OIIO::ROI wanted = image.pixels->roi_full();
-    bool windows = oiio::format_supports(writer, "displaywindow");
-    bool negative = oiio::format_supports(writer, "negativeorigin");
-    const OIIO::ImageSpec& spec = image.pixels->spec();
-    bool below_zero = std::min({spec.x, spec.y, spec.full_x, spec.full_y}) < 0;
-    if (wanted == image.pixels->roi() || spec.deep || (windows && (negative || !below_zero))) {
-        return;
-    }
-    wanted.chbegin = 0;
-    wanted.chend = spec.nchannels;
-    if (windows) {
-        wanted.xbegin = std::max(wanted.xbegin, 0);
-        wanted.ybegin = std::max(wanted.ybegin, 0);
-    }
-    OIIO::ImageBuf fitted = windows ? OIIO::ImageBufAlgo::crop(*image.pixels, wanted)
-                                    : OIIO::ImageBufAlgo::cut(*image.pixels, wanted);
-    if (fitted.has_error()) {
-        throw CommandError(fitted.geterror());
-    }
-    image.owned = std::move(fitted);
-    image.pixels = &image.owned;
-}
-
-void fit_channels(const Warn& warn, Outgoing& image, const OIIO::ImageOutput& writer) {
-    const OIIO::ImageSpec& spec = image.pixels->spec();
-    bool alpha = oiio::format_supports(writer, "alpha");
-    bool fits = spec.nchannels <= 3 || (spec.nchannels == 4 && alpha) ||
-                (spec.nchannels > 4 && oiio::format_supports(writer, "nchannels"));
-    if (fits) {
-        return;
-    }
-    // What was tone mapped is what is to be seen.
-    std::string layer = spec.get_string_attribute("tonemap:layer");
-    layer += layer.empty() ? "" : ".";
-    bool opaque = !layer.empty() && channel_index(spec, layer + "A") < 0;
-    int kept = alpha && !opaque ? 4 : 3;
-    std::vector<int> chosen;
-    Strings names;
-    for (int i = 0; i < kept; ++i) {
-        static const char* const usual[] = {"R", "G", "B", "A"};
-        chosen.push_back(channel_index(spec, layer + usual[i]));
-    }
-    if (std::find(chosen.begin(), chosen.end(), -1) != chosen.end()) {
-        chosen = kept == 4 ? std::vector<int>{0, 1, 2, 3} : std::vector<int>{0, 1, 2};
-    }
-    for (int index : chosen) {
-        names.push_back(spec.channelnames[static_cast<size_t>(index)]);
-    }
-    warn("Can't save " + std::to_string(spec.nchannels) + " channels to " + writer.format_name() +
-         "... saving only " + join(names, ","));
-    image.owned = OIIO::ImageBufAlgo::channels(*image.pixels, kept, chosen);
-    image.pixels = &image.owned;
-    image.format.of_channel.clear();
 }
 
 void choose_format(DataFormat& format, const OIIO::ImageSpec& spec, const OutputSettings& asked,
@@ -159,6 +95,17 @@ void set_layout(OIIO::ImageSpec& spec, const OutputSettings& settings,
     }
 }
 
+// A PNG file's gamma, which its writer knows by the tag alone; and the primaries of a known space.
+void state_color(OIIO::ImageSpec& spec, const OIIO::ImageOutput& writer) {
+    const double gamma = stated_gamma(spec);
+    if (gamma > 0 && spec.find_attribute("oiio:Gamma") && writer.format_name() == "png"s) {
+        spec.attribute("oiio:ColorSpace", "GammaCorrected" + format_number(gamma));
+    }
+    if (writer.format_name() == "openexr"s) {
+        state_chromaticities(spec);
+    }
+}
+
 OIIO::ImageSpec output_spec(const Outgoing& image, const Writer& from,
                             const OutputSettings& settings, const std::string& filename,
                             const OIIO::ImageOutput& writer) {
@@ -180,6 +127,9 @@ OIIO::ImageSpec output_spec(const Outgoing& image, const Writer& from,
         spec.attribute("oiio:dither", seed != 0 ? seed : 1);
     }
     set_layout(spec, settings, writer, from.lenient);
+    if (!from.lenient) {
+        state_color(spec, writer);
+    }
     spec.erase_attribute("oiio:BitsPerSample");
     if (image.format.bits > 0) {
         spec.attribute("oiio:BitsPerSample", image.format.bits);
@@ -196,6 +146,20 @@ void warn_of_encoding(const Warn& warn, const OIIO::ImageSpec& spec,
     if (spec.find_attribute("tonemap:curve") && !linear && writer.format_name() == "openexr"s) {
         warn("the tone mapped values are display-encoded (" + space +
              "), but OpenEXR is read as linear light (encode=none)");
+    }
+}
+
+// No writer of OpenImageIO keeps what some readers hand over; the pixels are copied as they are.
+void warn_of_lost(const Warn& warn, const OIIO::ImageSpec& spec, const OIIO::ImageOutput& writer) {
+    const std::string kept_by = std::string(writer.format_name()) + " file does not say so";
+    if (const double exposure = stated_exposure(spec); exposure != 1) {
+        warn("the EXPOSURE of " + format_number(exposure) +
+             " is not applied to the pixels, and the " + kept_by);
+    }
+    const double gamma = spec.find_attribute("oiio:Gamma") ? stated_gamma(spec) : 0;
+    if (gamma > 0 && writer.format_name() != "png"s) {
+        warn("the gamma of " + format_number(gamma) + " is not applied to the pixels, and the " +
+             kept_by);
     }
 }
 
@@ -323,7 +287,10 @@ void prepare_part(const Image& image, Part& part, const std::string& filename,
         if (settings.autocrop) {
             fit_windows(next, writer);
         }
-        fit_channels(from.warn, next, writer);
+        fit_channels(next, writer, from);
+        if (!from.lenient) {
+            turn_upright(next, writer);
+        }
         choose_format(next.format, next.pixels->spec(), settings, from);
         ready.push_back({next.pixels, output_spec(next, from, settings, filename, writer),
                          level > 0, settings.format_name});
@@ -331,6 +298,10 @@ void prepare_part(const Image& image, Part& part, const std::string& filename,
             ready.back().spec.erase_attribute("textureformat");
         }
         warn_of_encoding(from.warn, ready.back().spec, writer);
+        if (!from.lenient) {
+            warn_of_lost(from.warn, next.pixels->spec(), writer);
+            warn_of_unseen(from.warn, *next.pixels, ready.back().spec, writer);
+        }
     }
     if (part.mip_levels() > 1 && !mipmap && !from.lenient) {
         from.warn("only the largest of " + std::to_string(part.mip_levels()) + " MIP levels of " +

@@ -50,11 +50,6 @@ void place(AovLayer& layer, const std::string& component, int channel) {
         layer.first = channel;
 }
 
-// Stereo pairs of Blender are "ViewLayer.Position.left".
-bool is_eye(const std::string& word) {
-    return word == "left" || word == "right";
-}
-
 AovLayer named(const std::string& prefix, const OIIO::ImageSpec& spec) {
     AovLayer layer;
     layer.plain = prefix.empty();
@@ -103,20 +98,13 @@ LayerName split_layer(const std::string& layer) {
         return {"", layer};
     const std::string last = layer.substr(dot + 1), before = layer.substr(0, dot);
     const LayerName split = split_layer(before);
-    if (is_eye(lower_case(last)))
+    // Stereo pairs of Blender are "ViewLayer.Position.left".
+    if (lower_case(last) == "left" || lower_case(last) == "right")
         return {split.home + "." + last, split.token};
     // Mitsuba's manual calls a layer "dd.y".
     if (last == "x" || last == "y")
         return {split.home, split.token + "." + last};
     return {before, last};
-}
-
-std::string plain_word(const std::string& name) {
-    std::string word;
-    for (const char c : lower_case(name))
-        if (std::isalnum(static_cast<unsigned char>(c)))
-            word += c;
-    return word;
 }
 
 } // namespace tonetool

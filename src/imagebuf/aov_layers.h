@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "imagebuf/aov_names.h"
+
 namespace tonetool {
 
 /// Channels that differ in their last part only: `P.X`, `P.Y`, `P.Z` or `Px`, `Py`, `Pz`.
@@ -40,8 +42,5 @@ struct LayerName {
 };
 /// "ViewLayer" and "Combined" of "ViewLayer.Combined".
 LayerName split_layer(const std::string& layer);
-
-/// Lower case, letters and digits only.
-std::string plain_word(const std::string& name);
 
 } // namespace tonetool

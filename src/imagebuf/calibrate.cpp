@@ -166,7 +166,7 @@ bool scaled(ImageBuf& dst, const ImageBuf& src, const CalibrationOptions& option
         calibration.row(spec.y + int(y), spec.x, spec.x + spec.width, factors.data());
         float* pixel = data + y * spec.width * spec.nchannels;
         for (float factor : factors) {
-            for (int c : {choice.r, choice.g, choice.b})
+            for (int c : channels_of(choice))
                 pixel[c] *= factor;
             pixel += spec.nchannels;
         }

@@ -182,10 +182,9 @@ private:
 
     void tag(ImageSpec& spec) const {
         const bool picture = m_plan.show == LocalShow::Picture;
-        spec.erase_attribute("chromaticities");
-        spec.attribute("oiio:ColorSpace", space_of_encoding(picture ? m_options.encode : "none"));
+        retag(spec, space_of_encoding(picture ? m_options.encode : "none"));
+        spec.attribute("tonemap:layer", summary.layer);
         const std::pair<const char*, std::string> texts[] = {
-            {"tonemap:layer", summary.layer},
             {"tonemap:curve", "cgtmo"},
             {"tonemap:show", m_options.show},
             {"tonemap:position", summary.position},

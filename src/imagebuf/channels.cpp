@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 
+#include "imagebuf/aov_layers.h"
 #include "imagebuf/color_names.h"
 #include "imagebuf/colorimetry.h"
 #include "include/tonetool/pixels.h"
@@ -14,20 +15,9 @@ using OIIO::Strutil::lower;
 
 constexpr const char* kPlain = "R,G,B";
 
-// What renderers call the final picture, and what is a measurement even though it has R, G, B;
-// compared in lower case without spaces, '_' and '-'.
+// What renderers call the final picture, as plain_word() makes it.
 constexpr const char* kBeautyNames[] = {"combined", "rgba",  "rgb",        "c",     "ci",
                                         "beauty",   "color", "finalimage", "final", "image"};
-constexpr const char* kDataNames[] = {"p",      "pworld",  "position",        "worldposition",
-                                      "n",      "normal",  "normals",         "nworld",
-                                      "albedo", "diffcol", "basecolor",       "uv",
-                                      "st",     "motion",  "vector",          "motionvector",
-                                      "depth",  "z",       "denoisingalbedo", "denoisingnormal"};
-
-template <size_t N>
-bool is_one_of(const std::string& name, const char* const (&list)[N]) {
-    return std::find(std::begin(list), std::end(list), name) != std::end(list);
-}
 
 // 0..3 for R, G, B, A in either case or written out, -1 for any other component.
 int component(const std::string& name) {
@@ -42,11 +32,20 @@ int component(const std::string& name) {
 
 struct Layer {
     std::string name; // "" for plain R,G,B
+    std::string part; // of plain R,G,B: what the part of the file is called
     int channel[4] = {-1, -1, -1, -1};
     bool twice = false; // a colour is there in two spellings, "R" and "red"
     bool has_color() const { return channel[0] >= 0 && channel[1] >= 0 && channel[2] >= 0; }
     std::string shown() const { return name.empty() ? kPlain : name; }
+    AovKind kind() const { return kind_of_layer(split_layer(name.empty() ? part : name).token); }
 };
+
+std::string part_of(const OIIO::ImageSpec& spec) {
+    for (const char* key : {"oiio:subimagename", "name"})
+        if (const std::string name = spec.get_string_attribute(key); !name.empty())
+            return name;
+    return "";
+}
 
 // In the order of the file.
 std::vector<Layer> find_layers(const OIIO::ImageSpec& spec) {
@@ -61,7 +60,9 @@ std::vector<Layer> find_layers(const OIIO::ImageSpec& spec) {
         auto at = std::find_if(layers.begin(), layers.end(),
                                [&](const Layer& l) { return l.name == prefix; });
         if (at == layers.end())
-            at = layers.insert(layers.end(), Layer{prefix, {-1, -1, -1, -1}, false});
+            at = layers.insert(layers.end(), Layer{prefix, "", {-1, -1, -1, -1}, false});
+        if (prefix.empty())
+            at->part = part_of(spec);
         at->twice = at->twice || (c < 3 && at->channel[c] >= 0);
         if (at->channel[c] < 0)
             at->channel[c] = i;
@@ -74,16 +75,76 @@ std::vector<Layer> find_layers(const OIIO::ImageSpec& spec) {
 
 // The pass name of "ViewLayer.Denoising Normal": "denoisingnormal".
 std::string pass_name(const std::string& layer) {
-    const auto dot = layer.rfind('.');
-    std::string name = lower(dot == std::string::npos ? layer : layer.substr(dot + 1));
-    name.erase(std::remove_if(name.begin(), name.end(),
-                              [](char c) { return c == ' ' || c == '_' || c == '-'; }),
-               name.end());
-    return name;
+    return plain_word(split_layer(layer).token);
 }
 
-bool is_data(const Layer& layer) {
-    return is_data_name(layer.name);
+bool is_picture(const Layer& layer) {
+    return layer.kind() == AovKind::Light;
+}
+
+// The last part of a channel's name, in lower case.
+std::string last_part(const std::string& channel) {
+    const auto dot = channel.rfind('.');
+    return lower(dot == std::string::npos ? channel : channel.substr(dot + 1));
+}
+
+std::string prefix_of(const std::string& channel) {
+    const auto dot = channel.rfind('.');
+    return dot == std::string::npos ? "" : channel.substr(0, dot);
+}
+
+bool is_alpha(const std::string& channel) {
+    return component(last_part(channel)) == 3;
+}
+
+// The alpha beside a channel of this layer, -1 if there is none.
+int alpha_beside(const OIIO::ImageSpec& spec, int channel) {
+    const std::string prefix = prefix_of(spec.channelnames[size_t(channel)]);
+    for (int i = 0; i < spec.nchannels; ++i)
+        if (i != channel && is_alpha(spec.channelnames[size_t(i)]) &&
+            prefix_of(spec.channelnames[size_t(i)]) == prefix)
+            return i;
+    return -1;
+}
+
+Layer grey_layer(const OIIO::ImageSpec& spec, int channel) {
+    const std::string& name = spec.channelnames[size_t(channel)];
+    const std::string prefix = prefix_of(name), last = last_part(name);
+    const bool plain = prefix.empty() && (last == "y" || component(last) >= 0);
+    Layer layer{plain ? "" : prefix.empty() ? name : prefix, part_of(spec), {}, false};
+    std::fill_n(layer.channel, 3, channel);
+    layer.channel[3] = alpha_beside(spec, channel);
+    return layer;
+}
+
+// The one channel that a picture without colours consists of, beside its alpha: the only channel of
+// the file, or a plain Y without the colour differences RY, BY and without an X that makes it part
+// of a vector.
+std::vector<Layer> grey_picture(const OIIO::ImageSpec& spec) {
+    std::vector<int> channels;
+    for (int i = 0; i < spec.nchannels; ++i)
+        if (spec.nchannels == 1 || !is_alpha(spec.channelnames[size_t(i)]))
+            channels.push_back(i);
+    const auto plain = [&](const char* name) {
+        return std::find_if(channels.begin(), channels.end(),
+                            [&](int i) { return lower(spec.channelnames[size_t(i)]) == name; });
+    };
+    if (channels.size() > 1) {
+        const auto none = channels.end();
+        const bool grey = plain("y") != none && plain("x") == none && plain("u") == none &&
+                          plain("ry") == none && plain("by") == none;
+        channels = grey ? std::vector<int>{*plain("y")} : std::vector<int>{};
+    }
+    return channels.empty() ? std::vector<Layer>{}
+                            : std::vector<Layer>{grey_layer(spec, channels[0])};
+}
+
+// Whether a picture of one channel holds light by its names: "Z" and "uv.u" do not.
+bool is_grey_picture(const OIIO::ImageSpec& spec, const Layer& layer) {
+    const std::string last = last_part(spec.channelnames[size_t(layer.channel[0])]);
+    static const std::vector<std::string> data = {"z", "x", "u", "v", "w", "t", "i", "id"};
+    return is_picture(layer) && std::find(data.begin(), data.end(), last) == data.end() &&
+           kind_of_layer(last) == AovKind::Light;
 }
 
 std::string list(const std::vector<Layer>& layers) {
@@ -91,7 +152,7 @@ std::string list(const std::vector<Layer>& layers) {
         return "none";
     std::vector<std::string> names;
     for (const Layer& layer : layers)
-        names.push_back(layer.shown());
+        names.push_back(layer.name.empty() && !is_picture(layer) ? layer.part : layer.shown());
     return OIIO::Strutil::join(names, ", ");
 }
 
@@ -115,9 +176,10 @@ std::vector<Layer> only(const std::vector<Layer>& layers, bool (*keep)(const Lay
 std::vector<Layer> named(const std::vector<Layer>& layers, const std::string& name) {
     std::vector<Layer> exact, any_case, last_part;
     for (const Layer& layer : layers) {
-        if (layer.shown() == name)
+        const bool by_part = layer.name.empty() && !layer.part.empty();
+        if (layer.shown() == name || (by_part && layer.part == name))
             exact.push_back(layer);
-        if (lower(layer.shown()) == lower(name))
+        if (lower(layer.shown()) == lower(name) || (by_part && lower(layer.part) == lower(name)))
             any_case.push_back(layer);
         if (!layer.name.empty() && pass_name(layer.name) == pass_name(name) &&
             name.find('.') == std::string::npos)
@@ -126,16 +188,55 @@ std::vector<Layer> named(const std::vector<Layer>& layers, const std::string& na
     return !exact.empty() ? exact : !any_case.empty() ? any_case : last_part;
 }
 
+// The layers of one channel that a user named: by the layer, or by the whole name of the channel.
+std::vector<Layer> named_grey(const OIIO::ImageSpec& spec, const std::string& name) {
+    std::map<std::string, std::vector<int>> channels; // of each layer, but alpha
+    std::vector<Layer> exact, any_case;
+    for (int i = 0; i < spec.nchannels; ++i) {
+        const std::string& full = spec.channelnames[size_t(i)];
+        if (!is_alpha(full) || full == name)
+            channels[prefix_of(full)].push_back(i);
+        if (lower(full) == lower(name))
+            (full == name ? exact : any_case).push_back(grey_layer(spec, i));
+    }
+    for (const auto& [prefix, of_layer] : channels)
+        if (of_layer.size() == 1 && !prefix.empty() && lower(prefix) == lower(name))
+            (prefix == name ? exact : any_case).push_back(grey_layer(spec, of_layer[0]));
+    return !exact.empty() ? exact : any_case;
+}
+
 // The one picture of the file.
-std::vector<Layer> beauty(const std::vector<Layer>& layers) {
-    auto plain = only(layers, [](const Layer& l) { return l.name.empty(); });
+std::vector<Layer> beauty(const OIIO::ImageSpec& spec, const std::vector<Layer>& layers) {
+    auto plain = only(layers, [](const Layer& l) { return l.name.empty() && is_picture(l); });
     if (!plain.empty())
         return plain;
-    auto beauties = only(layers, [](const Layer& l) { return is_beauty_name(l.name); });
+    auto beauties =
+        only(layers, [](const Layer& l) { return !l.name.empty() && is_beauty_name(l.name); });
     if (!beauties.empty())
         return beauties;
     // A file with one layer in all is about that layer, unless its name says data.
-    return layers.size() == 1 && !is_data(layers[0]) ? layers : std::vector<Layer>{};
+    if (layers.size() == 1 && is_picture(layers[0]))
+        return layers;
+    const auto grey = layers.empty() ? grey_picture(spec) : std::vector<Layer>{};
+    return !grey.empty() && is_grey_picture(spec, grey[0]) ? grey : std::vector<Layer>{};
+}
+
+// How a user asks for a layer that is not taken for the picture.
+std::string asked_as(const Layer& layer) {
+    return !layer.name.empty() ? layer.name : layer.part.empty() ? kPlain : layer.part;
+}
+
+std::string data_text(const OIIO::ImageSpec& spec, const Layer& layer) {
+    const std::string channel = spec.channelnames[size_t(layer.channel[0])];
+    const bool grey = layer.channel[0] == layer.channel[1];
+    AovKind kind = layer.kind();
+    if (kind == AovKind::Light)
+        kind = kind_of_layer(last_part(channel));
+    const std::string holds = kind == AovKind::Light ? "data" : plural_of(kind);
+    const std::string name = grey && layer.name.empty() ? channel : asked_as(layer);
+    return "\"" + name + "\", the only layer, holds " + holds +
+           " by its name, and is not taken for the picture; pass layer=" + name +
+           " to look at it all the same";
 }
 
 // The picture of a part of that name or view; of a file of one part with several views, that of
@@ -152,7 +253,7 @@ std::vector<Layer> of_part(const OIIO::ImageSpec& spec, const std::vector<Layer>
     });
     if (!meant)
         return {};
-    const auto found = beauty(layers);
+    const auto found = beauty(spec, layers);
     return found.empty() && layers.size() == 1 ? layers : found;
 }
 
@@ -160,6 +261,9 @@ std::string no_layer_text(const OIIO::ImageSpec& spec, const std::vector<Layer>&
                           const PixelOptions& options) {
     if (!options.layer.empty())
         return "no colour layer \"" + options.layer + "\"; layers with R,G,B: " + list(layers);
+    const auto grey = layers.empty() ? grey_picture(spec) : std::vector<Layer>{};
+    if (layers.size() == 1 || !grey.empty())
+        return data_text(spec, layers.empty() ? grey[0] : layers[0]);
     if (layers.empty())
         return "needs R,G,B, but the image has " + std::to_string(spec.nchannels) +
                " channel(s): " + list_channels(spec);
@@ -190,12 +294,20 @@ bool usable(const OIIO::ImageSpec& spec, const Layer& layer, std::string& error)
 } // namespace
 
 bool is_data_name(const std::string& layer) {
-    const std::string pass = pass_name(layer);
-    return is_one_of(pass, kDataNames) || OIIO::Strutil::starts_with(pass, "crypto");
+    return kind_of_layer(split_layer(layer).token) != AovKind::Light;
 }
 
 bool is_beauty_name(const std::string& layer) {
-    return is_one_of(pass_name(layer), kBeautyNames);
+    const std::string pass = pass_name(layer);
+    return std::find(std::begin(kBeautyNames), std::end(kBeautyNames), pass) !=
+           std::end(kBeautyNames);
+}
+
+bool holds_only_data(const OIIO::ImageSpec& spec) {
+    const auto layers = find_layers(spec);
+    const auto grey = grey_picture(spec);
+    return std::none_of(layers.begin(), layers.end(), is_picture) &&
+           (!layers.empty() || grey.empty() || !is_grey_picture(spec, grey[0]));
 }
 
 namespace ToneAlgo {
@@ -203,9 +315,11 @@ namespace ToneAlgo {
 bool find_color(const OIIO::ImageSpec& spec, const PixelOptions& options, ColorChoice& choice,
                 std::string& error) {
     const auto layers = find_layers(spec);
-    auto found = options.layer.empty() ? beauty(layers) : named(layers, options.layer);
+    auto found = options.layer.empty() ? beauty(spec, layers) : named(layers, options.layer);
     if (found.empty() && !options.layer.empty())
         found = of_part(spec, layers, options.layer);
+    if (found.empty() && !options.layer.empty())
+        found = named_grey(spec, options.layer);
     if (found.empty()) {
         error = no_layer_text(spec, layers, options);
         return false;
@@ -225,10 +339,10 @@ bool find_color(const OIIO::ImageSpec& spec, const PixelOptions& options, ColorC
     choice.a = layer.channel[3];
     choice.layer = layer.name;
     ColorSpace space;
-    if (!find_space(spec, options.from, space, error))
+    if (!find_space(spec, options, space, error))
         return false;
     choice.space = space.name;
-    choice.display_encoded = space.srgb_encoded;
+    choice.display_encoded = space.encoded();
     return true;
 }
 

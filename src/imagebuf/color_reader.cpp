@@ -54,10 +54,10 @@ uint64_t finite_ones(const double (&v)[3]) {
     return count < 3 ? packed : digest(size_t(packed), {v[0], v[1], v[2]});
 }
 
-void to_rec709(const ColorSpace& space, double (&v)[3]) {
-    if (space.srgb_encoded)
+void to_rec709(const ColorSpace& space, double alpha, double (&v)[3]) {
+    if (space.encoded() || space.scale != 1)
         for (double& x : v)
-            x = srgb_to_linear(x);
+            x = space.light(x, alpha);
     if (space.is_rec709)
         return;
     const double in[3] = {v[0], v[1], v[2]};
@@ -72,15 +72,14 @@ void to_rec709(const ColorSpace& space, double (&v)[3]) {
 bool ColorReader::open(const ImageBuf& image, const PixelOptions& options, ROI region,
                        bool want_alpha, int nthreads, std::string& error) {
     const OIIO::ImageSpec spec = deciding_spec(image);
-    if (!ToneAlgo::find_color(spec, options, m_choice, error) ||
-        !find_space(spec, options.from, m_space, error))
+    if (!find_picture(spec, options, m_choice, m_space, error))
         return false;
     m_region = region;
     m_window = OIIO::roi_intersection(image.roi(), region);
     m_alpha = want_alpha;
     m_nthreads = nthreads;
     std::vector<int> channels = {m_choice.r, m_choice.g, m_choice.b};
-    if ((m_alpha || m_watch) && m_choice.a >= 0)
+    if ((m_alpha || m_watch || m_space.straight) && m_choice.a >= 0)
         channels.push_back(m_choice.a);
     const std::vector<ChannelRun> runs = runs_of(channels);
     for (size_t i = 0; i < channels.size(); ++i)
@@ -227,33 +226,51 @@ void ColorReader::clean_row(int y, const Stage& stage, ColorPlanes& planes,
         clean(row, from, to, y, stage, counts);
 }
 
+// Through the configuration that knows the space; empty where none is asked.
+std::vector<float> ColorReader::convert(const float* const (&in)[3], const size_t (&step)[3],
+                                        size_t count) const {
+    std::vector<float> packed;
+    if (!m_space.convert)
+        return packed;
+    for (size_t x = 0; x < count; ++x)
+        for (size_t p = 0; p < 3; ++p) {
+            const float v = in[p][x * step[p]];
+            packed.push_back(std::isfinite(v) ? v : 0.0f);
+        }
+    m_space.convert(packed.data(), ptrdiff_t(count));
+    return packed;
+}
+
 void ColorReader::clean(const Row& row, size_t from, size_t to, int y, const Stage& stage,
                         ColorCounts& counts) const {
     const float* in[3] = {staged(stage, y, 0), staged(stage, y, 1), staged(stage, y, 2)};
     const size_t step[3] = {size_t(m_place[0].stride), size_t(m_place[1].stride),
                             size_t(m_place[2].stride)};
     const float* alpha = m_place[3].stride > 0 ? staged(stage, y, 3) : nullptr;
-    const auto alpha_at = [&](size_t x) { return alpha[(x - from) * size_t(m_place[3].stride)]; };
+    const std::vector<float> converted = convert(in, step, to - from);
     for (size_t x = from; x < to; ++x) {
         double v[3];
+        const float a = alpha ? alpha[(x - from) * size_t(m_place[3].stride)] : 1.0f;
         for (size_t p = 0; p < 3; ++p)
             v[p] = in[p][(x - from) * step[p]];
         unsigned kinds = kind(v[0]) | kind(v[1]) << 2 | kind(v[2]) << 4;
         if (row.alpha) {
-            row.alpha[x] = alpha ? alpha_at(x) : 1.0f;
+            row.alpha[x] = a;
             kinds |= kind(row.alpha[x]) << 6;
             if (!std::isfinite(row.alpha[x]))
                 row.alpha[x] = 0;
         } else if (alpha) {
-            counts.alpha_digest += alpha_digest(row.place + x, alpha_at(x));
+            counts.alpha_digest += alpha_digest(row.place + x, a);
         }
         const bool finite = kinds == 0;
         row.nonfinite[x] = uint8_t(kinds);
         counts.nonfinite += !finite;
         if (!finite)
             row.beside[x] = finite_ones(v);
+        if (finite && !converted.empty())
+            std::copy_n(converted.data() + 3 * (x - from), 3, v);
         if (finite)
-            to_rec709(m_space, v);
+            to_rec709(m_space, double(a), v);
         if (finite && (v[0] < 0 || v[1] < 0 || v[2] < 0)) {
             ++counts.negative;
             counts.negative_digest += digest(row.place + x, v);

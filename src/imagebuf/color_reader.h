@@ -62,6 +62,8 @@ private:
     void clean_row(int y, const Stage& stage, ColorPlanes& planes, ColorCounts& counts) const;
     void clean(const Row& row, size_t from, size_t to, int y, const Stage& stage,
                ColorCounts& counts) const;
+    std::vector<float> convert(const float* const (&in)[3], const size_t (&step)[3],
+                               size_t count) const;
     const float* staged(const Stage& stage, int y, size_t which) const;
     size_t step_bytes() const;
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "imagebuf/names.h"
+#include "imagebuf/view_source.h"
 #include "include/tonetool/pixels.h"
 
 namespace tonetool {
@@ -15,6 +16,9 @@ namespace {
 using OIIO::Strutil::lower;
 
 constexpr double kD65[2] = {0.3127, 0.3290};
+// Exponents that files state of values that are encoded for a screen.
+constexpr double kLeastGamma = 1, kMostGamma = 4;
+const OIIO::TypeDesc kEightFloats("float[8]");
 
 // Spaces by name, with the spellings of the ACES configs and ASWF's interop IDs; and with what
 // headers call them, but configurations of OpenColorIO may call others.
@@ -24,10 +28,13 @@ struct Known {
     Chromaticities primaries;
     std::vector<const char*> aliases, in_headers;
 
+    bool is_interchanged(const std::string& n) const {
+        const auto same = [&](const char* alias) { return n == alias; };
+        return n == name || std::any_of(aliases.begin(), aliases.end(), same);
+    }
     bool is_called(const std::string& n) const {
         const auto same = [&](const char* alias) { return n == alias; };
-        return n == name || std::any_of(aliases.begin(), aliases.end(), same) ||
-               std::any_of(in_headers.begin(), in_headers.end(), same);
+        return is_interchanged(n) || std::any_of(in_headers.begin(), in_headers.end(), same);
     }
 };
 
@@ -167,9 +174,15 @@ bool nearly_equal(const Chromaticities& a, const Chromaticities& b) {
            near(a.white, b.white);
 }
 
+// The axes of CIE XYZ as primaries.
+bool is_xyz(const Chromaticities& c) {
+    const Chromaticities axes = {{1, 0}, {0, 1}, {0, 0}, {c.white[0], c.white[1]}};
+    return nearly_equal(c, axes);
+}
+
 std::optional<Chromaticities> read_chromaticities(const OIIO::ImageSpec& spec) {
     float v[8] = {};
-    if (!spec.getattribute("chromaticities", OIIO::TypeDesc("float[8]"), v))
+    if (!spec.getattribute("chromaticities", kEightFloats, v))
         return std::nullopt;
     return Chromaticities{{v[0], v[1]}, {v[2], v[3]}, {v[4], v[5]}, {v[6], v[7]}};
 }
@@ -195,15 +208,44 @@ bool from_chromaticities(const Chromaticities& c, ColorSpace& space, std::string
     return false;
 }
 
+// The exponent of "GammaCorrected1.8", "Gamma2.2" or "gamma2.2"; 0 for other tags.
+double gamma_of_tag(const std::string& tag) {
+    std::string number;
+    for (const char* start : {"gammacorrected", "gamma"})
+        if (number.empty() && OIIO::Strutil::starts_with(lower(tag), start))
+            number = OIIO::Strutil::strip(tag.substr(std::string(start).size()));
+    if (!OIIO::Strutil::string_is_float(number))
+        return 0;
+    const double gamma = double(OIIO::Strutil::stof(number));
+    return gamma >= kLeastGamma && gamma <= kMostGamma ? gamma : 0;
+}
+
+ColorSpace of_gamma(double gamma) {
+    ColorSpace space;
+    space.name = gamma == 1 ? "rec709" : OIIO::Strutil::fmt::format("gamma{:.5g}", gamma);
+    space.gamma = gamma == 1 ? 0 : gamma;
+    return space;
+}
+
+// OpenImageIO's readers call the Rec.709 camera curve so, not the linear space; they put it on
+// files (PPM, DPX) that are made for a screen, like every other integer file, and on PFM files,
+// which hold light.
+bool is_camera_curve(const OIIO::ImageSpec& spec, const std::string& tag) {
+    return lower(tag) == "rec709" &&
+           (!spec.format.is_floating_point() || spec.find_attribute("pnm:bigendian"));
+}
+
 bool from_tags(const OIIO::ImageSpec& spec, ColorSpace& space, std::string& error) {
     const std::string tag = spec.get_string_attribute("oiio:ColorSpace");
     const auto chromaticities = read_chromaticities(spec);
-    // OpenImageIO's readers call the Rec.709 camera curve so, not the linear space; they put it on
-    // files (PPM, DPX) that are made for a screen, like every other integer file.
-    const bool camera_curve = lower(tag) == "rec709";
+    const bool camera_curve = is_camera_curve(spec, tag);
     const bool integer = !spec.format.is_floating_point();
-    const Known* known = tag.empty() || camera_curve ? nullptr : find_known(tag);
-    if (!tag.empty() && !known && !(camera_curve && integer)) {
+    if (const double gamma = stated_gamma(spec); gamma > 0) {
+        space = of_gamma(gamma);
+        return true;
+    }
+    const Known* known = tag.empty() || lower(tag) == "rec709" ? nullptr : find_known(tag);
+    if (!tag.empty() && !known && !camera_curve) {
         error = "unknown colour space \"" + tag +
                 "\" in oiio:ColorSpace; pass from= one of: " + known_names();
         return false;
@@ -255,18 +297,111 @@ bool matrix_to_rec709(const Chromaticities& primaries, Matrix3& matrix) {
     const auto rec709 = rgb_to_xyz(known_spaces()[0].primaries);
     if (!source || !rec709)
         return false;
-    matrix = multiply(*inverse(*rec709), multiply(adapt_to_d65(primaries.white), *source));
+    matrix =
+        multiply(*inverse(*rec709),
+                 is_xyz(primaries) ? *source : multiply(adapt_to_d65(primaries.white), *source));
     return finite(matrix);
 }
 
 bool find_space(const OIIO::ImageSpec& spec, const std::string& from, ColorSpace& space,
                 std::string& error) {
-    if (from.empty())
-        return from_tags(spec, space, error);
-    if (const Known* known = find_known(from))
-        return from_known(*known, space);
-    error = unknown_name("colour space", from, ToneAlgo::color_spaces());
+    space = {};
+    const Known* known = find_known(from);
+    const double gamma = gamma_of_tag(from);
+    if (gamma > 0)
+        space = of_gamma(gamma);
+    else if (!from.empty() && !known) {
+        error = unknown_name("colour space", from, ToneAlgo::color_spaces());
+        return false;
+    } else if (!(known ? from_known(*known, space) : from_tags(spec, space, error)))
+        return false;
+    space.scale = 1 / stated_exposure(spec);
+    return true;
+}
+
+bool find_space(const OIIO::ImageSpec& spec, const PixelOptions& options, ColorSpace& space,
+                std::string& error) {
+    const Known* known = find_known(options.from);
+    // What headers call "linear" may be another space of a configuration.
+    const bool ours = known && known->is_interchanged(lower(options.from));
+    if (options.from.empty() || options.config.empty() || ours)
+        return find_space(spec, options.from, space, error);
+    std::string of_config;
+    if (config_space(options, space, of_config)) {
+        space.scale = 1 / stated_exposure(spec);
+        return true;
+    }
+    if (find_space(spec, options.from, space, error))
+        return true;
+    error = of_config;
     return false;
+}
+
+bool find_picture(const OIIO::ImageSpec& spec, const PixelOptions& options, ColorChoice& choice,
+                  ColorSpace& space, std::string& error) {
+    if (!ToneAlgo::find_color(spec, options, choice, error) ||
+        !find_space(spec, options, space, error))
+        return false;
+    if (choice.grey())
+        space.is_rec709 = true;
+    space.straight =
+        space.encoded() && choice.a >= 0 && !spec.channelformat(choice.r).is_floating_point();
+    return true;
+}
+
+double stated_gamma(const OIIO::ImageSpec& spec) {
+    const std::string tag = spec.get_string_attribute("oiio:ColorSpace");
+    // A PNG file with a gAMA chunk and no sRGB chunk is tagged "sRGB" all the same.
+    const double gamma = double(spec.get_float_attribute("oiio:Gamma"));
+    const bool encoded = lower(tag) == "srgb" || tag.empty();
+    if (encoded && gamma >= kLeastGamma && gamma <= kMostGamma)
+        return gamma;
+    return gamma_of_tag(tag);
+}
+
+double stated_exposure(const OIIO::ImageSpec& spec) {
+    const double exposure = double(spec.get_float_attribute("hdr:exposure", 1));
+    return std::isfinite(exposure) && exposure > 0 ? exposure : 1;
+}
+
+void drop_profile(OIIO::ImageSpec& spec) {
+    spec.erase_attribute("ICCProfile");
+    spec.erase_attribute("ICCProfile:.*");
+    spec.erase_attribute("oiio:Gamma");
+}
+
+void retag(OIIO::ImageSpec& spec, const std::string& tag, bool same_primaries) {
+    drop_profile(spec);
+    for (const char* old : {"hdr:exposure", kStoredType})
+        spec.erase_attribute(old);
+    if (!same_primaries)
+        spec.erase_attribute("chromaticities");
+    spec.attribute("oiio:ColorSpace", tag);
+}
+
+void state_chromaticities(OIIO::ImageSpec& spec) {
+    const std::string tag = spec.get_string_attribute("oiio:ColorSpace");
+    const Known* known = says_only_linear(tag) ? nullptr : find_known(tag);
+    if (gamma_of_tag(tag) > 0 || (known && known->srgb_encoded)) {
+        spec.erase_attribute("chromaticities");
+    } else if (known) {
+        const Chromaticities& c = known->primaries;
+        const double* const points[4] = {c.red, c.green, c.blue, c.white};
+        float v[8];
+        for (size_t i = 0; i < 8; ++i)
+            v[i] = float(points[i / 2][i % 2]);
+        spec.attribute("chromaticities", kEightFloats, v);
+    }
+}
+
+double ColorSpace::light(double value, double alpha) const {
+    // A pixel of alpha 0 or above 1 has not been multiplied by it.
+    const double a = straight && alpha > 0 && alpha < 1 ? alpha : 1;
+    if (srgb_encoded)
+        value = srgb_to_linear(value / a) * a;
+    else if (gamma > 0)
+        value = std::copysign(std::pow(std::abs(value) / a, gamma), value) * a;
+    return value * scale;
 }
 
 double srgb_to_linear(double v) {

@@ -3,8 +3,13 @@
 
 #include <OpenImageIO/imageio.h>
 #include <array>
+#include <cstddef>
+#include <functional>
 #include <string>
 #include <vector>
+
+#include "include/tonetool/color_tags.h"
+#include "include/tonetool/pixels.h"
 
 namespace tonetool {
 
@@ -20,6 +25,17 @@ struct ColorSpace {
     bool srgb_encoded = false; ///< values pass the sRGB curve first
     bool is_rec709 = true;     ///< the matrix is the identity and need not be applied
     Matrix3 to_rec709{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
+    double gamma = 0; ///< values are raised to this power first; 0: they are not
+    double scale = 1; ///< light of the value 1, when it is decoded: 1/EXPOSURE of Radiance files
+    /// The values were multiplied by alpha after they were encoded, as 8 and 16 bit files are read.
+    bool straight = false;
+    /// Packed RGB to linear Rec.709 in place, of a configuration's space, instead of all the above
+    /// but the scale.
+    std::function<void(float* rgb, ptrdiff_t count)> convert{};
+
+    bool encoded() const { return srgb_encoded || gamma > 0; }
+    /// The light of a value of a pixel of this alpha, in the space's own primaries.
+    double light(double value, double alpha) const;
 };
 
 /// The space of an image: `from` if given, else its `chromaticities`, else its `oiio:ColorSpace`,
@@ -27,6 +43,18 @@ struct ColorSpace {
 /// chromaticities and tags that contradict each other are errors.
 bool find_space(const OIIO::ImageSpec& spec, const std::string& from, ColorSpace& space,
                 std::string& error);
+
+/// The same by all options: `from` may name a space of their configuration.
+bool find_space(const OIIO::ImageSpec& spec, const PixelOptions& options, ColorSpace& space,
+                std::string& error);
+
+/// The colour of an image and its space, as every function decides on them. A picture of one
+/// channel is grey: its three channels are the same, and no primaries apply to it.
+bool find_picture(const OIIO::ImageSpec& spec, const PixelOptions& options, ColorChoice& choice,
+                  ColorSpace& space, std::string& error);
+
+/// Whether all layers of an image hold data by their names, so that it has no picture.
+bool holds_only_data(const OIIO::ImageSpec& spec);
 
 /// Whether a tag of `oiio:ColorSpace` says no more than "not encoded".
 bool says_only_linear(const std::string& tag);
@@ -40,8 +68,9 @@ Matrix3 known_to_rec709(const std::string& name);
 /// CIE XYZ, D65 white, to linear Rec.709.
 Matrix3 xyz_to_rec709();
 
-/// Linear RGB of these primaries to linear Rec.709; a white other than D65 is adapted (Bradford).
-/// False if the primaries do not span a colour space.
+/// Linear RGB of these primaries to linear Rec.709; a white other than D65 is adapted (Bradford),
+/// but for CIE XYZ, whose values are those of the light itself. False if the primaries do not span
+/// a colour space.
 bool matrix_to_rec709(const Chromaticities& primaries, Matrix3& matrix);
 
 /// sRGB decoding (IEC 61966-2-1), continued beyond 1 and, as its linear part, below 0.

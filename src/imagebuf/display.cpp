@@ -46,13 +46,13 @@ bool copy_part(ImageBuf& out, const ImageBuf& src, ROI roi, int nthreads, std::s
 void encode_pixels(ImageBuf& image, int nthreads) {
     map_values(image, image.spec().alpha_channel, nthreads,
                [](float v) { return float(linear_to_srgb(double(unit_value(v)))); });
-    image.specmod().attribute("oiio:ColorSpace", "sRGB");
+    retag(image.specmod(), "sRGB");
 }
 
 bool is_linear(const ImageBuf& image, std::string& error) {
     ColorSpace space;
     std::string untold;
-    if (!find_space(deciding_spec(image), "", space, untold) || !space.srgb_encoded)
+    if (!find_space(deciding_spec(image), "", space, untold) || !space.encoded())
         return true;
     error = side_name("source", image) + "is sRGB-encoded already";
     return false;

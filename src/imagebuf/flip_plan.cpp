@@ -86,8 +86,11 @@ void show_through(const CurvePlan& curve, FlipPlan& plan) {
 }
 
 bool show_through_view(const HdrFlipOptions& options, FlipPlan& plan, std::string& error) {
-    if (!plan.light.open({*options.view, options.encoding, options.peak}, error))
+    if (!plan.light.open({*options.view, options.encoding, options.peak, options.pixels.from},
+                         error))
         return false;
+    plan.common.pixels.config = config_file(*options.view);
+    plan.common.pixels.context = options.view->context;
     plan.tonemapper = plan.light.name();
     plan.evaluation.rows = options.exact ? plan.light.exact() : plan.light.baked();
     plan.bright = flip::bright_point(

@@ -10,88 +10,15 @@ namespace tonetool {
 namespace {
 
 using OIIO::ImageSpec;
-using OIIO::Strutil::ends_with;
 using OIIO::Strutil::starts_with;
 using Layers = std::vector<const AovLayer*>;
 
 enum Guide { Position, Normal, Albedo, Depth, kGuides };
 constexpr const char* kGuideNames[kGuides] = {"position", "normal", "albedo", "depth"};
 
-// Names of passes as plain_word() makes them, best first. World space comes before a name that may
-// mean camera space, shading normals before geometric ones, what was rendered for the picture
-// before what was rendered for a denoiser. Not here, on purpose: Pref, ObjectPosition (they stay
-// when the object moves), Pz as a position, motion, Mist, and everything with a variance.
-const std::vector<std::string> kPasses[kGuides] = {
-    {
-        "pworld",        // RenderMan __Pworld
-        "worldposition", // V-Ray, Redshift, Unreal
-        "worldpos",
-        "wp",
-        "p",        // Arnold, Karma, Redshift, MoonRay, pbrt; in RenderMan that of the camera
-        "position", // Blender, Octane
-        "pos",      // Mitsuba, by the usual name
-        "hitp",     // Karma ray:hitP
-        "rayhitp",
-        "ppp",
-    },
-    {
-        "ns",            // pbrt, beside the geometric N
-        "shnormal",      // Mitsuba
-        "shadingnormal", // Octane
-        "bumpnormals",   // V-Ray, Redshift, beside Normals
-        "nworld",        // RenderMan __Nworld
-        "worldnormal",   // Unreal
-        "n",             // Arnold, Karma, Redshift, MoonRay
-        "normal",        // Blender, OIDN
-        "normals",       // V-Ray, Redshift
-        "nn",            // RenderMan, Mitsuba
-        "smoothnormal",  // Octane
-        "hitn",
-        "rayhitn",
-        "nrm",
-        "denoisingnormal", // Blender
-        "denoisenormal",   // Arnold, Octane
-        "geonormal",
-        "geometricnormal",
-        "ng",
-    },
-    {
-        "albedo",            // Arnold, RenderMan, Karma, pbrt, Mitsuba, OIDN
-        "basecolor",         // Unreal
-        "diffcol",           // Blender up to 4
-        "diffusecolor",      // Blender 5
-        "diffusefilter",     // V-Ray, Redshift
-        "diffusefilterinfo", // Octane
-        "diffusealbedo",     // Arnold, Karma
-        "alb",
-        "denoisingalbedo", // Blender
-        "denoisealbedo",   // Arnold, Octane
-        "diffuse",         // V-Ray only: elsewhere it is light
-    },
-    {
-        "depth",      // Blender, Karma, Redshift, RenderMan __depth
-        "z",          // Arnold, RenderMan, Redshift
-        "worlddepth", // Unreal
-        "zdepth",     // V-Ray, Octane
-        "pz",         // Karma
-        "hitpz", "rayhitpz", "dist", "distance", "dd",
-        "denoisingdepth", // Blender
-        "zfiltered",      // RenderMan
-    },
-};
+constexpr AovKind kKinds[kGuides] = {AovKind::Position, AovKind::Normal, AovKind::Albedo,
+                                     AovKind::Depth};
 constexpr int kWeakRank = 100, kNoRank = 1000;
-
-// "VRayNormals", "FinalImageMovieRenderQueue_WorldDepth", "FinalImageMyMaterialWorldNormal".
-std::string bare_pass(const AovLayer& layer) {
-    std::string pass = layer.pass;
-    if (starts_with(pass, "vray"))
-        return pass.substr(4);
-    if (starts_with(pass, "finalimage"))
-        for (const char* end : {"worlddepth", "worldposition", "worldnormal", "basecolor"})
-            if (ends_with(pass, end))
-                return end;
-    return pass;
-}
 
 bool is_vray(const ImageSpec& spec, const std::vector<AovLayer>& layers) {
     const auto says_so = [](const OIIO::ParamValue& p) {
@@ -113,10 +40,10 @@ bool usable(Guide guide, const AovLayer& layer) {
 // 0 for the best name, kNoRank for none of this guide.
 int rank_of(Guide guide, const AovLayer& layer, bool vray) {
     const bool plain_z = guide == Depth && layer.plain && layer.has_lone_z();
-    const std::string pass = plain_z ? "z" : bare_pass(layer);
+    const std::string pass = plain_z ? "z" : bare_pass(layer.pass);
     if (!usable(guide, layer) || (guide == Albedo && pass == "diffuse" && !vray))
         return kNoRank;
-    const auto& passes = kPasses[guide];
+    const auto& passes = guide_passes(kKinds[guide]);
     const auto at = std::find(passes.begin(), passes.end(), pass);
     if (at != passes.end())
         return int(at - passes.begin());

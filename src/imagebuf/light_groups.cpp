@@ -14,13 +14,11 @@ using OIIO::Strutil::starts_with;
 // What follows the name of a picture and is no group of lights, as plain_word() makes it.
 bool is_something_else(const std::string& group) {
     const std::string word = plain_word(group);
-    for (const char* other :
-         {"crypto", "denois", "depth", "albedo", "normal", "position", "motion", "variance", "mse",
-          "alpha", "noisy", "filtered", "raw", "samplecount"})
+    for (const char* other : {"denois", "alpha", "noisy", "filtered", "raw"})
         if (starts_with(word, other))
             return true;
-    return word.empty() || word == "var" || word == "a" || word == "z" || word == "n" ||
-           word == "p" || OIIO::Strutil::ends_with(word, "var");
+    return word.empty() || word == "a" || is_eye(word) || kind_of_layer(group) != AovKind::Light ||
+           OIIO::Strutil::ends_with(word, "var");
 }
 
 // The group of "C_Key" for "c": what follows the prefix and one of "_ .-"; "" if it is another

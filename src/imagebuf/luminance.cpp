@@ -61,7 +61,7 @@ bool scale_color(ImageBuf& dst, const ImageBuf& src, double stops, const PixelOp
         return false;
     }
     std::vector<float> factor(size_t(src.nchannels()), 1.0f);
-    for (int channel : {choice.r, choice.g, choice.b})
+    for (int channel : channels_of(choice))
         factor[size_t(channel)] = float(std::exp2(stops));
     // In float, lest a half overflows or an integer is cut off.
     ROI part;

@@ -200,11 +200,23 @@ bool FittedTest::open(const ImageBuf& reference, const ImageBuf& test, const Pai
         return false;
     m_test = m_came = &test;
     m_pixels = options.pixels;
-    for (const ImageBuf* image : {&reference, &test})
+    ColorChoice of_reference;
+    for (const ImageBuf* image : {&reference, &test}) {
+        of_reference = m_choice;
         if (!ToneAlgo::find_color(deciding_spec(*image), options.pixels, m_choice, error)) {
             error = side_name(image == &test ? "test" : "reference", *image) + error;
             return false;
         }
+    }
+    // One that lost its other channels would pass where colours are pale.
+    if (of_reference.grey() != m_choice.grey()) {
+        const bool lost = m_choice.grey();
+        error =
+            side_name(lost ? "test" : "reference", lost ? test : reference) +
+            "has one channel, the other image has R,G,B: a grey picture is compared with a grey "
+            "one (--ch Y,Y,Y makes three channels of it)";
+        return false;
+    }
     if (!check_orientation(reference, test, error))
         return false;
     m_notes = differing_tags(reference.spec(), test.spec());

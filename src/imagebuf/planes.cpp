@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "imagebuf/colorimetry.h"
 #include "imagebuf/has_pixels.h"
 
 namespace tonetool {
@@ -79,9 +80,18 @@ bool check_readable(const ImageBuf& image, const char* what, std::string& error)
     return true;
 }
 
+std::vector<int> channels_of(const ColorChoice& choice) {
+    if (choice.grey())
+        return {choice.r};
+    return {choice.r, choice.g, choice.b};
+}
+
 OIIO::ImageSpec deciding_spec(const ImageBuf& image) {
     OIIO::ImageSpec spec = image.spec();
     const OIIO::ImageSpec& native = image.nativespec();
+    take_whole_exposure(spec, std::string(image.name()));
+    if (const std::string stored = spec.get_string_attribute(kStoredType); !stored.empty())
+        spec.format = OIIO::TypeDesc(stored);
     if (native.nchannels != spec.nchannels)
         return spec;
     if (!native.format.is_floating_point())

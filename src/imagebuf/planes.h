@@ -4,6 +4,7 @@
 #include <OpenImageIO/imagebuf.h>
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "imagebuf/paged_array.h"
 #include "include/tonetool/pixels.h"
@@ -59,8 +60,11 @@ std::string with_side(const std::string& side_name, const std::string& why);
 /// Whether an image can be looked at at all: read without error, not deep, not a volume.
 bool check_readable(const OIIO::ImageBuf& image, const char* what, std::string& error);
 
+/// The channels of a colour, each once: one for a grey picture.
+std::vector<int> channels_of(const ColorChoice& choice);
+
 /// The header `find_color` decides by: the image's spec with the data format of its file, which
-/// tells display-encoded integers from linear floats.
+/// tells display-encoded integers from linear floats, and the whole EXPOSURE of a Radiance file.
 OIIO::ImageSpec deciding_spec(const OIIO::ImageBuf& image);
 
 } // namespace tonetool

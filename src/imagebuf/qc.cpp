@@ -55,6 +55,8 @@ void fill_picture(const QcScan& scan, QcPicture& picture) {
         picture.peaks.push_back(thousandths_of_stops(peak));
     picture.alpha_low = count_of(scan.alpha().below);
     picture.alpha_high = count_of(scan.alpha().above);
+    picture.lit = scan.lit();
+    picture.unseen = count_of(scan.unseen());
     picture.spike_count = scan.spike_count();
     for (const metrics::Spike& spike : scan.spikes())
         picture.spikes.push_back({int(spike.x), int(spike.y), spike.value, spike.around});

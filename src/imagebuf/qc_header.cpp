@@ -32,9 +32,7 @@ std::string part_name(const ImageSpec& spec, size_t part) {
 }
 
 bool is_depth(const AovLayer& layer) {
-    return layer.has_lone_z() || layer.pass == "z" ||
-           OIIO::Strutil::contains(layer.pass, "depth") ||
-           OIIO::Strutil::contains(layer.pass, "distance");
+    return layer.has_lone_z() || kind_of_layer(layer.token) == AovKind::Depth;
 }
 
 } // namespace
@@ -86,10 +84,10 @@ channel_facts(const ImageSpec& joined, const std::vector<const ImageBuf*>& parts
     return channels;
 }
 
-std::string layer_kind(const AovLayer& layer, const std::string& picture,
+std::string layer_kind(const AovLayer& layer, const ColorChoice& picture,
                        const std::vector<LightGroup>& groups) {
     const auto same = [&](const LightGroup& group) { return group.layer == layer.name; };
-    if (layer.has_rgb() && (layer.plain ? picture.empty() : layer.name == picture))
+    if (std::find(layer.channels.begin(), layer.channels.end(), picture.r) != layer.channels.end())
         return "picture";
     if (std::any_of(groups.begin(), groups.end(), same))
         return "light";

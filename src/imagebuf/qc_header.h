@@ -20,7 +20,7 @@ std::vector<std::pair<std::string, std::string>>
 channel_facts(const OIIO::ImageSpec& joined, const std::vector<const OIIO::ImageBuf*>& parts);
 
 /// "picture", "light", "color", "depth", "data".
-std::string layer_kind(const AovLayer& layer, const std::string& picture,
+std::string layer_kind(const AovLayer& layer, const ColorChoice& picture,
                        const std::vector<LightGroup>& groups);
 
 } // namespace tonetool

@@ -28,9 +28,18 @@ bool QcScan::open(const std::vector<const ImageBuf*>& parts, const QcOptions& op
                   std::string& error) {
     m_nthreads = nthreads;
     m_spec = joined_spec(parts);
-    if (!ToneAlgo::find_color(m_spec, options.pixels, m_choice, error) ||
-        !find_space(m_spec, options.pixels.from, m_space, error) ||
-        !choose_light_groups(m_spec, m_choice.layer, options.groups, m_groups, error) ||
+    std::string no_picture;
+    if (!find_picture(m_spec, options.pixels, m_choice, m_space, no_picture)) {
+        // Layers of data are looked at without one.
+        if (!options.pixels.layer.empty() || !holds_only_data(m_spec)) {
+            error = no_picture;
+            return false;
+        }
+        m_choice = {};
+        m_space = {};
+    }
+    if ((has_picture() &&
+         !choose_light_groups(m_spec, m_choice.layer, options.groups, m_groups, error)) ||
         !open_parts(parts, error))
         return false;
     for (size_t c = 0; c < 3; ++c)
@@ -38,7 +47,8 @@ bool QcScan::open(const std::vector<const ImageBuf*>& parts, const QcOptions& op
             m_weights[c] += kRec709[p] * m_space.to_rec709[p][c];
     list_layers();
     place_cells();
-    m_largest_begin = m_spikes_done = picture_window().ybegin;
+    if (has_picture())
+        m_largest_begin = m_spikes_done = picture_window().ybegin;
     return true;
 }
 
@@ -50,6 +60,8 @@ bool QcScan::open_parts(const std::vector<const ImageBuf*>& parts, std::string& 
         if (!part.source.open(*image, {{0, part.channels}}, error))
             return false;
     }
+    if (!has_picture())
+        return true;
     const size_t picture = place_of(m_choice.r).part;
     if (place_of(m_choice.g).part != picture || place_of(m_choice.b).part != picture) {
         error = "red, green and blue of the picture are in different parts of the file";
@@ -65,20 +77,29 @@ QcScan::Place QcScan::place_of(int channel) const {
     return place;
 }
 
-// Beside R, G, B other channels of plain names are layers of their own: "Z" is no colour.
+// Whether a channel is part of what its layer is about: beside R, G, B, and beside the one channel
+// of a grey picture, other channels are layers of their own. "Z" is no colour.
+bool QcScan::belongs(const AovLayer& layer, int channel) const {
+    if (layer.has_rgb())
+        return std::find(layer.rgb, layer.rgb + 3, channel) != layer.rgb + 3;
+    const auto& all = layer.channels;
+    const bool grey = std::find(all.begin(), all.end(), m_choice.r) != all.end();
+    return !grey || channel == m_choice.r;
+}
+
 void QcScan::list_layers() {
     for (const AovLayer& from : aov_layers(m_spec)) {
         Layer layer{from.plain && from.has_rgb() ? "" : from.name,
-                    layer_kind(from, m_choice.layer, m_groups),
+                    layer_kind(from, m_choice, m_groups),
                     place_of(from.first).part,
                     {},
                     {},
                     {}};
+        const auto is_alpha = [&](int channel) { return channel == from.alpha && from.count > 1; };
         for (int channel : from.channels) {
-            const auto* color = std::find(from.rgb, from.rgb + 3, channel);
-            const bool is_alpha = channel == from.alpha && from.count > 1;
-            if (is_alpha || (from.has_rgb() && color == from.rgb + 3))
+            if (is_alpha(channel) || !belongs(from, channel))
                 continue;
+            const auto* color = std::find(from.rgb, from.rgb + 3, channel);
             layer.channels.push_back(place_of(channel).channel);
             layer.weights.push_back(from.has_rgb() ? m_weights[color - from.rgb] : 1.0);
         }
@@ -86,19 +107,18 @@ void QcScan::list_layers() {
             weight /= from.has_rgb() ? 1.0 : double(layer.weights.size());
         m_layers.push_back(std::move(layer));
         for (int channel : from.channels)
-            if (from.has_rgb() && channel != from.alpha &&
-                std::find(from.rgb, from.rgb + 3, channel) == from.rgb + 3)
-                m_layers.push_back(
-                    lone_layer(m_spec.channelnames[size_t(channel)], place_of(channel)));
+            if (!is_alpha(channel) && !belongs(from, channel))
+                m_layers.push_back(lone_layer(channel));
     }
 }
 
-QcScan::Layer QcScan::lone_layer(const std::string& channel, const Place& place) {
+QcScan::Layer QcScan::lone_layer(int channel) const {
+    const std::string& name = m_spec.channelnames[size_t(channel)];
     OIIO::ImageSpec one(1, 1, 1, OIIO::TypeFloat);
-    one.channelnames = {channel};
-    return {channel,    layer_kind(aov_layers(one).front(), "", {}),
-            place.part, {place.channel},
-            {1.0},      {}};
+    one.channelnames = {name};
+    const Place place = place_of(channel);
+    return {name, layer_kind(aov_layers(one).front(), {}, {}), place.part, {place.channel}, {1.0},
+            {}};
 }
 
 bool QcScan::run(std::string& error) {
@@ -116,7 +136,8 @@ bool QcScan::run(std::string& error) {
                                   [&](int64_t i) { scan_row(begin + int(i), rows[size_t(i)]); });
         for (int y = begin; y < end; ++y)
             add(y, rows[size_t(y - begin)]);
-        scan_spikes(end == last);
+        if (has_picture())
+            scan_spikes(end == last);
         begin = end;
     }
     return true;
@@ -159,7 +180,8 @@ void QcScan::scan_row(int y, Row& row) const {
             row.alpha = scan_range(pixels, alpha.channel, -QcPicture::kAlphaSlack,
                                    1 + QcPicture::kAlphaSlack);
     }
-    scan_picture_row(y, row);
+    if (has_picture())
+        scan_picture_row(y, row);
 }
 
 void QcScan::scan_picture_row(int y, Row& row) const {
@@ -174,13 +196,33 @@ void QcScan::scan_picture_row(int y, Row& row) const {
         for (size_t c = 0; c < 3; ++c)
             rgb[3 * x + c] = pixels.pixels[x * size_t(pixels.stride) + size_t(channels[c])];
     row.hash = fingerprint(rgb.data(), rgb.size() * sizeof(float));
-    if (!m_groups.empty() && !m_space.srgb_encoded)
+    if (!m_groups.empty() && !m_space.encoded())
         scan_groups(y, rgb, row);
-    if (m_space.srgb_encoded)
+    scan_alpha(y, rgb, row);
+    if (m_space.encoded() || m_space.scale != 1)
         for (float& v : rgb)
-            v = float(srgb_to_linear(v));
+            v = float(m_space.light(double(v), 1));
     row.picture = metrics::scan_picture(rgb.data(), pixels.width, m_weights, m_cell_of.data(),
                                         size_t(QcPicture::kWide));
+}
+
+// Lit pixels, and those of them that alpha hides.
+void QcScan::scan_alpha(int y, const std::vector<float>& rgb, Row& row) const {
+    if (m_choice.a < 0)
+        return;
+    const Place place = place_of(m_choice.a);
+    const metrics::ChannelRow alpha = row_of(place.part, y);
+    const ROI& window = picture_window();
+    for (int64_t x = 0; 3 * size_t(x) < rgb.size(); ++x) {
+        const float* pixel = &rgb[3 * size_t(x)];
+        if (!(std::max({pixel[0], pixel[1], pixel[2]}) > 0))
+            continue;
+        ++row.lit;
+        const int64_t at = window.xbegin + x - alpha.x;
+        if (alpha.pixels && at >= 0 && at < alpha.width &&
+            alpha.pixels[at * alpha.stride + place.channel] == 0)
+            row.unseen.add({window.xbegin + x, y, 0});
+    }
 }
 
 // Where a group has no pixel it has no light.
@@ -210,6 +252,8 @@ void QcScan::add(int y, const Row& row) {
     for (size_t i = 0; i < m_layers.size(); ++i)
         m_layers[i].scan.add(row.layers[i]);
     m_alpha.add(row.alpha);
+    m_lit += row.lit;
+    m_unseen.add(row.unseen);
     m_group_scan.add(row.groups);
     m_hashes += row.hash;
     if (!row.picture.largest.empty()) {
@@ -251,15 +295,17 @@ void QcScan::scan_spikes(bool last) {
 }
 
 void QcScan::place_cells() {
+    m_cells.assign(size_t(QcPicture::kWide) * QcPicture::kHigh, 0);
+    m_peaks.assign(m_cells.size(), 0);
+    m_missing.assign(m_cells.size(), 0);
+    if (!has_picture())
+        return;
     const ROI& window = picture_window();
     for (int x = window.xbegin; x < window.xend; ++x) {
         const int64_t at = int64_t(x) - m_spec.full_x;
         const bool inside = at >= 0 && at < m_spec.full_width;
         m_cell_of.push_back(inside ? int(at * QcPicture::kWide / m_spec.full_width) : -1);
     }
-    m_cells.assign(size_t(QcPicture::kWide) * QcPicture::kHigh, 0);
-    m_peaks.assign(m_cells.size(), 0);
-    m_missing.assign(m_cells.size(), 0);
 }
 
 void QcScan::add_cells(int y, const metrics::CellRow& cells) {

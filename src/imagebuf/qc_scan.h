@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "imagebuf/aov_layers.h"
 #include "imagebuf/colorimetry.h"
 #include "imagebuf/light_groups.h"
 #include "imagebuf/row_source.h"
@@ -39,6 +40,10 @@ public:
     std::string hash() const;
     std::vector<double> cell_means() const;
     const std::vector<double>& cell_peaks() const { return m_peaks; }
+    bool has_picture() const { return m_choice.r >= 0; }
+    /// Pixels of the picture that are lit, and those of them whose alpha is 0.
+    int64_t lit() const { return m_lit; }
+    const metrics::Hits& unseen() const { return m_unseen; }
 
 private:
     struct Part {
@@ -58,11 +63,15 @@ private:
         metrics::PictureRow picture;
         metrics::GroupScan groups;
         std::string hash;
+        int64_t lit = 0;
+        metrics::Hits unseen;
     };
 
     bool open_parts(const std::vector<const OIIO::ImageBuf*>& parts, std::string& error);
     void list_layers();
-    static Layer lone_layer(const std::string& channel, const Place& place);
+    bool belongs(const AovLayer& layer, int channel) const;
+    Layer lone_layer(int channel) const;
+    void scan_alpha(int y, const std::vector<float>& rgb, Row& row) const;
     void place_cells();
     Place place_of(int channel) const;
     const OIIO::ROI& picture_window() const { return m_parts[place_of(m_choice.r).part].window; }
@@ -88,6 +97,8 @@ private:
     int m_nthreads = 0;
 
     metrics::RangeScan m_alpha;
+    int64_t m_lit = 0;
+    metrics::Hits m_unseen;
     metrics::GroupScan m_group_scan;
     std::string m_hashes;
     std::vector<double> m_cells, m_peaks;

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "include/tonetool/tonemap.h"
+#include "kernels/tone_curve.h"
 
 namespace tonetool {
 namespace {
@@ -20,8 +21,9 @@ const NamedEncoding kEncodings[] = {
     {"rec1886", [](float v) { return std::pow(v, 1.0f / 2.4f); }, "GammaCorrected2.4"},
     {"gamma2.6", [](float v) { return std::pow(v, 1.0f / 2.6f); }, "GammaCorrected2.6"}};
 
-float alpha_of(const float* pixel, const ToneChannels& which) {
-    const float alpha = which.alpha < 0 ? 1.0f : pixel[which.alpha];
+// What colour is divided by.
+float divisor(const float* pixel, const ToneChannels& which) {
+    const float alpha = which.alpha < 0 || !which.unpremult ? 1.0f : pixel[which.alpha];
     return std::isfinite(alpha) && alpha > 0 ? alpha : 1.0f;
 }
 
@@ -33,7 +35,7 @@ float finite(float v) {
 
 } // namespace
 
-ToneRow::ToneRow(size_t width) : factor(width, 1.0f) {
+ToneRow::ToneRow(size_t width) : factor(width, 1.0f), alpha(width, 1.0f) {
     for (int c = 0; c < 3; ++c) {
         plane[c].resize(width);
         rgb[c] = plane[c].data();
@@ -43,7 +45,9 @@ ToneRow::ToneRow(size_t width) : factor(width, 1.0f) {
 void take_row(const float* pixels, int channels, const ToneChannels& which, ToneRow& row,
               size_t count, ToneCounts& counts) {
     for (size_t x = 0; x < count; ++x, pixels += channels) {
-        const float alpha = alpha_of(pixels, which);
+        const float alpha = divisor(pixels, which);
+        if (which.alpha >= 0 && !which.unpremult)
+            row.alpha[x] = pixels[which.alpha];
         bool good = true;
         for (int c = 0; c < 3; ++c) {
             const float v = pixels[which.rgb[c]];
@@ -56,10 +60,16 @@ void take_row(const float* pixels, int channels, const ToneChannels& which, Tone
 
 void put_row(const ToneRow& row, size_t count, const ToneChannels& which, float* pixels,
              int channels) {
+    const bool grey = which.rgb[0] == which.rgb[1] && which.rgb[0] == which.rgb[2];
     for (size_t x = 0; x < count; ++x, pixels += channels) {
-        const float alpha = alpha_of(pixels, which);
-        for (int c = 0; c < 3; ++c)
+        const float alpha = divisor(pixels, which);
+        double luminance = 0;
+        for (int c = 0; c < 3; ++c) {
             pixels[which.rgb[c]] = finite(row.rgb[c][x]) * alpha;
+            luminance += kernels::kLuminance[c] * double(pixels[which.rgb[c]]);
+        }
+        if (grey)
+            pixels[which.rgb[0]] = float(luminance);
     }
 }
 
@@ -69,9 +79,7 @@ void linearize_row(const ColorSpace& space, bool rec709, ToneRow& row, size_t co
     for (size_t x = 0; x < count; ++x) {
         double v[3];
         for (int c = 0; c < 3; ++c) {
-            v[c] = double(row.rgb[c][x]);
-            if (space.srgb_encoded)
-                v[c] = srgb_to_linear(v[c]);
+            v[c] = space.light(double(row.rgb[c][x]), double(row.alpha[x]));
         }
         bool negative = false;
         for (size_t c = 0; c < 3; ++c) {

@@ -14,6 +14,7 @@ namespace tonetool {
 struct ToneRow {
     std::vector<float> plane[3]; ///< R, G, B
     std::vector<float> factor;   ///< what they are multiplied by
+    std::vector<float> alpha;    ///< 1 where there is none
     float* rgb[3] = {nullptr, nullptr, nullptr};
     explicit ToneRow(size_t width);
 };
@@ -25,8 +26,9 @@ struct ToneCounts {
 
 /// Which channels of the float pixels of an image are mapped.
 struct ToneChannels {
-    int rgb[3];
-    int alpha; ///< that colour is divided by and multiplied with; -1: by none
+    int rgb[3];             ///< all the same for a picture of one channel
+    int alpha;              ///< -1: none
+    bool unpremult = false; ///< colour is divided by alpha and multiplied with it
 };
 
 /// What stands for +Inf: the largest half.
@@ -36,7 +38,7 @@ inline constexpr float kInfinityStandsFor = 65504.0f;
 /// kInfinityStandsFor; counted in `counts`.
 void take_row(const float* pixels, int channels, const ToneChannels& which, ToneRow& row,
               size_t count, ToneCounts& counts);
-/// Puts it back, multiplied by alpha.
+/// Puts it back, multiplied by alpha; the luminance where there is one channel.
 void put_row(const ToneRow& row, size_t count, const ToneChannels& which, float* pixels,
              int channels);
 

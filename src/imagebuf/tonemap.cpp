@@ -54,12 +54,19 @@ public:
 private:
     bool find_channels(std::string& error) {
         ColorChoice choice;
+        const ImageSpec spec = deciding_spec(m_src);
         PixelOptions pixels = m_options.pixels;
-        if (m_options.view) // The configuration knows its own spaces.
+        std::string ignored;
+        // The configuration of a view knows its own spaces, but neither the gamma of a file nor
+        // that colour was multiplied by alpha after it was encoded.
+        m_decode = m_options.view && pixels.from.empty() &&
+                   find_picture(spec, pixels, choice, m_space, ignored) &&
+                   (m_space.gamma > 0 || m_space.straight);
+        if (m_options.view && !m_decode)
             pixels.from = "rec709";
-        if (!ToneAlgo::find_color(deciding_spec(m_src), pixels, choice, error))
+        if (!find_picture(spec, pixels, choice, m_space, error))
             return false;
-        m_channels = {{choice.r, choice.g, choice.b}, m_options.unpremult ? choice.a : -1};
+        m_channels = {{choice.r, choice.g, choice.b}, choice.a, m_options.unpremult};
         summary.layer = choice.layer;
         return true;
     }
@@ -69,7 +76,10 @@ private:
             error = "white is of curves: a view has no such parameter";
             return false;
         }
-        if (!m_view.open(*m_options.view, m_options.pixels.from, deciding_spec(m_src), error) ||
+        ImageSpec spec = deciding_spec(m_src);
+        if (m_decode)
+            retag(spec, "lin_rec709");
+        if (!m_view.open(*m_options.view, m_options.pixels.from, spec, error) ||
             !m_calibration.make(m_src, m_options.pixels, m_options.calibration, m_nthreads, error))
             return false;
         summary.curve = m_view.display() + "/" + m_view.view();
@@ -80,8 +90,7 @@ private:
     }
 
     bool open_curve(std::string& error) {
-        if (!find_space(deciding_spec(m_src), m_options.pixels.from, m_space, error) ||
-            !check_output(error) || !check_white(error) ||
+        if (!check_output(error) || !check_white(error) ||
             !m_calibration.make(m_src, m_options.pixels, m_options.calibration, m_nthreads, error))
             return false;
         CurveOptions curve = m_options.curve;
@@ -153,7 +162,7 @@ private:
             take_row(at, spec.nchannels, m_channels, row, width, counts);
             m_calibration.row(spec.y + int(y), spec.x, spec.x + spec.width, row.factor.data());
             if (m_options.view)
-                look(row, width);
+                look(row, width, counts);
             else
                 map(row, width, counts);
             put_row(row, width, m_channels, at, spec.nchannels);
@@ -179,7 +188,9 @@ private:
                 std::transform(plane, plane + width, plane, m_encode);
     }
 
-    void look(ToneRow& row, size_t width) const {
+    void look(ToneRow& row, size_t width, ToneCounts& counts) const {
+        if (m_decode || m_space.scale != 1)
+            linearize_row(m_space, true, row, width, counts);
         std::vector<float> packed(3 * width);
         for (size_t x = 0; x < width; ++x)
             for (size_t c = 0; c < 3; ++c)
@@ -197,9 +208,7 @@ private:
             space = m_options.encode == "none" && !rec709() && !m_space.is_rec709
                         ? m_space.name
                         : space_of_encoding(m_options.encode);
-        if (m_options.view || rec709())
-            spec.erase_attribute("chromaticities");
-        spec.attribute("oiio:ColorSpace", space);
+        retag(spec, space, !m_options.view && !rec709());
         spec.attribute("tonemap:layer", summary.layer);
         spec.attribute("tonemap:curve", summary.curve);
         std::vector<std::string> parameters;
@@ -225,6 +234,7 @@ private:
     ColorSpace m_space;
     CurvePlan m_curve;
     ViewTransform m_view;
+    bool m_decode = false; ///< what a view gets is decoded before
     Calibration m_calibration;
     Encoding m_encode = nullptr;
 };

@@ -1,5 +1,6 @@
 #include "imagebuf/view.h"
 
+#include <OpenImageIO/sysutil.h>
 #include <algorithm>
 
 #include "imagebuf/colorimetry.h"
@@ -59,6 +60,10 @@ bool find_source(const ChosenView& chosen, const std::string& wanted, const OIIO
 }
 
 } // namespace
+
+std::string config_file(const ViewOptions& options) {
+    return options.config.empty() ? std::string(OIIO::Sysutil::getenv("OCIO")) : options.config;
+}
 
 struct ViewTransform::State {
     ocio::ConstCPUProcessorRcPtr processor;

@@ -39,6 +39,9 @@ private:
     std::string m_display, m_view, m_from, m_space;
 };
 
+/// The configuration that a view is of: its own, else that of the environment variable OCIO.
+std::string config_file(const ViewOptions& options);
+
 /// What HDR-FLIP needs to know of a view to look through it.
 struct DisplayLightOptions {
     ViewOptions view;
@@ -47,6 +50,9 @@ struct DisplayLightOptions {
     std::string encoding;
     /// Display light in cd/m2 that counts as 1. Displays of high dynamic range are refused without.
     std::optional<double> peak;
+    /// The configuration's space that images are said to be in, which only configurations need that
+    /// do not say what their light is.
+    std::string from{};
 };
 
 /// Turns scene light into display light: packed RGB in place, nothing clamped.

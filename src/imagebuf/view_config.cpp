@@ -4,9 +4,12 @@
 #include <OpenImageIO/strutil.h>
 #include <OpenImageIO/sysutil.h>
 #include <algorithm>
+#include <cctype>
 #include <mutex>
+#include <sstream>
 
 #include "imagebuf/names.h"
+#include "imagebuf/view.h"
 
 namespace tonetool {
 namespace {
@@ -62,40 +65,6 @@ std::string loading_error(const std::string& file, const char* what) {
     const std::string text = one_line(what);
     const std::string start = "Error: Loading the OCIO profile '" + file + "' failed. ";
     return OIIO::Strutil::starts_with(text, start) ? text.substr(start.size()) : text;
-}
-
-bool open_config(const ViewOptions& options, ChosenView& chosen, std::string& error) {
-    chosen.file =
-        options.config.empty() ? std::string(OIIO::Sysutil::getenv("OCIO")) : options.config;
-    const std::string named = options.config.empty() ? " (from the environment variable OCIO)" : "";
-    if (chosen.file.empty()) {
-        error =
-            "no configuration of OpenColorIO: name a file, or set the environment variable OCIO";
-        return false;
-    }
-    const std::string start = "configuration \"" + chosen.file + "\"" + named + ": ";
-    const bool built_in = OIIO::Strutil::contains(chosen.file, "://");
-    if (!built_in && !OIIO::Filesystem::is_regular(chosen.file)) {
-        error =
-            start + (OIIO::Filesystem::exists(chosen.file) ? "is not a file" : "does not exist");
-        return false;
-    }
-    try {
-        chosen.config = ocio::Config::CreateFromFile(chosen.file.c_str());
-    } catch (const ocio::Exception& e) {
-        error = start + loading_error(chosen.file, e.what());
-        return false;
-    }
-    const ocio::ContextRcPtr context = chosen.config->getCurrentContext()->createEditableCopy();
-    for (const auto& [name, value] : options.context) {
-        if (name.empty()) {
-            error = "a context variable of value \"" + value + "\" has no name";
-            return false;
-        }
-        context->setStringVar(name.c_str(), value.c_str());
-    }
-    chosen.context = context;
-    return true;
 }
 
 bool choose_display(const std::string& wanted, ChosenView& chosen, std::string& error) {
@@ -188,7 +157,96 @@ void add_looks(const std::string& looks, ChosenView& chosen) {
     chosen.config = config;
 }
 
+// Names behind '$', in "${}" and between '%' signs.
+Names variables_in(const std::string& text) {
+    Names names;
+    for (size_t i = 0; i < text.size(); ++i) {
+        if (text[i] != '$' && text[i] != '%')
+            continue;
+        const size_t begin = i + (text.compare(i, 2, "${") == 0 ? 2 : 1);
+        size_t end = begin;
+        while (end < text.size() &&
+               (std::isalnum(static_cast<unsigned char>(text[end])) || text[end] == '_'))
+            ++end;
+        const bool closed = text[i] == '$' || (end < text.size() && text[end] == '%');
+        const std::string name = text.substr(begin, end - begin);
+        if (closed && !name.empty() && std::find(names.begin(), names.end(), name) == names.end())
+            names.push_back(name);
+    }
+    return names;
+}
+
+// Variables that the configuration declares, or refers to anywhere.
+Names variables_of(const ocio::Config& config, std::string& text) {
+    std::ostringstream out;
+    config.serialize(out);
+    text = out.str();
+    Names names = variables_in(text);
+    for (int i = 0; i < config.getNumEnvironmentVars(); ++i)
+        if (const std::string name = config.getEnvironmentVarNameByIndex(i);
+            std::find(names.begin(), names.end(), name) == names.end())
+            names.push_back(name);
+    return names;
+}
+
+// OpenColorIO takes any name and lets it be.
+bool check_context(const ViewOptions& options, const ocio::Config& config, const std::string& start,
+                   std::string& error) {
+    if (options.context.empty())
+        return true;
+    std::string text;
+    const Names known = variables_of(config, text);
+    for (const auto& [name, value] : options.context)
+        text += " " + value; // which may refer to others
+    for (const auto& [name, value] : options.context) {
+        if (name.empty()) {
+            error = "a context variable of value \"" + value + "\" has no name";
+            return false;
+        }
+        const bool declared = std::find(known.begin(), known.end(), name) != known.end();
+        const auto used = [&, n = name](const std::string& in) {
+            return text.find(in) != std::string::npos;
+        };
+        // "$SHOT_v2" is SHOT, too, where that is the longest name that is set.
+        if (declared || used("$" + name) || used("${" + name + "}") || used("%" + name + "%"))
+            continue;
+        error = start + unknown_name("context variable", name, known);
+        return false;
+    }
+    return true;
+}
+
 } // namespace
+
+bool open_config(const ViewOptions& options, ChosenView& chosen, std::string& error) {
+    chosen.file = config_file(options);
+    const std::string named = options.config.empty() ? " (from the environment variable OCIO)" : "";
+    if (chosen.file.empty()) {
+        error =
+            "no configuration of OpenColorIO: name a file, or set the environment variable OCIO";
+        return false;
+    }
+    const std::string start = "configuration \"" + chosen.file + "\"" + named + ": ";
+    const bool built_in = OIIO::Strutil::contains(chosen.file, "://");
+    if (!built_in && !OIIO::Filesystem::is_regular(chosen.file)) {
+        error =
+            start + (OIIO::Filesystem::exists(chosen.file) ? "is not a file" : "does not exist");
+        return false;
+    }
+    try {
+        chosen.config = ocio::Config::CreateFromFile(chosen.file.c_str());
+    } catch (const ocio::Exception& e) {
+        error = start + loading_error(chosen.file, e.what());
+        return false;
+    }
+    if (!check_context(options, *chosen.config, start, error))
+        return false;
+    const ocio::ContextRcPtr context = chosen.config->getCurrentContext()->createEditableCopy();
+    for (const auto& [name, value] : options.context)
+        context->setStringVar(name.c_str(), value.c_str());
+    chosen.context = context;
+    return true;
+}
 
 QuietOcio::QuietOcio() {
     const std::lock_guard<std::mutex> hold(g_quiet_lock);
@@ -260,6 +318,39 @@ std::vector<std::string> scene_spaces(const ChosenView& chosen) {
     for (int i = 0; i < chosen.config->getNumColorSpaces(scene, visible); ++i)
         names.emplace_back(chosen.config->getColorSpaceNameByIndex(scene, visible, i));
     return names;
+}
+
+ocio::MatrixTransformRcPtr matrix_transform(const Matrix3& m, double scale) {
+    double values[16] = {};
+    for (size_t i = 0; i < 3; ++i)
+        for (size_t j = 0; j < 3; ++j)
+            values[4 * i + j] = m[i][j] * scale;
+    values[15] = 1;
+    auto transform = ocio::MatrixTransform::Create();
+    transform->setMatrix(values);
+    return transform;
+}
+
+SceneBridge find_bridge(const ChosenView& chosen, const std::string& from) {
+    const auto by_name = [&](const std::string& known) {
+        return SceneBridge{find_scene_space(chosen, interchange_names(known)),
+                           known_to_rec709(known)};
+    };
+    if (const SceneBridge rec709 = by_name("rec709"); !rec709.space.empty())
+        return rec709;
+    if (const std::string aces = find_scene_space(chosen, {ocio::ROLE_INTERCHANGE_SCENE});
+        !aces.empty())
+        return {aces, known_to_rec709("aces2065-1")};
+    for (const char* known : {"acescg", "aces2065-1", "rec2020", "p3-d65"})
+        if (const SceneBridge bridge = by_name(known); !bridge.space.empty())
+            return bridge;
+    if (const auto xyz = known_space(chosen, ocio::ROLE_INTERCHANGE_DISPLAY))
+        return {xyz->getName(), xyz_to_rec709()};
+    if (from.empty())
+        return {};
+    SceneBridge stand_in;
+    stand_in.space = find_scene_space(chosen, {ocio::ROLE_SCENE_LINEAR, from});
+    return stand_in;
 }
 
 std::string one_line(const char* message) {

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "imagebuf/colorimetry.h"
 #include "include/tonetool/tonemap.h"
 
 namespace tonetool {
@@ -32,6 +33,9 @@ struct ChosenView {
     bool display_space = false; ///< whether that is a display's, not a scene's
 };
 
+/// Opens the configuration alone, with the context variables, which it must use.
+bool open_config(const ViewOptions& options, ChosenView& chosen, std::string& error);
+
 bool choose_view(const ViewOptions& options, ChosenView& chosen, std::string& error);
 
 /// From a colour space of the configuration through the view.
@@ -46,6 +50,19 @@ std::string find_scene_space(const ChosenView& chosen, const std::vector<std::st
 /// The space that a role or a name stands for; null if there is none.
 ocio::ConstColorSpaceRcPtr known_space(const ChosenView& chosen, const std::string& name);
 std::vector<std::string> scene_spaces(const ChosenView& chosen);
+
+/// A space of the configuration, and how its values become linear Rec.709.
+struct SceneBridge {
+    std::string space; ///< empty: there is none
+    Matrix3 to_rec709{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
+};
+/// By one of the names of linear Rec.709, by the roles for interchange (ACES2065-1, CIE XYZ), or by
+/// the names of other spaces that are known. A configuration that has none of these does not say
+/// what its light is: where images are said to be in one of its spaces, `from`, its role
+/// scene_linear (or else that space) stands for Rec.709.
+SceneBridge find_bridge(const ChosenView& chosen, const std::string& from = "");
+
+ocio::MatrixTransformRcPtr matrix_transform(const Matrix3& m, double scale);
 
 /// What OpenColorIO says, on one line.
 std::string one_line(const char* message);

@@ -26,17 +26,6 @@ std::string encodings() {
         std::vector<std::string>(std::begin(kEncodings), std::end(kEncodings)), ", ");
 }
 
-ocio::MatrixTransformRcPtr matrix_transform(const Matrix3& m, double scale) {
-    double values[16] = {};
-    for (size_t i = 0; i < 3; ++i)
-        for (size_t j = 0; j < 3; ++j)
-            values[4 * i + j] = m[i][j] * scale;
-    values[15] = 1;
-    auto transform = ocio::MatrixTransform::Create();
-    transform->setMatrix(values);
-    return transform;
-}
-
 ocio::TransformRcPtr power(double exponent) {
     const auto transform = ocio::ExponentTransform::Create();
     const double values[4] = {exponent, exponent, exponent, 1};
@@ -128,27 +117,25 @@ bool add_display(const DisplayLightOptions& options, ChosenView& chosen,
     return true;
 }
 
-// Appends the view, from linear Rec.709; by way of ACES2065-1 where the configuration has no such
-// space.
-bool add_view(const ChosenView& chosen, const ocio::GroupTransformRcPtr& group,
-              std::string& error) {
-    const std::vector<std::string> names = interchange_names("rec709");
-    std::string from = find_scene_space(chosen, names);
-    if (from.empty()) {
-        from = find_scene_space(chosen, {ocio::ROLE_INTERCHANGE_SCENE});
-        if (from.empty()) {
-            error =
-                format("configuration \"{}\" does not say which space is linear Rec.709: it "
-                       "needs a scene-referred colour space with one of the names or aliases "
-                       "{}, or the role {} (ACES2065-1)",
-                       chosen.file, OIIO::Strutil::join(names, ", "), ocio::ROLE_INTERCHANGE_SCENE);
-            return false;
-        }
-        const auto to_aces = matrix_transform(known_to_rec709("aces2065-1"), 1);
-        to_aces->setDirection(ocio::TRANSFORM_DIR_INVERSE);
-        group->appendTransform(to_aces);
+// Appends the view, from linear Rec.709.
+bool add_view(const ChosenView& chosen, const std::string& from,
+              const ocio::GroupTransformRcPtr& group, std::string& error) {
+    const SceneBridge bridge = find_bridge(chosen, from);
+    if (bridge.space.empty()) {
+        error =
+            format("configuration \"{}\" does not say which space is linear Rec.709: it needs a "
+                   "scene-referred colour space with one of the names or aliases {}, or the "
+                   "role {} (ACES2065-1) or {}; or pass from=, one of its spaces: {}",
+                   chosen.file, OIIO::Strutil::join(interchange_names("rec709"), ", "),
+                   ocio::ROLE_INTERCHANGE_SCENE, ocio::ROLE_INTERCHANGE_DISPLAY,
+                   OIIO::Strutil::join(scene_spaces(chosen), ", "));
+        return false;
     }
-    group->appendTransform(std::const_pointer_cast<ocio::Transform>(through_view(chosen, from)));
+    const auto to_bridge = matrix_transform(bridge.to_rec709, 1);
+    to_bridge->setDirection(ocio::TRANSFORM_DIR_INVERSE);
+    group->appendTransform(to_bridge);
+    group->appendTransform(
+        std::const_pointer_cast<ocio::Transform>(through_view(chosen, bridge.space)));
     return true;
 }
 
@@ -159,7 +146,8 @@ bool make_light(const DisplayLightOptions& options, ChosenView& chosen,
         return false;
     }
     const auto group = ocio::GroupTransform::Create();
-    return choose_view(options.view, chosen, error) && add_view(chosen, group, error) &&
+    return choose_view(options.view, chosen, error) &&
+           add_view(chosen, options.from, group, error) &&
            add_display(options, chosen, group, error) &&
            make_processor(chosen, group, processor, error);
 }

@@ -169,9 +169,10 @@ void run_hdrflip(Session& session, const Call& call) {
     options.want_exposures = call.has("saveexposures");
     std::vector<FlipResult> results;
     auto [views, maps] =
-        compare(session, call, same_look(call), [&](Maps& to, auto& reference, auto& tests) {
-            return ToneAlgo::hdr_flip(to, reference, tests, options, &results);
-        });
+        compare(session, call, {options.pixels, options.pixels},
+                [&](Maps& to, auto& reference, auto& tests) {
+                    return ToneAlgo::hdr_flip(to, reference, tests, options, &results);
+                });
     for (size_t i = 0; i < maps.size(); ++i) {
         FlipResult& result = results[i];
         report(session, call, result.summary, i);

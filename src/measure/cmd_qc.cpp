@@ -1,6 +1,9 @@
 // --qc: the faults that a picture shows without a reference.
+#include <algorithm>
+
 #include "include/tonetool/qc.h"
 #include "measure/check_part.h"
+#include "measure/color_input.h"
 #include "measure/commands.h"
 #include "measure/flip_args.h"
 #include "measure/frame_pictures.h"
@@ -41,9 +44,14 @@ void take_types(const Image& image, QcFacts& facts) {
     }
 }
 
+bool has_picture(const QcFacts& facts) {
+    return std::any_of(facts.layers.begin(), facts.layers.end(),
+                       [](const QcLayer& layer) { return layer.kind == "picture"; });
+}
+
 // The picture, and from near the pixels that have a fault or may turn out to have one.
 void show_faults(Session& session, const Call& call, const sequence::QcRecord& record) {
-    if (!painter_of(session)) {
+    if (!painter_of(session) || !has_picture(record.facts)) {
         return;
     }
     const sequence::FrameResult before = *result_of(session);
@@ -89,6 +97,9 @@ void run_qc(Session& session, const Call& call) {
         throw CommandError("\"" + image.name() + "\": " + why);
     }
     take_types(image, record.facts);
+    if (has_picture(record.facts)) {
+        tell_encoding(session, call, image, image.part().header(), options.pixels);
+    }
     result_of(session)->qc = sequence::to_json(record);
     show_faults(session, call, record);
 }

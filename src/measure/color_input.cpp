@@ -2,6 +2,7 @@
 
 #include <filesystem>
 
+#include "include/tonetool/color_tags.h"
 #include "measure/check_part.h"
 #include "text/error.h"
 
@@ -53,6 +54,25 @@ bool same_file(const Image& a, size_t part_of_a, const Image& b, size_t part_of_
            (a.name() == b.name() || std::filesystem::equivalent(a.name(), b.name(), ignored));
 }
 
+void tell_encoding(Session& session, const Call& call, const Image& image,
+                   const OIIO::ImageSpec& header, const PixelOptions& options) {
+    const std::string where = call.row().label(), named = "\"" + image.name() + "\": ";
+    const double gamma = options.from.empty() ? stated_gamma(header) : 0;
+    if (gamma > 0 && header.find_attribute("oiio:Gamma")) {
+        session.report(where + ": " + named + "its gamma of " + format_number(gamma) +
+                       " is applied instead of sRGB's curve");
+    }
+    if (const double exposure = stated_exposure(header); exposure != 1) {
+        session.report(where + ": " + named + "its EXPOSURE of " + format_number(exposure) +
+                       " is divided out");
+    }
+    if (const auto profile = unapplied_profile(header); profile && options.from.empty()) {
+        session.warning(where, named + "its ICC profile (" + *profile +
+                                   ") is not applied: the colours are read as those of sRGB "
+                                   "(from= says what they are)");
+    }
+}
+
 Part& color_part(Session& session, const Call& call, const Image& image,
                  const PixelOptions& options) {
     const bool compares = call.row().group == Group::Compare;
@@ -82,6 +102,12 @@ Part& checked_part(Session& session, const Call& call, const Image& image,
         header.format = part.format().value_or(DataFormat{OIIO::TypeUInt8, {}, 0}).type;
     }
     check_header(image, header, options);
+    // A tag must be a known one also where the library would take an integer file's for sRGB.
+    if (header.find_attribute("oiio:ColorSpace") && header.format != OIIO::TypeFloat) {
+        header.set_format(OIIO::TypeFloat);
+        check_header(image, header, options);
+    }
+    tell_encoding(session, call, image, part.header(), options);
     return part;
 }
 
@@ -92,14 +118,7 @@ OIIO::ImageBuf color_input(Session& session, const Call& call, const Image& imag
 
 OIIO::ImageBuf color_source(Session& session, const Call& call, const Image& image,
                             const PixelOptions& options) {
-    Part& part = checked_part(session, call, image, options);
-    // A tag must be a known one also where the library would take an integer file's for sRGB.
-    OIIO::ImageSpec header = part.header();
-    if (header.find_attribute("oiio:ColorSpace")) {
-        header.set_format(OIIO::TypeFloat);
-        check_header(image, header, options);
-    }
-    return part.color_source();
+    return checked_part(session, call, image, options).color_source();
 }
 
 } // namespace tonetool::measure

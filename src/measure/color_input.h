@@ -23,6 +23,11 @@ bool same_file(const Image& a, size_t part_of_a, const Image& b, size_t part_of_
 Part& checked_part(Session& session, const Call& call, const Image& image,
                    const PixelOptions& options);
 
+/// What its header says of the encoding, beyond the colour space: the gamma and the EXPOSURE that
+/// are applied are told, an ICC profile that is not is a warning.
+void tell_encoding(Session& session, const Call& call, const Image& image,
+                   const OIIO::ImageSpec& header, const PixelOptions& options);
+
 /// The pixels of color_part() and a header that tells display-encoded integers from linear floats.
 OIIO::ImageBuf color_input(Session& session, const Call& call, const Image& image,
                            const PixelOptions& options);

@@ -1,5 +1,6 @@
 #include "measure/flip_args.h"
 
+#include <OpenImageIO/sysutil.h>
 #include <algorithm>
 
 #include "measure/frame_pictures.h"
@@ -247,6 +248,14 @@ PixelOptions pixel_options(const Call& call, const std::string& prefix) {
     return {call.text(prefix + "layer").value_or(""), call.text(prefix + "from").value_or("")};
 }
 
+void read_view_spaces(const std::optional<ViewOptions>& view, PixelOptions& pixels) {
+    if (view) {
+        pixels.config =
+            view->config.empty() ? std::string(OIIO::Sysutil::getenv("OCIO")) : view->config;
+        pixels.context = view->context;
+    }
+}
+
 void read_pair_options(const Session& session, const Call& call, PairOptions& options) {
     options.memory = session.memory - std::min(session.memory, shown_bytes(session, call));
     options.pixels = pixel_options(call);
@@ -267,6 +276,7 @@ void read_flip_options(const Session& session, const Call& call, bool screen,
 void read_hdr_options(const Session& session, const Call& call, HdrFlipOptions& options) {
     check_one_way(call, "tonemapper");
     options.view = view_options(session, call);
+    read_view_spaces(options.view, options.pixels);
     options.curve = curve_options(call, "tonemapper");
     options.encoding =
         call.choice("encoding", {"srgb", "gamma2.2", "rec1886", "gamma2.6", "linear"}).value_or("");

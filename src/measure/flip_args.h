@@ -47,6 +47,8 @@ std::vector<Modifier> concatenated(const std::vector<std::vector<Modifier>>& lis
 
 /// layer and from, or "ldrlayer" and "ldrfrom" with the prefix "ldr".
 PixelOptions pixel_options(const Call& call, const std::string& prefix = "");
+/// `from` may name spaces of the view's configuration.
+void read_view_spaces(const std::optional<ViewOptions>& view, PixelOptions& pixels);
 void read_pair_options(const Session& session, const Call& call, PairOptions& options);
 /// `screen`: distance, width and pixels describe the screen; else only ppd does.
 void read_flip_options(const Session& session, const Call& call, bool screen, FlipOptions& options);

@@ -10,12 +10,12 @@ namespace tonetool::measure {
 
 namespace {
 
-void measure_sample(Session& session, const Call& call) {
+void measure_sample(Session& session, const Call& call, const PixelOptions& options) {
     const Image& reference = *call.images.front();
-    const OIIO::ImageBuf pixels = color_source(session, call, reference, pixel_options(call));
+    const OIIO::ImageBuf pixels = color_source(session, call, reference, options);
     LuminanceStats stats;
     std::string why;
-    if (!ToneAlgo::luminance_stats(stats, pixels, why, pixel_options(call))) {
+    if (!ToneAlgo::luminance_stats(stats, pixels, why, options)) {
         throw CommandError(why);
     }
     session.check->sample->reference = reference.name();
@@ -46,7 +46,7 @@ void read_shot_exposures(Session& session, const Call& call, HdrFlipOptions& opt
                            " goes without maxluminance= and medianluminance= (valid: either)");
     }
     if (from == "shot" && session.check && session.check->sample) {
-        measure_sample(session, call);
+        measure_sample(session, call, options.pixels);
     }
     const sequence::ShotExposures range = range_of(session, from);
     const std::string& name = call.images.front()->name();

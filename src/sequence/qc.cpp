@@ -135,6 +135,15 @@ void QcShot::add(QcFrame& frame, const std::string& code, const std::string& sen
 }
 
 std::vector<QcFrame*> QcShot::pictures() {
+    std::vector<QcFrame*> chosen = filled();
+    chosen.erase(
+        std::remove_if(chosen.begin(), chosen.end(),
+                       [](const QcFrame* frame) { return !has_picture(frame->facts); }),
+        chosen.end());
+    return chosen;
+}
+
+std::vector<QcFrame*> QcShot::filled() {
     std::vector<QcFrame*> chosen;
     for (QcFrame& frame : frames) {
         if (frame.measured && !frame.blank) {
@@ -167,11 +176,15 @@ const QcLayer* find_layer(const QcFacts& facts, const std::string& name) {
     return found == facts.layers.end() ? nullptr : &*found;
 }
 
-const QcLayer& picture_layer(const QcFacts& facts) {
+const QcLayer& no_layer() {
     static const QcLayer none;
+    return none;
+}
+
+const QcLayer& picture_layer(const QcFacts& facts) {
     const auto found = std::find_if(facts.layers.begin(), facts.layers.end(),
                                     [](const QcLayer& layer) { return layer.kind == "picture"; });
-    return found == facts.layers.end() ? none : *found;
+    return found == facts.layers.end() ? no_layer() : *found;
 }
 
 std::string frames_text(int first, int last) {

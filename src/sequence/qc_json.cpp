@@ -121,6 +121,10 @@ ordered_json json_of(const QcPicture& picture) {
                        {"spikes", json_of(picture.spikes)}};
     put(to, "alpha_low", picture.alpha_low);
     put(to, "alpha_high", picture.alpha_high);
+    if (picture.unseen.pixels > 0) {
+        to["lit"] = picture.lit;
+        put(to, "unseen", picture.unseen);
+    }
     if (picture.groups > 0) {
         to["groups"] = {{"count", picture.groups},
                         {"sum", picture.group_sum},
@@ -152,6 +156,10 @@ QcPicture picture_of(const ordered_json& from) {
     picture.spikes = spots_of(from.at("spikes"));
     picture.alpha_low = count_of(from, "alpha_low");
     picture.alpha_high = count_of(from, "alpha_high");
+    if (from.contains("lit")) {
+        read_whole(from, "lit", picture.lit);
+    }
+    picture.unseen = count_of(from, "unseen");
     if (from.contains("groups")) {
         const ordered_json& groups = from["groups"];
         read_whole(groups, "count", picture.groups);

@@ -131,7 +131,7 @@ void find_lost_layers(QcShot& shot) {
     }
     for (const auto& [name, like] : layers) {
         std::vector<LayerFrame> frames;
-        for (QcFrame* frame : shot.pictures()) {
+        for (QcFrame* frame : shot.filled()) {
             if (const QcLayer* layer = find_layer(frame->facts, name)) {
                 frames.push_back({frame, layer});
             }

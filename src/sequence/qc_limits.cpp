@@ -57,6 +57,8 @@ const std::vector<QcRule>& qc_rules() {
          "nothing moves from one frame to the next, but before and after"},
         {"negative", warning, 0.0, "below 0", "negative light in the picture or its light groups"},
         {"alpha", warning, 0.0, "pixels", "alpha outside [0, 1] by more than 0.001"},
+        {"alphaempty", warning, 0.9, "share of the lit pixels",
+         "alpha is 0 over the picture, so that nobody sees it"},
         {"datawindow", warning, {}, "", "the data window differs, where it is fixed otherwise"},
         {"type", warning, {}, "", "channels have another data type than in other frames"},
         {"compression", warning, {}, "", "the compression differs from other frames'"},

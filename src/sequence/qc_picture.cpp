@@ -55,10 +55,29 @@ void find_alpha(const QcShot& shot, QcFrame& frame, const QcCount& count, const 
     }
 }
 
+void find_unseen(const QcShot& shot, QcFrame& frame) {
+    const QcPicture& picture = frame.facts.picture;
+    const double share = picture.lit > 0 ? double(picture.unseen.pixels) / double(picture.lit) : 0;
+    if (share > shot.threshold("alphaempty")) {
+        shot.add(frame, "alphaempty",
+                 format("alpha is 0 in {} of the {} lit pixels, which nobody sees where alpha is "
+                        "heeded",
+                        picture.unseen.pixels, picture.lit),
+                 detail_of(picture_layer(frame.facts), picture.unseen, share));
+    }
+}
+
 } // namespace
+
+bool has_picture(const QcFacts& facts) {
+    return &picture_layer(facts) != &no_layer();
+}
 
 // Of pixels that are not finite nothing is known, so that they are neither.
 bool is_blank(const QcFacts& facts, const QcLimits& limits) {
+    if (!has_picture(facts)) {
+        return false;
+    }
     const QcLayer& picture = picture_layer(facts);
     const bool finite = picture.nan.pixels + picture.inf.pixels == 0;
     return finite && (picture.constant || picture.max <= limits.threshold("black"));
@@ -78,6 +97,7 @@ void find_picture_faults(const QcShot& shot, QcFrame& frame) {
     }
     find_alpha(shot, frame, frame.facts.picture.alpha_low, "below 0 or no number");
     find_alpha(shot, frame, frame.facts.picture.alpha_high, "above 1");
+    find_unseen(shot, frame);
 }
 
 } // namespace tonetool::sequence

@@ -38,8 +38,10 @@ public:
     void add(QcFrame& frame, const std::string& code, const std::string& sentence,
              const QcDetail& detail = {}) const;
 
-    /// Those that can be compared with each other, in order.
+    /// Those whose pictures can be compared with each other, in order.
     std::vector<QcFrame*> pictures();
+    /// Those whose layers can be, with a picture or without.
+    std::vector<QcFrame*> filled();
     /// Those that were measured.
     std::vector<QcFrame*> measured();
 
@@ -48,8 +50,10 @@ private:
 };
 
 const QcLayer* find_layer(const QcFacts& facts, const std::string& name);
-/// The layer that is the picture.
+/// The layer that is the picture; no_layer() of a file of data.
 const QcLayer& picture_layer(const QcFacts& facts);
+const QcLayer& no_layer();
+bool has_picture(const QcFacts& facts);
 bool is_blank(const QcFacts& facts, const QcLimits& limits);
 /// Frames in a row that have the fault: a step of the light to the first of them, or from the last,
 /// needs no other explanation.

@@ -24,9 +24,17 @@ ColorChoice color_of(const ImageBuf& image, const PixelOptions& options) {
     return choice;
 }
 
-// A header that says the space as find_color() reads it of floats: Rec.709 by saying nothing.
-OIIO::ImageSpec tagged(const OIIO::ImageSpec& from, const std::string& space) {
+// A header that says the space as find_color() reads it of floats: Rec.709 by saying nothing, and a
+// space that only a configuration knows, too.
+OIIO::ImageSpec tagged(const OIIO::ImageSpec& from, const std::string& space,
+                       const PixelOptions& options) {
     OIIO::ImageSpec spec(1, 1, 3, OIIO::TypeFloat);
+    if (const OIIO::ParamValue* exposure = from.find_attribute("hdr:exposure")) {
+        spec.extra_attribs.push_back(*exposure);
+    }
+    if (says_space_again(options)) {
+        return spec;
+    }
     if (space == "chromaticities") {
         float values[8] = {};
         from.getattribute("chromaticities", OIIO::TypeDesc("float[8]"), values);
@@ -98,6 +106,10 @@ struct RowSums {
 
 } // namespace
 
+bool says_space_again(const PixelOptions& options) {
+    return !options.config.empty() && !options.from.empty();
+}
+
 Side fitted(const ROI& region, int longest) {
     const double scale = std::min(1.0, double(longest) / std::max(region.width(), region.height()));
     return {std::max(1, int(std::lround(region.width() * scale))),
@@ -139,7 +151,7 @@ ImageBuf reduced_color(const ImageBuf& image, const PixelOptions& options, const
     const int first = std::min({choice.r, choice.g, choice.b});
     const int count = std::max({choice.r, choice.g, choice.b}) + 1 - first;
     const std::array<int, 3> order{choice.r - first, choice.g - first, choice.b - first};
-    OIIO::ImageSpec spec = tagged(image.spec(), choice.space);
+    OIIO::ImageSpec spec = tagged(image.spec(), choice.space, options);
     spec.width = spec.full_width = side.width;
     spec.height = spec.full_height = side.height;
     ImageBuf result(spec);

@@ -17,6 +17,10 @@ Side fitted(const OIIO::ROI& region, int longest);
 /// The part of `to` that lies in it as `part` lies in `from`.
 OIIO::ROI scaled(const OIIO::ROI& part, const OIIO::ROI& from, const OIIO::ROI& to);
 
+/// Whether a colour space is one of a configuration that no header can name, so that who looks at a
+/// reduced image must pass it again.
+bool says_space_again(const PixelOptions& options);
+
 /// R, G, B of a region at the origin, reduced by the mean of the finite pixels beneath each, in
 /// the colour space they are stored in, which the result names. What the image does not cover is
 /// black. A runtime_error without colour.

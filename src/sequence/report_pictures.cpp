@@ -43,7 +43,9 @@ public:
           m_look(request.look),
           m_whole(request.error ? request.error->roi() : request.test->roi_full()) {
         m_look.pixels.layer.clear();
-        m_look.pixels.from.clear();
+        if (!says_space_again(m_look.pixels)) {
+            m_look.pixels.from.clear();
+        }
         m_look.alpha = AlphaPolicy::Ignore;
         m_look.size = SizePolicy::Match;
         m_look.want_exposure_map = false;

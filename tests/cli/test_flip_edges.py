@@ -544,7 +544,20 @@ def test_channels_beside_the_colour(tonetool, put, map_of):
         assert np.array_equal(map_of(*files)[0], want)
 
 
-@pytest.mark.parametrize("channels", ["Y", "R", "RG", "RGA", "XYZ"])
+@pytest.mark.parametrize("channels", ["Y", "R"])
+def test_one_channel_is_compared_with_one(tonetool, put, channels):
+    grey = picture()[:, :, :1]
+    a, good = put("a.exr", grey, channels), put("b.exr", picture())
+    for pair in ((a, good), (good, a)):
+        for command in COMMANDS:
+            ran = tonetool(*pair, f"--{command}:fail=0.5", status=1)
+            assert "has one channel" in ran.err and not passes(ran)
+    for command in COMMANDS:
+        tonetool(a, a, f"--{command}:fail=0")
+        tonetool(a, put("c.exr", grey * 4 + 0.5, channels), f"--{command}:fail=0.01", status=3)
+
+
+@pytest.mark.parametrize("channels", ["RG", "RGA", "XYZ"])
 def test_no_colour(tonetool, put, channels):
     a = put("a.exr", picture()[:, :, :len(channels)], tuple(channels))
     good = put("b.exr", picture())

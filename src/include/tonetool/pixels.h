@@ -3,6 +3,7 @@
 
 #include <OpenImageIO/imagebuf.h>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "tonetool/export.h"
@@ -24,24 +25,33 @@ enum class AlphaPolicy {
 
 /// How to find the linear Rec.709 colour in an image.
 struct PixelOptions {
-    /// Layer whose R, G, B are used ("ViewLayer.Combined"; the part before ".R").
-    /// Empty: plain R,G,B; else the one obvious beauty layer; else an error that lists the layers.
+    /// Layer whose R, G, B are used ("ViewLayer.Combined"; the part before ".R"), or whose one
+    /// channel is, as grey. Empty: plain R,G,B; else the one obvious beauty layer; else the one
+    /// channel of a picture without colours; else an error that lists the layers. Layers and parts
+    /// that hold data by their names (normals, albedo, positions, depth) must be asked for.
     std::string layer;
     /// Colour space of the stored values, one of color_spaces(): rec709, acescg, aces2065-1,
     /// rec2020, p3-d65 (all linear, with their usual aliases) or srgb (display-encoded, decoded
     /// first).
     /// Empty: the `chromaticities` attribute, else `oiio:ColorSpace`, else sRGB for integer
-    /// files and linear Rec.709 for floating-point ones.
+    /// files and linear Rec.709 for floating-point ones. The gamma of a PNG file is applied, too,
+    /// and the EXPOSURE of a Radiance file is divided out whatever the space.
     std::string from;
+    /// File of an OpenColorIO configuration whose colour spaces `from` may name, too, and values of
+    /// its context variables. hdr_flip() takes those of its view.
+    std::string config{};
+    std::vector<std::pair<std::string, std::string>> context{};
 };
 
 /// What `find_color` chose.
 struct ColorChoice {
-    int r = -1, g = -1, b = -1;   ///< channel indices
+    int r = -1, g = -1, b = -1;   ///< channel indices; all the same for a picture of one channel
     int a = -1;                   ///< index of the layer's alpha, -1 if it has none
-    std::string layer;            ///< "" for plain R,G,B
+    std::string layer;            ///< "" for plain R,G,B or one plain channel
     std::string space;            ///< name of the colour space the values are read in
-    bool display_encoded = false; ///< values are sRGB-encoded and are decoded on reading
+    bool display_encoded = false; ///< values are display-encoded and are decoded on reading
+
+    bool grey() const { return r >= 0 && r == g && r == b; }
 };
 
 namespace ToneAlgo {

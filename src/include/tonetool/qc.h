@@ -55,7 +55,8 @@ struct QcPart {
     std::map<std::string, std::string> metadata;
 };
 
-/// The colour that a viewer looks at.
+/// The colour that a viewer looks at. A file of data (depth, normals, numbers of objects) has none:
+/// no layer is of the kind "picture", and the thumbnail is dark.
 struct QcPicture {
     std::string layer, space;
     /// Means of luminance over the display window, kWide x kHigh from the top, in 1/1000 stop, at
@@ -67,6 +68,8 @@ struct QcPicture {
     QcCount alpha_low;      ///< below 0 by more than kAlphaSlack, or NaN
     QcCount alpha_high;     ///< above 1 by as much
     static constexpr double kAlphaSlack = 1e-3; ///< of sums of filter weights in half
+    int64_t lit = 0;                            ///< pixels with light, where there is an alpha
+    QcCount unseen;                             ///< those of them whose alpha is 0
     int64_t spike_count = 0;    ///< pixels 8 times as large as all that are 3 pixels away
     std::vector<QcSpot> spikes; ///< the largest of them, by value; at most kSpikes
     static constexpr size_t kSpikes = 32;
@@ -87,9 +90,9 @@ namespace ToneAlgo {
 
 /// Measure a picture and what comes with it: all parts (subimages) of one file, whose channels are
 /// told apart by the names of the parts. One pass over the pixels, in bands of rows: images that
-/// were not read are read from their file. False with the reason in `error`: no picture among the
-/// layers, deep, unreadable. The pixels at the largest component of the picture, which may be
-/// clamped, do not count for its light groups.
+/// were not read are read from their file. False with the reason in `error`: several pictures among
+/// the layers, or not the one that was named, deep, unreadable. The pixels at the largest component
+/// of the picture, which may be clamped, do not count for its light groups.
 TONETOOL_API bool qc_facts(QcFacts& facts, const std::vector<const OIIO::ImageBuf*>& parts,
                            std::string& error, const QcOptions& options = {}, int nthreads = 0);
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "tonetool/cgtmo.h"
+#include "tonetool/color_tags.h"
 #include "tonetool/compare.h"
 #include "tonetool/display.h"
 #include "tonetool/errors.h"

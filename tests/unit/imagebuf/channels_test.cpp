@@ -94,7 +94,14 @@ TEST(FindColor, SaysWhatThereIsInstead) {
         {rgb_of("albedo"), "", {"albedo", "layer="}},
         {{"R", "G", "B", "red", "green", "blue"}, "", {"two spellings", "red"}},
         {{"R", "G", "B"}, "_", {"\"_\"", "R,G,B"}},
-        {{"Y"}, "", {"needs R,G,B", "1 channel", "Y"}},
+        {{"Z"}, "", {"\"Z\", the only layer, holds depths", "layer=Z"}},
+        {{"uv.U"}, "", {"holds data", "layer=uv"}},
+        {rgb_of("bumpnormals"), "", {"\"bumpnormals\", the only layer, holds normals",
+                                    "layer=bumpnormals"}},
+        {rgb_of("VRayZDepth"), "", {"holds depths", "layer=VRayZDepth"}},
+        {rgb_of("Denoise_Albedo"), "", {"holds albedo"}},
+        {{"Y", "RY", "BY"}, "", {"needs R,G,B", "3 channel"}},
+        {{"X", "Y", "Z"}, "", {"needs R,G,B"}},
         {{"R", "G"}, "", {"needs R,G,B", "2 channel", "R, G"}},
         {{"Z", "N.X", "N.Y", "N.Z"}, "", {"needs R,G,B", "4 channel", "N.X"}},
         {kBlender, "Combined2", {"\"Combined2\"", "ViewLayer.Combined", "ViewLayer.Emit"}},
@@ -110,6 +117,54 @@ TEST(FindColor, SaysWhatThereIsInstead) {
         for (const std::string& word : c.words)
             EXPECT_THAT(error, HasSubstr(word));
     }
+}
+
+// One channel stands for all three.
+TEST(FindColor, OneChannelIsGrey) {
+    const Chosen cases[] = {
+        {{"Y"}, "", 0, 0, 0, -1, ""},
+        {{"Y", "A"}, "", 0, 0, 0, 1, ""},
+        {{"R"}, "", 0, 0, 0, -1, ""},
+        {{"A"}, "", 0, 0, 0, -1, ""},
+        {{"Y", "Z"}, "", 0, 0, 0, -1, ""},
+        {{"N.X", "N.Y", "N.Z", "Y"}, "", 3, 3, 3, -1, ""},
+        {{"matte"}, "", 0, 0, 0, -1, "matte"},
+        {{"C.Y", "C.A"}, "", 0, 0, 0, 1, "C"},
+        {{"Z"}, "Z", 0, 0, 0, -1, "Z"},
+        {{"R", "G", "B", "depth.Z"}, "depth", 3, 3, 3, -1, "depth"},
+        {{"R", "G", "B", "mask"}, "MASK", 3, 3, 3, -1, "mask"}};
+    for (const Chosen& c : cases) {
+        SCOPED_TRACE(testing::PrintToString(c.channels) + " " + c.asked);
+        ColorChoice choice;
+        std::string error;
+        PixelOptions options;
+        options.layer = c.asked;
+        ASSERT_TRUE(find_color(make_spec(4, 4, c.channels), options, choice, error)) << error;
+        EXPECT_THAT((std::vector<int>{choice.r, choice.g, choice.b, choice.a}),
+                    ElementsAre(c.r, c.g, c.b, c.a));
+        EXPECT_EQ(choice.layer, c.layer);
+        EXPECT_TRUE(choice.grey());
+    }
+}
+
+// Plain R, G, B of a part that is called as data are.
+TEST(FindColor, APartOfDataIsNoPicture) {
+    for (const char* part : {"N", "albedo", "worldPosition", "left.depth", "crypto_object00"}) {
+        ImageSpec spec = make_spec(4, 4, {"R", "G", "B"});
+        spec.attribute("oiio:subimagename", part);
+        ColorChoice choice;
+        std::string error;
+        EXPECT_FALSE(find_color(spec, {}, choice, error)) << part;
+        EXPECT_THAT(error, HasSubstr(std::string("layer=") + part));
+        PixelOptions options;
+        options.layer = part;
+        EXPECT_TRUE(find_color(spec, options, choice, error)) << error;
+    }
+    ImageSpec spec = make_spec(4, 4, {"R", "G", "B"});
+    spec.attribute("oiio:subimagename", "rgba_left");
+    ColorChoice choice;
+    std::string error;
+    EXPECT_TRUE(find_color(spec, {}, choice, error)) << error;
 }
 
 TEST(FindColor, ManyChannelsAreNotAllListed) {

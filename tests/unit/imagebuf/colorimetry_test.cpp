@@ -149,6 +149,110 @@ TEST(FindSpace, SaysWhatIsWrong) {
     }
 }
 
+// XYZ are the light itself, whatever white the header names: no adaptation.
+TEST(FindSpace, XyzIsNotAdapted) {
+    for (const auto& [x, y] : {std::pair(1.0f / 3, 1.0f / 3), std::pair(0.3333f, 0.3334f)}) {
+        const float axes[8] = {1, 0, 0, 1, 0, 0, x, y};
+        const ColorSpace space = space_of(tagged("", axes));
+        const Matrix3 expected = xyz_to_rec709();
+        for (size_t i = 0; i < 3; ++i)
+            for (size_t j = 0; j < 3; ++j) // the header's four decimals
+                EXPECT_NEAR(space.to_rec709[i][j], expected[i][j], 2e-3);
+        // Rec.709's white in XYZ is white.
+        const double white[3] = {0.9504559, 1, 1.0890578};
+        for (const auto& row : space.to_rec709)
+            EXPECT_NEAR(row[0] * white[0] + row[1] * white[1] + row[2] * white[2], 1, 2e-3);
+    }
+}
+
+TEST(FindSpace, PfmFilesHoldLight) {
+    ImageSpec spec = tagged("Rec709");
+    spec.attribute("pnm:bigendian", 0);
+    EXPECT_EQ(space_of(spec).name, "rec709");
+    EXPECT_FALSE(space_of(spec).encoded());
+    EXPECT_EQ(space_of(tagged("Rec709", nullptr, OIIO::TypeUInt8)).name, "srgb");
+}
+
+TEST(FindSpace, AppliesTheGammaOfTheHeader) {
+    ImageSpec png = tagged("sRGB", nullptr, OIIO::TypeUInt8);
+    png.attribute("oiio:Gamma", 1.8f);
+    for (const ImageSpec& spec : {png, tagged("GammaCorrected1.8"), tagged("Gamma1.8")}) {
+        const ColorSpace space = space_of(spec);
+        EXPECT_EQ(space.name, "gamma1.8");
+        EXPECT_NEAR(space.light(0.5, 1), std::pow(0.5, 1.8), 1e-7); // 1.8 in float
+        EXPECT_EQ(space_of(spec, "rec709").encoded(), false);
+    }
+    EXPECT_EQ(space_of(tagged(""), "gamma2.2").gamma, 2.2);
+    png.attribute("oiio:Gamma", 1.0f);
+    EXPECT_EQ(space_of(png).name, "rec709");
+    // A space that was converted to, after which the old gamma stayed behind.
+    png.attribute("oiio:Gamma", 1.8f);
+    png.attribute("oiio:ColorSpace", "lin_rec709");
+    EXPECT_EQ(space_of(png).name, "rec709");
+    ColorSpace space;
+    std::string error;
+    EXPECT_FALSE(find_space(tagged("Gamma0.45"), "", space, error));
+}
+
+TEST(FindSpace, DividesTheExposureOut) {
+    ImageSpec spec = tagged("linear");
+    spec.attribute("hdr:exposure", 16.0f);
+    EXPECT_EQ(space_of(spec).scale, 1.0 / 16);
+    EXPECT_EQ(space_of(spec, "acescg").light(8, 1), 0.5);
+    spec.attribute("hdr:exposure", -1.0f);
+    EXPECT_EQ(space_of(spec).scale, 1);
+}
+
+// 0.5 of sRGB under half an alpha is read as 0.25.
+TEST(FindPicture, IntegersAreDecodedBeforeTheyAreAssociated) {
+    for (auto [format, expected] : {std::pair(OIIO::TypeUInt8, srgb_to_linear(0.5) / 2),
+                                    std::pair(OIIO::TypeFloat, srgb_to_linear(0.25))}) {
+        ImageSpec spec = make_spec(2, 2, {"R", "G", "B", "A"}, format);
+        spec.attribute("oiio:ColorSpace", "sRGB");
+        ColorChoice choice;
+        ColorSpace space;
+        std::string error;
+        ASSERT_TRUE(find_picture(spec, {}, choice, space, error)) << error;
+        EXPECT_NEAR(space.light(0.25, 0.5), expected, 1e-12);
+        EXPECT_EQ(space.light(0.25, 1), srgb_to_linear(0.25));
+        EXPECT_EQ(space.light(0.25, 0), srgb_to_linear(0.25));
+    }
+}
+
+TEST(ColorTags, OfAnotherEncodingGo) {
+    ImageSpec spec = tagged("sRGB", kSpaces[0].chromaticities);
+    const unsigned char profile[4] = {1, 2, 3, 4};
+    spec.attribute("ICCProfile", OIIO::TypeDesc(OIIO::TypeDesc::UINT8, 4), profile);
+    spec.attribute("ICCProfile:profile_description", "test");
+    spec.attribute("oiio:Gamma", 1.8f);
+    spec.attribute("hdr:exposure", 2.0f);
+    spec.attribute("Software", "renderer");
+    ImageSpec same = spec;
+    retag(spec, "lin_rec709");
+    EXPECT_EQ(spec.extra_attribs.size(), 2U);
+    EXPECT_EQ(spec.get_string_attribute("oiio:ColorSpace"), "lin_rec709");
+    retag(same, "acescg", true);
+    EXPECT_TRUE(same.find_attribute("chromaticities"));
+}
+
+TEST(ColorTags, ChromaticitiesAreThoseOfTheSpace) {
+    for (const auto& known : kSpaces) {
+        ImageSpec spec = tagged(known.name);
+        state_chromaticities(spec);
+        float found[8] = {};
+        ASSERT_TRUE(spec.getattribute("chromaticities", OIIO::TypeDesc("float[8]"), found));
+        for (size_t i = 0; i < 8; ++i)
+            EXPECT_EQ(found[i], known.chromaticities[i]) << known.name;
+    }
+    // Those of another space, of the image that was converted.
+    ImageSpec encoded = tagged("sRGB", kSpaces[0].chromaticities);
+    state_chromaticities(encoded);
+    EXPECT_FALSE(encoded.find_attribute("chromaticities"));
+    ImageSpec untold = tagged("Linear", kSpaces[0].chromaticities);
+    state_chromaticities(untold);
+    EXPECT_EQ(space_of(untold).name, "acescg");
+}
+
 TEST(SrgbCurve, IsThatOfTheStandard) {
     const std::pair<double, double> cases[] = {
         {0, 0}, {0.04045, 0.04045 / 12.92}, {0.5, 0.214041140482}, {188.0 / 255, 0.502886458033},

@@ -162,8 +162,8 @@ TEST(Flip, RefusesWhatIsNoPicture) {
     expect_refused(deep, image, "deep images are not supported");
     expect_refused(image, deep, "deep images are not supported");
     expect_refused(text, image, "not_an_image.exr");
-    expect_refused(image, noise(make_spec(6, 6, {"Y"}), 1), "needs R,G,B");
-    expect_refused(noise(make_spec(6, 6, {"Y"}), 1), image, "needs R,G,B");
+    expect_refused(image, noise(make_spec(6, 6, {"Z"}), 1), "\"Z\", the only layer, holds depths");
+    expect_refused(noise(make_spec(6, 6, {"U", "V"}), 1), image, "needs R,G,B");
     expect_refused(image, noise(7, 6, 1), "7x6+0+0");
     expect_refused(image, constant(6, 6, {NAN, 1, 1}), "the test has no finite pixel");
     expect_refused(constant(6, 6, {NAN, 1, 1}), image, "the reference has no finite pixel");

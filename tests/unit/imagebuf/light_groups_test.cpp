@@ -43,6 +43,10 @@ TEST(LightGroups, KnowsTheNamesOfRenderers) {
         {"a beauty of its own", "final", {"final", "final_a1", "RGBA_key"}, {"a1"}},
         {"two families", "", {"", "RGBA_key", "light_key"}, {"key"}},
         {"eyes", "V.Combined.left", {"V.Combined_key.left", "V.Combined_key.right"}, {"key"}},
+        {"stereo parts", "", {"", "rgba_right", "rgba_left"}, {}},
+        {"stereo layers", "C", {"C", "C_L", "C_R", "C.right", "C_lft"}, {}},
+        {"stereo and groups", "", {"", "rgba_left", "rgba_key"}, {"key"}},
+        {"data", "", {"", "RGBA_N", "RGBA_depth", "RGBA_uv", "RGBA_motionvectors"}, {}},
         {"none", "", {"", "albedo", "combined", "lighting"}, {}},
     };
     for (const Case& c : cases) {

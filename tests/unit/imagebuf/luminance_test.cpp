@@ -85,7 +85,7 @@ TEST(LuminanceStats, SayWhatIsWrong) {
     } cases[] = {{ImageBuf(), {}, {}, "not initialized"},
                  {ImageBuf("no/such/file.exr"), {}, {}, "no/such/file.exr"},
                  {ImageBuf(TESTIMAGES_DIR "/deep.exr"), {}, {}, "deep images"},
-                 {noise(make_spec(2, 2, {"Y"}), 1), {}, {}, "needs R,G,B"},
+                 {noise(make_spec(2, 2, {"U", "V"}), 1), {}, {}, "needs R,G,B"},
                  {constant(2, 2, {kNan, 0, 0}), {}, {}, "no finite pixel"},
                  {noise(4, 4, 1), {}, ROI(8, 9, 0, 1), "holds no pixel"},
                  {noise(4, 4, 1), {"diffuse", ""}, {}, "\"diffuse\""},
@@ -146,7 +146,7 @@ TEST(Exposure, SaysWhatIsWrong) {
                  {bytes, 1, "display-encoded (srgb)"},
                  {ImageBuf(), 1, "not initialized"},
                  {ImageBuf(TESTIMAGES_DIR "/deep.exr"), 1, "deep images"},
-                 {noise(make_spec(2, 2, {"Y"}), 1), 1, "needs R,G,B"}};
+                 {noise(make_spec(2, 2, {"U", "V"}), 1), 1, "needs R,G,B"}};
     for (const auto& c : cases) {
         ImageBuf dst;
         EXPECT_FALSE(exposure(dst, c.image, c.stops)) << c.words;

@@ -161,6 +161,45 @@ TEST(QcFacts, Parts_are_one_image_whose_channels_bear_their_names) {
     EXPECT_EQ(facts.picture.group_difference, 0);
 }
 
+TEST(QcFacts, Files_of_data_have_layers_and_no_picture) {
+    const std::vector<std::vector<std::string>> files = {
+        {"Z"}, {"N.X", "N.Y", "N.Z"}, {"albedo.R", "albedo.G", "albedo.B"}, {"objectid"}};
+    for (const auto& channels : files) {
+        ImageBuf image = constant(make_spec(8, 4, channels), std::vector<float>(channels.size(), 1));
+        set(image, 3, 2, 0, kNan);
+        const QcFacts facts = facts_of(image);
+        ASSERT_EQ(facts.layers.size(), 1U);
+        EXPECT_NE(facts.layers[0].kind, "picture");
+        EXPECT_EQ(facts.layers[0].nan.pixels, 1);
+        EXPECT_EQ(facts.layers[0].lit, 31);
+        EXPECT_EQ(facts.picture.hash.size(), 32U);
+        EXPECT_EQ(facts.picture.spike_count, 0);
+        EXPECT_EQ(facts.picture.thumbnail.size(), size_t(QcPicture::kWide * QcPicture::kHigh));
+    }
+}
+
+TEST(QcFacts, One_channel_is_a_grey_picture) {
+    ImageBuf image = constant(make_spec(32, 18, {"Y", "Z"}), {0.5f, 9});
+    set(image, 3, 2, 0, kInf);
+    const QcFacts facts = facts_of(image);
+    ASSERT_EQ(facts.layers.size(), 2U);
+    EXPECT_EQ(facts.layers[0].kind, "picture");
+    EXPECT_EQ(facts.layers[0].inf.pixels, 1);
+    EXPECT_EQ(facts.layers[0].max, 0.5);
+    EXPECT_EQ(facts.layers[1].kind, "depth");
+    EXPECT_EQ(facts.picture.thumbnail[0], -1000);
+}
+
+TEST(QcFacts, Count_lit_pixels_that_alpha_hides) {
+    ImageBuf image = constant(make_spec(8, 4, {"R", "G", "B", "A"}), {1, 0, 0, 0});
+    set(image, 0, 0, 0, 0);
+    set(image, 5, 1, 3, 1);
+    const QcFacts facts = facts_of(image);
+    EXPECT_EQ(facts.picture.lit, 31);
+    EXPECT_EQ(facts.picture.unseen.pixels, 30);
+    EXPECT_EQ(facts.picture.unseen.first[0].x, 1);
+}
+
 TEST(QcFacts, Long_metadata_are_kept_by_their_hash) {
     ImageBuf image = constant(4, 4, {1, 1, 1});
     image.specmod().attribute("manifest", std::string(5000, 'x'));
@@ -171,7 +210,13 @@ TEST(QcFacts, Long_metadata_are_kept_by_their_hash) {
 }
 
 TEST(QcFacts, Say_why_there_are_none) {
-    EXPECT_THAT(error_of(constant(make_spec(4, 4, {"Z"}), {1})), HasSubstr("R"));
+    EXPECT_THAT(
+        error_of(constant(make_spec(4, 4, {"a.R", "a.G", "a.B", "b.R", "b.G", "b.B"}),
+                          {1, 1, 1, 1, 1, 1})),
+        HasSubstr("layer="));
+    QcOptions no_such;
+    no_such.pixels.layer = "beauty";
+    EXPECT_THAT(error_of(constant(make_spec(4, 4, {"Z"}), {1}), no_such), HasSubstr("beauty"));
     QcOptions options;
     options.groups = {"ky"};
     EXPECT_THAT(error_of(constant(make_spec(4, 4, {"R", "G", "B", "C_key.R", "C_key.G", "C_key.B"}),

@@ -122,6 +122,23 @@ TEST_F(ViewTest, NothingIsWrittenToStderr) {
     EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
 }
 
+TEST_F(ViewTest, ContextVariablesThatNothingUsesAreErrors) {
+    options.view = "SDR";
+    options.context = {{"LTU", "a.spi1d"}};
+    EXPECT_THAT(why(), AllOf(HasSubstr("unknown context variable \"LTU\""),
+                             HasSubstr("did you mean \"LUT\"")));
+    options.context = {{"LUT", "a.spi1d"}};
+    EXPECT_TRUE(open()) << error;
+    // Declared nowhere, but used; and used by the value of another.
+    std::string text = kConfig;
+    text.replace(text.find("search_path: \".\""), 16, "search_path: \"$LUTS/%TYPE%\"");
+    options.config = write_text(folder / "used.ocio", text);
+    options.context = {{"LUTS", "$ROOT/luts"}, {"TYPE", "film"}, {"ROOT", "/shows"}};
+    EXPECT_TRUE(open()) << error;
+    options.context = {{"LUTS", "luts"}, {"ROOT", "/shows"}};
+    EXPECT_THAT(why(), HasSubstr("unknown context variable \"ROOT\""));
+}
+
 TEST_F(ViewTest, UnknownNamesAreErrorsThatListTheValidOnes) {
     options.display = "sRGBB";
     EXPECT_THAT(why(), AllOf(HasSubstr("unknown display \"sRGBB\""), HasSubstr("mean \"sRGB\""),

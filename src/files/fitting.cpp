@@ -1,0 +1,191 @@
+#include "files/fitting.h"
+
+#include <OpenImageIO/imagebufalgo.h>
+#include <OpenImageIO/strutil.h>
+#include <algorithm>
+#include <numeric>
+
+#include "files/channels.h"
+#include "imagebuf/oiio_compat.h"
+#include "include/tonetool/pixels.h"
+#include "text/error.h"
+
+namespace tonetool::files {
+
+namespace {
+
+// How many channels the format takes; 0: as many as there are.
+int most_channels(const OIIO::ImageSpec& spec, const OIIO::ImageOutput& writer) {
+    const bool alpha = oiio::format_supports(writer, "alpha");
+    const bool fits = spec.nchannels <= 3 || (spec.nchannels == 4 && alpha) ||
+                      (spec.nchannels > 4 && oiio::format_supports(writer, "nchannels"));
+    return fits ? 0 : alpha ? 4 : 3;
+}
+
+// oiiotool's choice: plain R, G, B and A, else the first ones.
+std::vector<int> usual_channels(const OIIO::ImageSpec& spec, int kept) {
+    static const char* const usual[] = {"R", "G", "B", "A"};
+    std::vector<int> chosen;
+    for (int i = 0; i < kept; ++i) {
+        chosen.push_back(channel_index(spec, usual[i]));
+    }
+    if (std::find(chosen.begin(), chosen.end(), -1) != chosen.end()) {
+        std::iota(chosen.begin(), chosen.end(), 0);
+    }
+    return chosen;
+}
+
+// Where the file has no names for its channels, its fourth one (or the second of two) is its alpha:
+// TIFF says of each whether it is.
+bool tells_channels_apart(const OIIO::ImageOutput& writer) {
+    const std::string format = writer.format_name();
+    return format == "openexr" || format == "tiff" || format == "null" || format == "zfile";
+}
+
+bool is_alpha(const OIIO::ImageSpec& spec, int channel) {
+    const std::string name = spec.channelnames[size_t(channel)];
+    const std::string last = name.substr(name.rfind('.') + 1); // npos + 1 is 0
+    return channel == spec.alpha_channel || OIIO::Strutil::iequals(last, "a") ||
+           OIIO::Strutil::iequals(last, "alpha");
+}
+
+// The picture and its alpha: that which was tone mapped, else the one among the layers, else the
+// first channels.
+std::vector<int> picture_channels(const OIIO::ImageSpec& spec, int most) {
+    PixelOptions options;
+    const OIIO::ParamValue* mapped = spec.find_attribute("tonemap:layer");
+    options.layer = mapped && mapped->get_string().empty() ? "R,G,B"
+                    : mapped                               ? mapped->get_string()
+                                                           : "";
+    options.from = "rec709"; // it is not looked at
+    ColorChoice choice;
+    std::string ignored;
+    const bool grey_too = spec.nchannels <= 2;
+    bool found = ToneAlgo::find_color(spec, options, choice, ignored);
+    if (!found && mapped) {
+        options.layer.clear();
+        found = ToneAlgo::find_color(spec, options, choice, ignored);
+    }
+    std::vector<int> chosen;
+    if (found && choice.grey()) {
+        chosen = {choice.r};
+    } else if (found) {
+        chosen = {choice.r, choice.g, choice.b};
+    } else {
+        chosen.resize(size_t(grey_too ? 1 : 3));
+        std::iota(chosen.begin(), chosen.end(), 0);
+    }
+    const int next = int(chosen.size());
+    if (found && choice.a >= 0) {
+        chosen.push_back(choice.a);
+    } else if (!found && next < spec.nchannels && is_alpha(spec, next)) {
+        chosen.push_back(next);
+    }
+    chosen.resize(std::min(chosen.size(), size_t(most)));
+    return chosen;
+}
+
+// What a file for a screen may take for alpha is one.
+bool is_safe(const OIIO::ImageSpec& spec, const OIIO::ImageOutput& writer) {
+    const bool with_alpha = spec.nchannels == 2 || spec.nchannels >= 4;
+    const bool alpha = oiio::format_supports(writer, "alpha");
+    return tells_channels_apart(writer) || !alpha || !with_alpha ||
+           is_alpha(spec, spec.nchannels == 2 ? 1 : 3);
+}
+
+} // namespace
+
+void fit_windows(Outgoing& image, const OIIO::ImageOutput& writer) {
+    OIIO::ROI wanted = image.pixels->roi_full();
+    bool windows = oiio::format_supports(writer, "displaywindow");
+    bool negative = oiio::format_supports(writer, "negativeorigin");
+    const OIIO::ImageSpec& spec = image.pixels->spec();
+    bool below_zero = std::min({spec.x, spec.y, spec.full_x, spec.full_y}) < 0;
+    if (wanted == image.pixels->roi() || spec.deep || (windows && (negative || !below_zero))) {
+        return;
+    }
+    wanted.chbegin = 0;
+    wanted.chend = spec.nchannels;
+    if (windows) {
+        wanted.xbegin = std::max(wanted.xbegin, 0);
+        wanted.ybegin = std::max(wanted.ybegin, 0);
+    }
+    OIIO::ImageBuf fitted = windows ? OIIO::ImageBufAlgo::crop(*image.pixels, wanted)
+                                    : OIIO::ImageBufAlgo::cut(*image.pixels, wanted);
+    if (fitted.has_error()) {
+        throw CommandError(fitted.geterror());
+    }
+    image.owned = std::move(fitted);
+    image.pixels = &image.owned;
+}
+
+void fit_channels(Outgoing& image, const OIIO::ImageOutput& writer, const Writer& from) {
+    const OIIO::ImageSpec& spec = image.pixels->spec();
+    const int most = most_channels(spec, writer);
+    if (spec.deep || (most == 0 && (from.lenient || is_safe(spec, writer)))) {
+        return;
+    }
+    const std::vector<int> chosen =
+        from.lenient ? usual_channels(spec, most)
+                     : picture_channels(spec, oiio::format_supports(writer, "alpha") ? 4 : 3);
+    Strings names;
+    for (int index : chosen) {
+        names.push_back(spec.channelnames[static_cast<size_t>(index)]);
+    }
+    // What was tone mapped is what is to be seen.
+    if (from.lenient || !spec.find_attribute("tonemap:layer")) {
+        from.warn("Can't save " + std::to_string(spec.nchannels) + " channels to " +
+                  writer.format_name() + "... saving only " + join(names, ","));
+    }
+    OIIO::ImageBuf fitted = OIIO::ImageBufAlgo::channels(*image.pixels, int(chosen.size()), chosen);
+    if (fitted.has_error()) {
+        throw CommandError(fitted.geterror());
+    }
+    image.owned = std::move(fitted);
+    image.pixels = &image.owned;
+    image.format.of_channel.clear();
+}
+
+void turn_upright(Outgoing& image, const OIIO::ImageOutput& writer) {
+    static const Strings keep = {"openexr", "tiff", "jpeg", "dpx", "fits", "null"};
+    const OIIO::ImageSpec& spec = image.pixels->spec();
+    const bool kept = std::find(keep.begin(), keep.end(), writer.format_name()) != keep.end();
+    if (kept || spec.deep || spec.get_int_attribute("Orientation", 1) == 1) {
+        return;
+    }
+    OIIO::ImageBuf turned = OIIO::ImageBufAlgo::reorient(*image.pixels);
+    if (turned.has_error()) {
+        throw CommandError(turned.geterror());
+    }
+    turned.specmod().attribute("Orientation", 1);
+    image.owned = std::move(turned);
+    image.pixels = &image.owned;
+}
+
+void warn_of_unseen(const Warn& warn, const OIIO::ImageBuf& pixels, const OIIO::ImageSpec& written,
+                    const OIIO::ImageOutput& writer) {
+    constexpr double share = 0.01; // of the lit pixels: fewer are glints on an edge
+    const OIIO::ImageSpec& spec = pixels.spec();
+    const int alpha = spec.nchannels - 1;
+    const bool screen =
+        oiio::format_supports(writer, "alpha") && !written.format.is_floating_point();
+    if (!screen || spec.deep || spec.depth > 1 || (alpha != 1 && alpha != 3) ||
+        !is_alpha(spec, alpha)) {
+        return;
+    }
+    int64_t lit = 0, unseen = 0;
+    for (OIIO::ImageBuf::ConstIterator<float> pixel(pixels); !pixel.done(); ++pixel) {
+        bool light = false;
+        for (int c = 0; c < alpha; ++c) {
+            light = light || pixel[c] > 0;
+        }
+        lit += light;
+        unseen += light && pixel[alpha] <= 0;
+    }
+    if (double(unseen) > share * double(lit)) {
+        warn("alpha is 0 in " + std::to_string(unseen) + " of the " + std::to_string(lit) +
+             " pixels that have a colour: viewers that heed alpha do not show them");
+    }
+}
+
+} // namespace tonetool::files
