@@ -49,37 +49,32 @@ bool is_alpha(const OIIO::ImageSpec& spec, int channel) {
            OIIO::Strutil::iequals(last, "alpha");
 }
 
-// The picture and its alpha: that which was tone mapped, else the one among the layers, else the
-// first channels.
-std::vector<int> picture_channels(const OIIO::ImageSpec& spec, int most) {
+// The picture and its alpha: that which was tone mapped, else the one among the layers.
+bool find_shown(const OIIO::ImageSpec& spec, ColorChoice& choice, bool& mapped) {
     PixelOptions options;
-    const OIIO::ParamValue* mapped = spec.find_attribute("tonemap:layer");
-    options.layer = mapped && mapped->get_string().empty() ? "R,G,B"
-                    : mapped                               ? mapped->get_string()
-                                                           : "";
     options.from = "rec709"; // it is not looked at
-    ColorChoice choice;
     std::string ignored;
-    const bool grey_too = spec.nchannels <= 2;
-    bool found = ToneAlgo::find_color(spec, options, choice, ignored);
-    if (!found && mapped) {
-        options.layer.clear();
-        found = ToneAlgo::find_color(spec, options, choice, ignored);
-    }
-    std::vector<int> chosen;
-    if (found && choice.grey()) {
-        chosen = {choice.r};
-    } else if (found) {
-        chosen = {choice.r, choice.g, choice.b};
-    } else {
-        chosen.resize(size_t(grey_too ? 1 : 3));
-        std::iota(chosen.begin(), chosen.end(), 0);
+    const OIIO::ParamValue* layer = spec.find_attribute("tonemap:layer");
+    options.layer = layer ? layer->get_string() : "";
+    mapped = layer && ToneAlgo::find_color(spec, options, choice, ignored);
+    options.layer.clear();
+    return mapped || ToneAlgo::find_color(spec, options, choice, ignored);
+}
+
+// The channels of the picture, else the first ones; `mapped`: they were tone mapped.
+std::vector<int> picture_channels(const OIIO::ImageSpec& spec, int most, bool& mapped) {
+    ColorChoice choice;
+    const bool found = find_shown(spec, choice, mapped);
+    std::vector<int> chosen(size_t((found ? choice.grey() : spec.nchannels < 3) ? 1 : 3));
+    std::iota(chosen.begin(), chosen.end(), 0);
+    if (found) {
+        const int colors[3] = {choice.r, choice.g, choice.b};
+        std::copy_n(colors, chosen.size(), chosen.begin());
     }
     const int next = int(chosen.size());
-    if (found && choice.a >= 0) {
-        chosen.push_back(choice.a);
-    } else if (!found && next < spec.nchannels && is_alpha(spec, next)) {
-        chosen.push_back(next);
+    const bool first_alpha = !found && next < spec.nchannels && is_alpha(spec, next);
+    if (choice.a >= 0 || first_alpha) {
+        chosen.push_back(first_alpha ? next : choice.a);
     }
     chosen.resize(std::min(chosen.size(), size_t(most)));
     return chosen;
@@ -91,6 +86,11 @@ bool is_safe(const OIIO::ImageSpec& spec, const OIIO::ImageOutput& writer) {
     const bool alpha = oiio::format_supports(writer, "alpha");
     return tells_channels_apart(writer) || !alpha || !with_alpha ||
            is_alpha(spec, spec.nchannels == 2 ? 1 : 3);
+}
+
+bool holds_floats(const OIIO::ImageOutput& writer) {
+    static const Strings formats = {"openexr", "tiff", "fits", "rla", "zfile", "null"};
+    return std::find(formats.begin(), formats.end(), writer.format_name()) != formats.end();
 }
 
 } // namespace
@@ -125,15 +125,17 @@ void fit_channels(Outgoing& image, const OIIO::ImageOutput& writer, const Writer
     if (spec.deep || (most == 0 && (from.lenient || is_safe(spec, writer)))) {
         return;
     }
+    bool mapped = false;
     const std::vector<int> chosen =
-        from.lenient ? usual_channels(spec, most)
-                     : picture_channels(spec, oiio::format_supports(writer, "alpha") ? 4 : 3);
+        from.lenient
+            ? usual_channels(spec, most)
+            : picture_channels(spec, oiio::format_supports(writer, "alpha") ? 4 : 3, mapped);
     Strings names;
     for (int index : chosen) {
         names.push_back(spec.channelnames[static_cast<size_t>(index)]);
     }
     // What was tone mapped is what is to be seen.
-    if (from.lenient || !spec.find_attribute("tonemap:layer")) {
+    if (!mapped) {
         from.warn("Can't save " + std::to_string(spec.nchannels) + " channels to " +
                   writer.format_name() + "... saving only " + join(names, ","));
     }
@@ -144,6 +146,13 @@ void fit_channels(Outgoing& image, const OIIO::ImageOutput& writer, const Writer
     image.owned = std::move(fitted);
     image.pixels = &image.owned;
     image.format.of_channel.clear();
+}
+
+void mark_alpha(OIIO::ImageSpec& spec) {
+    const int last = spec.nchannels - 1;
+    if (spec.alpha_channel < 0 && (last == 1 || last == 3) && is_alpha(spec, last)) {
+        spec.alpha_channel = last;
+    }
 }
 
 void turn_upright(Outgoing& image, const OIIO::ImageOutput& writer) {
@@ -167,8 +176,8 @@ void warn_of_unseen(const Warn& warn, const OIIO::ImageBuf& pixels, const OIIO::
     constexpr double share = 0.01; // of the lit pixels: fewer are glints on an edge
     const OIIO::ImageSpec& spec = pixels.spec();
     const int alpha = spec.nchannels - 1;
-    const bool screen =
-        oiio::format_supports(writer, "alpha") && !written.format.is_floating_point();
+    const bool integers = !written.format.is_floating_point() || !holds_floats(writer);
+    const bool screen = oiio::format_supports(writer, "alpha") && integers;
     if (!screen || spec.deep || spec.depth > 1 || (alpha != 1 && alpha != 3) ||
         !is_alpha(spec, alpha)) {
         return;

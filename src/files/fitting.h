@@ -24,6 +24,10 @@ void fit_windows(Outgoing& image, const OIIO::ImageOutput& writer);
 /// the picture, with its alpha where it has one. oiiotool's choice if the writer is lenient.
 void fit_channels(Outgoing& image, const OIIO::ImageOutput& writer, const Writer& from);
 
+/// Tells the writer of the alpha behind one channel or three ("C.A"), by which it divides the
+/// colour.
+void mark_alpha(OIIO::ImageSpec& spec);
+
 /// Turns the picture as its `Orientation` says where the format cannot say it.
 void turn_upright(Outgoing& image, const OIIO::ImageOutput& writer);
 

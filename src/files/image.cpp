@@ -238,8 +238,8 @@ ImagePtr Image::open(const std::string& filename, const ReadOptions& how) {
     auto input = open_input(filename, how);
     std::vector<PartPtr> parts;
     for (int subimage = 0; input->seek_subimage(subimage, 0); ++subimage) {
-        parts.push_back(
-            std::make_shared<Part>(filename, subimage, level_headers(*input, filename, subimage), how));
+        parts.push_back(std::make_shared<Part>(filename, subimage,
+                                               level_headers(*input, filename, subimage), how));
     }
     (void)input->geterror();
     if (parts.empty()) {

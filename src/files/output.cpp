@@ -129,6 +129,7 @@ OIIO::ImageSpec output_spec(const Outgoing& image, const Writer& from,
     set_layout(spec, settings, writer, from.lenient);
     if (!from.lenient) {
         state_color(spec, writer);
+        mark_alpha(spec);
     }
     spec.erase_attribute("oiio:BitsPerSample");
     if (image.format.bits > 0) {

@@ -331,6 +331,21 @@ ocio::MatrixTransformRcPtr matrix_transform(const Matrix3& m, double scale) {
     return transform;
 }
 
+namespace {
+
+// The space that the others are defined by, which has no transform of its own.
+std::string reference_space(const ChosenView& chosen) {
+    for (const std::string& name : scene_spaces(chosen)) {
+        const auto space = chosen.config->getColorSpace(name.c_str());
+        if (space && !space->isData() && !space->getTransform(ocio::COLORSPACE_DIR_TO_REFERENCE) &&
+            !space->getTransform(ocio::COLORSPACE_DIR_FROM_REFERENCE))
+            return name;
+    }
+    return {};
+}
+
+} // namespace
+
 SceneBridge find_bridge(const ChosenView& chosen, const std::string& from) {
     const auto by_name = [&](const std::string& known) {
         return SceneBridge{find_scene_space(chosen, interchange_names(known)),
@@ -349,7 +364,9 @@ SceneBridge find_bridge(const ChosenView& chosen, const std::string& from) {
     if (from.empty())
         return {};
     SceneBridge stand_in;
-    stand_in.space = find_scene_space(chosen, {ocio::ROLE_SCENE_LINEAR, from});
+    stand_in.space =
+        find_scene_space(chosen, {ocio::ROLE_SCENE_LINEAR, ocio::ROLE_RENDERING,
+                                  ocio::ROLE_REFERENCE, reference_space(chosen), from});
     return stand_in;
 }
 

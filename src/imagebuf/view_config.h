@@ -59,7 +59,7 @@ struct SceneBridge {
 /// By one of the names of linear Rec.709, by the roles for interchange (ACES2065-1, CIE XYZ), or by
 /// the names of other spaces that are known. A configuration that has none of these does not say
 /// what its light is: where images are said to be in one of its spaces, `from`, its role
-/// scene_linear (or else that space) stands for Rec.709.
+/// scene_linear (or else its reference, or that space) stands for Rec.709.
 SceneBridge find_bridge(const ChosenView& chosen, const std::string& from = "");
 
 ocio::MatrixTransformRcPtr matrix_transform(const Matrix3& m, double scale);

@@ -184,3 +184,65 @@ def test_a_comparison_says_so_too(tonetool):
         ran = tonetool("--colorconfig", CONFIG, REFERENCE, TEST, f"--hdrflip:{modifiers}", status=1)
         for word in words:
             assert word in ran.err, ran.err
+
+
+# Configurations that differ in what they say of their light. LOG is a curve behind which light is.
+PLAIN_CONFIG = """ocio_profile_version: 2
+roles: {{default: raw, {roles}}}
+displays:
+  screen:
+    - !<View> {{name: Film, colorspace: code}}
+colorspaces:
+  - !<ColorSpace> {{name: raw, isdata: true}}
+  - !<ColorSpace> {{name: {light}}}
+  - !<ColorSpace> {{name: LOG, to_scene_reference: !<LogTransform> {{base: 2, direction: inverse}}}}
+  - !<ColorSpace> {{name: code, from_scene_reference: !<ExponentTransform> {{value: [2.2, 2.2, 2.2, 1], direction: inverse}}}}
+"""
+FILM = "view=Film:encoding=gamma2.2"
+
+
+@pytest.mark.parametrize("roles,light", [("scene_linear: light", "light"),
+                                         ("rendering: light", "light"),
+                                         ("scene_linear: lin_ap1", "lin_ap1"),
+                                         ("aces_interchange: AP0x", "AP0x"),
+                                         ("scene_linear: lin_srgb", "lin_srgb")])
+def test_hdrflip_from_a_space_of_the_configuration(tonetool, make_image, tmp_path, roles, light):
+    (tmp_path / "c.ocio").write_text(PLAIN_CONFIG.format(roles=roles, light=light))
+    config = ["--colorconfig", "c.ocio"]
+    scene = np.random.default_rng(1).uniform(0.1, 2, (12, 16, 3)).astype(np.float32)
+    lit, brighter = make_image("a.exr", pixels=scene), make_image("b.exr", pixels=scene * 1.5)
+    log, brighter_log = (make_image(f"{name}_log.exr", pixels=np.log2(pixels))
+                         for name, pixels in (("a", scene), ("b", scene * 1.5)))
+    same = ":startExposure=-2:stopExposure=0:exact=1"
+    want = tonetool(*config, lit, brighter, f"--hdrflip:{FILM}:from={light}{same}")
+    got = tonetool(*config, log, brighter_log, f"--hdrflip:{FILM}:from=LOG{same}")
+    assert got.fact("reference-space") == "LOG"
+    assert float(want.fact("mean")) > 0.05
+    assert abs(float(got.fact("mean")) - float(want.fact("mean"))) < 1e-3
+    tonetool(*config, log, log, f"--hdrflip:{FILM}:from=LOG:fail=0")
+    # As --tonemap takes it.
+    tonetool(*config, log, f"--tonemap:view=Film:from=LOG", "-o", "t.exr")
+    assert np.abs(pixels(tmp_path / "t.exr") - scene ** (1 / 2.2)).max() < 1e-3
+    for command in (f"hdrflip:{FILM}", "tonemap:view=Film"):
+        ran = tonetool(*config, log, log, f"--{command}:from=LGO", status=1)
+        assert 'did you mean "LOG"' in ran.err
+
+
+def test_without_from_a_configuration_must_say_its_light(tonetool, tmp_path):
+    (tmp_path / "c.ocio").write_text(
+        PLAIN_CONFIG.format(roles="scene_linear: light", light="light"))
+    ran = tonetool("--colorconfig", "c.ocio", REFERENCE, TEST, f"--hdrflip:{FILM}", status=1)
+    assert "from=" in ran.err and "light" in ran.err
+
+
+def test_a_misspelt_context_variable_is_an_error(tonetool, tmp_path):
+    ran = tonetool("--colorconfig", CONFIG, REFERENCE, f"--tonemap:{ACES}:context=SHTO=a", "-o",
+                   "a.exr", status=1)
+    assert 'unknown context variable "SHTO"' in ran.err
+    text = PLAIN_CONFIG.format(roles="scene_linear: light", light="light")
+    (tmp_path / "c.ocio").write_text(text.replace("displays:", "environment: {SHOT: x}\ndisplays:"))
+    for command in ("tonemap:view=Film:from=light", f"hdrflip:{FILM}:from=light"):
+        words = ["--colorconfig", "c.ocio", REFERENCE, REFERENCE]
+        ran = tonetool(*words, f"--{command}:context=SHTO=a", "-o", "a.exr", status=1)
+        assert 'did you mean "SHOT"' in ran.err
+        tonetool(*words, f"--{command}:context=SHOT=a", "-o", "a.exr")
