@@ -98,7 +98,7 @@ def chroma_at_half_the_size(data):
 
 @pytest.mark.parametrize("damage", [
     chroma_at_half_the_size, lambda data: b"", lambda data: data[:100], lambda data: data[:len(data) * 2 // 3],
-    lambda data: b"no image", lambda data: data[:len(data) // 2] + b"\x5a" * 200 + data[len(data) // 2 + 200:]])
+    lambda data: b"no image"])
 @pytest.mark.parametrize("command", ["--hdrflip", "--diff", "--add -o sum.exr"])
 def test_an_error_names_the_file_that_cannot_be_read(tonetool, make_image, tmp_path, damage, command):
     good, bad = make_image("good.exr"), make_image("bad.exr", attributes={"compression": "zip"})
