@@ -8,7 +8,14 @@ from numpy.typing import NDArray
 from OpenImageIO import ROI, ImageBuf
 
 # Image and the mappings of options are for annotations: the module does not have them.
-Image = Union[ImageBuf, NDArray[np.float32]]
+Image = Union[
+    ImageBuf,
+    NDArray[np.float32],
+    NDArray[np.float16],
+    NDArray[np.float64],
+    NDArray[np.uint8],
+    NDArray[np.uint16],
+]
 
 __version__: str
 
