@@ -88,6 +88,7 @@ FlipMaps::FlipMaps(const FlipPlan& plan, const Exposures& exposures, const ROI& 
     for (FlipExposure& picture : m_pictures)
         for (ImageBuf* image : {&picture.reference, &picture.test})
             image->specmod().attribute("oiio:ColorSpace", "Linear");
+    m_clipping = clipping();
 }
 
 // An image of the roi; its memory is not touched yet.
@@ -176,45 +177,69 @@ void FlipMaps::override_nonfinite(int y, const Sides& sides) {
     }
 }
 
+// Scene values that all that is white at the darkest exposure reaches, and all that is black at the
+// brightest stays below; where a curve mixes the components, every value does.
+FlipMaps::Clipping FlipMaps::clipping() const {
+    constexpr double nearly_white = 0.99, nearly_black = 0.01;
+    const double dark = std::exp2(m_exposures.stops.front());
+    const double bright = std::exp2(m_exposures.stops.back());
+    const bool curved = m_plan.hdr && !m_plan.pixel_error;
+    if (!curved)
+        return {float(nearly_white / dark), float(nearly_black / bright)};
+    if (m_plan.hdr_options.view || m_plan.curve.on != "rgb" || !m_plan.bright)
+        return {};
+    return {float(*m_plan.bright / dark), float(nearly_black / bright)};
+}
+
 FlipMaps::Unseen FlipMaps::unseen(int y, const Sides& sides) const {
     const float *r[3], *t[3];
     sides.reference.row(m_roi.xbegin, y, r);
     sides.test.row(m_roi.xbegin, y, t);
-    std::vector<float> differing[2][3]; // of the reference and of the test
-    for (int x = 0; x < m_roi.width(); ++x)
-        if ((r[0][x] != t[0][x]) | (r[1][x] != t[1][x]) | (r[2][x] != t[2][x]))
-            for (size_t p = 0; p < 3; ++p) {
-                differing[0][p].push_back(r[p][x]);
-                differing[1][p].push_back(t[p][x]);
-            }
+    std::vector<float> candidates[2][3]; // of the reference and of the test
     Unseen found;
-    found.differing = int64_t(differing[0][0].size());
-    const bool clips = m_plan.hdr || !m_plan.pixel_error; // other errors have no white
-    if (found.differing == 0 || !clips)
-        return found;
-    // Of both images at the darkest and at the brightest exposure.
-    std::vector<float> shown[2][2][3];
-    for (size_t side = 0; side < 2; ++side) {
-        const float* const in[3] = {differing[side][0].data(), differing[side][1].data(),
-                                    differing[side][2].data()};
-        const auto count = size_t(found.differing);
-        show(in, count, m_exposures.stops.front(), shown[0][side]);
-        show(in, count, m_exposures.stops.back(), shown[1][side]);
+    for (int x = 0; x < m_roi.width(); ++x) {
+        bool differs = false, clipped = true;
+        for (size_t p = 0; p < 3; ++p) {
+            const float a = r[p][x], b = t[p][x];
+            differs = differs || a != b;
+            clipped = clipped && (a == b || std::min(a, b) >= m_clipping.white ||
+                                  std::max(a, b) < m_clipping.black);
+        }
+        found.differing += differs;
+        for (size_t p = 0; p < 3 && differs && clipped; ++p) {
+            candidates[0][p].push_back(r[p][x]);
+            candidates[1][p].push_back(t[p][x]);
+        }
     }
-    for (size_t i = 0; i < size_t(found.differing); ++i) {
+    const bool clips = m_plan.hdr || !m_plan.pixel_error; // other errors have no white
+    if (clips && !candidates[0][0].empty())
+        count_hidden(candidates, found);
+    return found;
+}
+
+// Pixels of both images whose difference neither the darkest nor the brightest exposure shows.
+void FlipMaps::count_hidden(const std::vector<float> (&pixels)[2][3], Unseen& found) const {
+    const size_t count = pixels[0][0].size();
+    std::vector<float> dark[2][3], bright[2][3];
+    for (size_t side = 0; side < 2; ++side) {
+        const auto& of = pixels[side];
+        show({of[0].data(), of[1].data(), of[2].data()}, count, m_exposures.stops.front(),
+             dark[side]);
+        show({of[0].data(), of[1].data(), of[2].data()}, count, m_exposures.stops.back(),
+             bright[side]);
+    }
+    for (size_t i = 0; i < count; ++i) {
         bool white = false, hidden = true;
-        for (size_t p = 0; p < 3 && hidden; ++p) {
-            const float dark[2] = {shown[0][0][p][i], shown[0][1][p][i]};
-            const float bright[2] = {shown[1][0][p][i], shown[1][1][p][i]};
-            const bool both_white = std::min(dark[0], dark[1]) >= kWhite;
-            const bool both_black = std::max(bright[0], bright[1]) < kBlack;
+        for (size_t p = 0; p < 3; ++p) {
+            const float a = dark[0][p][i], b = dark[1][p][i];
+            const float c = bright[0][p][i], d = bright[1][p][i];
+            const bool both_white = std::min(a, b) >= kWhite;
             white = white || both_white;
-            hidden = both_white || both_black || (dark[0] == dark[1] && bright[0] == bright[1]);
+            hidden = hidden && (both_white || std::max(c, d) < kBlack || (a == b && c == d));
         }
         if (hidden)
             ++(white ? found.white : found.black);
     }
-    return found;
 }
 
 // Pixels as the comparison sees them at an exposure: display light.

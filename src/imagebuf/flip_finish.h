@@ -45,6 +45,9 @@ private:
     struct Unseen {
         int64_t differing = 0, white = 0, black = 0;
     };
+    struct Clipping {
+        float white = 0, black = 0;
+    };
     struct Sides {
         const ColorPlanes& reference;
         const ColorPlanes& test;
@@ -54,7 +57,9 @@ private:
     float* row(OIIO::ImageBuf& image, int y) const;
     void compare_alpha(int y, const Sides& sides);
     void override_nonfinite(int y, const Sides& sides);
+    Clipping clipping() const;
     Unseen unseen(int y, const Sides& sides) const;
+    void count_hidden(const std::vector<float> (&pixels)[2][3], Unseen& found) const;
     void show(const float* const (&in)[3], size_t count, double stops,
               std::vector<float> (&out)[3]) const;
     void tone_map_row(int y, double stops, const ColorPlanes& planes, OIIO::ImageBuf& image) const;
@@ -73,6 +78,7 @@ private:
     std::vector<FlipExposure> m_pictures;
     std::vector<AlphaRow> m_alpha;
     Unseen m_unseen;
+    Clipping m_clipping;
 };
 
 } // namespace tonetool

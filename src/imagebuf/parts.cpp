@@ -30,9 +30,9 @@ bool is_eye(const std::string& word) {
 std::vector<std::string> listed_views(const ImageSpec& spec) {
     std::vector<std::string> views;
     const OIIO::ParamValue* list = spec.find_attribute("multiView");
-    for (int i = 0;
-         list && i < list->type().basevalues() && list->type().basetype == OIIO::TypeDesc::STRING;
-         ++i)
+    const bool texts = list && list->type().basetype == OIIO::TypeDesc::STRING;
+    const int count = texts ? int(list->type().basevalues()) : 0;
+    for (int i = 0; i < count; ++i)
         views.emplace_back(list->get_string_indexed(i));
     return views;
 }
@@ -62,7 +62,7 @@ Picture picture_of(const ImageSpec& spec, int part, const std::string& layer) {
     const bool plain = layer == kPlain;
     Picture picture;
     picture.part = part;
-    picture.name = plain ? spec.get_string_attribute("oiio:subimagename") : layer;
+    picture.name = plain ? std::string(spec.get_string_attribute("oiio:subimagename")) : layer;
     picture.shown = picture.name.empty() ? layer : picture.name;
     picture.view = lower_case(std::string(spec.get_string_attribute("view")));
     if (picture.view.empty())

@@ -41,7 +41,7 @@ std::string usage_text() {
     return "Usage: tonetool [filename|command]...\n"
            "  A file name reads an image and pushes it on the stack; commands work on the stack,\n"
            "  from left to right. One or two dashes are the same. Modifiers follow a command's\n"
-           "  name: --hdrflip:tonemapper=hable:fail=0.05\n"
+           "  name: --hdrflip:tonemapper=hable:fail=p99.9=0.3\n"
            "  Example: tonetool ref.exr test.exr --hdrflip -o error.exr --colormap magma "
            "-o error.png\n"
            "  Exit status: 0 passed, 1 an error, 2 only warnings (with --warnings-exit),\n"

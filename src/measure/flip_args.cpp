@@ -82,7 +82,10 @@ private:
     using Member = std::optional<double> Limit::*;
 
     void read_list(const std::string& key, Member member) {
-        for (const std::string& word : split(m_call.text(key).value_or(""), ',')) {
+        if (!m_call.has(key)) {
+            return;
+        }
+        for (const std::string& word : split(*m_call.text(key), ',')) {
             const size_t equals = word.find('=');
             const bool named = equals != std::string::npos;
             m_used_default = m_used_default || !named;
@@ -127,7 +130,8 @@ private:
                            : name == above ? std::optional<std::string>(above + error_above())
                                            : ToneAlgo::flip_quantity_name(name);
         if (!known) {
-            check_choice("quantity", name, listed());
+            throw CommandError("unknown quantity \"" + name + "\"" + meant(name, m_measures.names) +
+                               " (valid: " + join(listed(), ", ") + ")");
         }
         m_pooled.push_back(*known);
         return *known;
