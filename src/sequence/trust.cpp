@@ -6,6 +6,7 @@
 #include <map>
 #include <stdexcept>
 
+#include "include/tonetool/flip.h"
 #include "text/text.h"
 #include "text/token.h"
 
@@ -52,27 +53,55 @@ bool same(double a, double b) {
     return a == b || (std::isnan(a) && std::isnan(b));
 }
 
-void check_threshold(const FrameResult& frame, const Measurement& measured, const Asked& asked) {
+// Whether a threshold is that of "0.05", "p99.9=0.5" or "above=0.1", where above= says of what.
+bool is_limit(const Threshold& threshold, const std::string& name, double limit) {
+    const std::string known = ToneAlgo::flip_quantity_name(name).value_or(name);
+    const bool of_it = name.empty() || threshold.quantity == known ||
+                       (name == "above" && OIIO::Strutil::starts_with(threshold.quantity, name));
+    return of_it && threshold.fail && *threshold.fail == limit;
+}
+
+// Each limit of fail=, which may have several with commas between them, was held.
+void check_fail(const std::string& start, const Measurement& measured, const std::string& fail) {
+    for (const std::string& word : split(fail, ',')) {
+        const size_t equals = word.find('=');
+        const bool named = equals != std::string::npos;
+        const auto limit = parse_number(named ? word.substr(equals + 1) : word);
+        if (!limit) {
+            continue; // the value of an expression is not known here
+        }
+        const auto& all = measured.thresholds;
+        if (std::any_of(all.begin(), all.end(), [&](const Threshold& threshold) {
+                return is_limit(threshold, named ? word.substr(0, equals) : "", *limit);
+            })) {
+            continue;
+        }
+        const auto& held = all.front().fail;
+        throw std::runtime_error(format("{} was held to {}, but the check's limit is fail={}",
+                                        start, held ? format("fail={}", *held) : "no limit", fail));
+    }
+}
+
+void check_thresholds(const FrameResult& frame, const Measurement& measured, const Asked& asked) {
     const std::string start = name_of(frame) + ": " + measured.command;
-    if (!measured.threshold) {
+    if (measured.thresholds.empty()) {
         if (asked.always()) {
             throw std::runtime_error(start +
                                      " has no threshold, though the check gives it a limit");
         }
         return;
     }
-    const Threshold& threshold = *measured.threshold;
-    for (const auto& [quantity, value] : measured.quantities) {
-        if (quantity == threshold.quantity && !same(value, threshold.value)) {
-            throw std::runtime_error(format("{}: the threshold is held against {} {}, but {} is {}",
-                                            start, quantity, threshold.value, quantity, value));
+    for (const Threshold& threshold : measured.thresholds) {
+        for (const auto& [quantity, value] : measured.quantities) {
+            if (quantity == threshold.quantity && !same(value, threshold.value)) {
+                throw std::runtime_error(
+                    format("{}: the threshold is held against {} {}, but {} is {}", start, quantity,
+                           threshold.value, quantity, value));
+            }
         }
     }
-    const auto limit = asked.words == 1 ? parse_number(asked.fail) : std::nullopt;
-    if (limit && !(threshold.fail && *threshold.fail == *limit)) {
-        throw std::runtime_error(
-            format("{} was held to {}, but the check's limit is fail={}", start,
-                   threshold.fail ? format("fail={}", *threshold.fail) : "no limit", asked.fail));
+    if (asked.words == 1 && !asked.fail.empty()) {
+        check_fail(start, measured, asked.fail);
     }
 }
 
@@ -100,7 +129,7 @@ void check_limits(const ShotResult& shot) {
     for (const FrameResult& frame : shot.frames) {
         for (const Measurement& measured : frame.measurements) {
             const auto found = asked.find(measured.command);
-            check_threshold(frame, measured, found == asked.end() ? Asked{} : found->second);
+            check_thresholds(frame, measured, found == asked.end() ? Asked{} : found->second);
         }
     }
 }

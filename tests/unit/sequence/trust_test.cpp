@@ -24,7 +24,7 @@ ShotResult shot() {
         frame.status = Status::Passed;
         Measurement one;
         one.command = "hdrflip";
-        one.threshold = Threshold{"mean", value, false, 0.01, {}};
+        one.thresholds = {Threshold{"mean", value, false, 0.01, {}}};
         one.quantities = {{"mean", value}, {"max", 1}};
         frame.measurements = {one};
         judge(frame);
@@ -83,11 +83,11 @@ TEST(Trust, Faults_are_believed_not_the_word) {
 }
 
 TEST(Trust, Numbers_that_are_missing_pass_nothing) {
-    EXPECT_THAT(refusal([](auto& json) { measured(json, 0).erase("threshold"); }),
+    EXPECT_THAT(refusal([](auto& json) { measured(json, 0).erase("thresholds"); }),
                 HasSubstr("passed"));
     EXPECT_THAT(refusal([](auto& json) {
                     frame(json, 0)["status"] = "measured";
-                    measured(json, 0).erase("threshold");
+                    measured(json, 0).erase("thresholds");
                 }),
                 HasSubstr("hdrflip has no threshold"));
     const ShotResult none = read([](auto& json) { frame(json, 0).erase("measurements"); });
@@ -98,17 +98,17 @@ TEST(Trust, Numbers_that_are_missing_pass_nothing) {
 TEST(Trust, A_threshold_is_the_one_of_the_check_and_of_its_quantity) {
     EXPECT_THAT(refusal([](auto& json) {
                     frame(json)["status"] = "passed";
-                    measured(json)["threshold"]["value"] = 0.001;
+                    measured(json)["thresholds"][0]["value"] = 0.001;
                 }),
                 HasSubstr("held against mean 0.001, but mean is 0.25"));
     EXPECT_THAT(refusal([](auto& json) {
                     frame(json)["status"] = "passed";
-                    measured(json)["threshold"]["fail"] = 0.5;
+                    measured(json)["thresholds"][0]["fail"] = 0.5;
                 }),
                 HasSubstr("held to fail=0.5, but the check's limit is fail=0.01"));
     EXPECT_THAT(refusal([](auto& json) {
                     frame(json)["status"] = "passed";
-                    measured(json)["threshold"]["fail"] = "inf";
+                    measured(json)["thresholds"][0]["fail"] = "inf";
                 }),
                 HasSubstr("held to fail=inf"));
     EXPECT_THAT(refusal([](auto& json) { frame(json, 0)["status"] = "failed"; }),
@@ -121,9 +121,9 @@ TEST(Trust, Values_that_do_not_fit_are_named_with_their_place) {
                     HasSubstr("frames/1: \"frame\" is "))
             << value;
     }
-    EXPECT_THAT(refusal([](auto& json) { measured(json)["threshold"]["value"] = nullptr; }),
+    EXPECT_THAT(refusal([](auto& json) { measured(json)["thresholds"][0]["value"] = nullptr; }),
                 HasSubstr("frames/1: measurements/0: \"value\" is null"));
-    EXPECT_THAT(refusal([](auto& json) { measured(json)["threshold"]["fail"] = nullptr; }),
+    EXPECT_THAT(refusal([](auto& json) { measured(json)["thresholds"][0]["fail"] = nullptr; }),
                 HasSubstr("\"fail\" is null"));
     EXPECT_THAT(refusal([](auto& json) { measured(json)["quantities"]["mean"] = "few"; }),
                 HasSubstr("\"mean\" is \"few\""));
@@ -139,7 +139,7 @@ TEST(Trust, Values_that_do_not_fit_are_named_with_their_place) {
 // What no number is does not hold.
 TEST(Trust, A_NaN_fails) {
     const ShotResult result = read([](ordered_json& json) {
-        measured(json, 0)["threshold"]["value"] = measured(json, 0)["quantities"]["mean"] = "nan";
+        measured(json, 0)["thresholds"][0]["value"] = measured(json, 0)["quantities"]["mean"] = "nan";
     });
     EXPECT_EQ(result.frames[0].status, Status::Failed);
 }
