@@ -88,7 +88,9 @@ Token parse_token(const std::string& word, bool lenient) {
                 throw;
             }
             at = std::min(word.find(':', begins), word.size());
-            token.dropped.push_back(word.substr(begins, at - begins));
+            if (at > begins) {
+                token.dropped.push_back(word.substr(begins, at - begins));
+            }
         }
     }
     return token;

@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <sstream>
 
+#include "runs/frames.h"
+
 namespace tonetool::runs {
 namespace {
 
@@ -18,6 +20,20 @@ Ran run_words(const Strings& words) {
     std::ostringstream out, err;
     int status = run(words, out, err);
     return {status, out.str(), err.str()};
+}
+
+TEST(CommandLine, CompatIsACommandAndNotAnArgument) {
+    for (const Strings& words : {Strings{"-compat"}, Strings{"a.exr", "--compat"},
+                                 Strings{"--parallel-frames", "--compat"},
+                                 Strings{"--parallel-frames", "2", "--compat"},
+                                 Strings{"--attrib", "a", "b", "--compat"}}) {
+        EXPECT_TRUE(is_compat(words)) << words.front();
+    }
+    for (const Strings& words : {Strings{"compat"}, Strings{"--echo", "--compat"},
+                                 Strings{"--attrib", "note", "--compat"},
+                                 Strings{"-o", "-compat"}}) {
+        EXPECT_FALSE(is_compat(words)) << words.front();
+    }
 }
 
 const std::string plain = TESTIMAGES_DIR "/plain.exr";

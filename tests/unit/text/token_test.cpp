@@ -42,6 +42,12 @@ TEST(ParseToken, RefusesMalformedModifiers) {
     }
 }
 
+TEST(ParseToken, LenientlyTellsWhatItDropped) {
+    const Token token = parse_token("--c:a=1:bad:1x=3:b=2:", true);
+    EXPECT_EQ(token.dropped, (std::vector<std::string>{"bad", "1x=3"}));
+    EXPECT_EQ(token.modifiers.size(), 2U);
+}
+
 TEST(ParseToken, RefusesAModifierGivenTwice) {
     EXPECT_THROW(parse_token("--c:fail=0.5:fail=0.1"), CommandError);
 }
