@@ -117,7 +117,6 @@ private:
         }
         ImageBuf planar = whole();
         planar.specmod().attribute("planarconfig", "separate");
-        planar.specmod().attribute("tiff:RowsPerStrip", 3);
         const std::string strips = written("planar.tif", planar, {OIIO::TypeFloat, "zip", 0});
         // Its directory lies behind the pixels: a hole instead of an end.
         std::string hole = strips;

@@ -47,32 +47,31 @@ TEST(RowSource, ReadsAnyRowsInAnyOrder) {
     }
 }
 
-TEST(RowSource, RowsOfPlanarTiffFilesComeAStripAtATime) {
+// Of one row a strip, as OpenImageIO writes them; the program's tests have larger ones.
+TEST(RowSource, ReadsAnyRowsOfPlanarTiffFiles) {
     const Folder folder;
-    for (const char* compression : {"none", "lzw", "zip"})
-        for (int rows_per_strip : {1, 3, 7, 16, 64, -1}) {
-            SCOPED_TRACE(compression + std::to_string(rows_per_strip));
-            auto image = noise(20, 50, 1);
-            image.specmod().attribute("planarconfig", "separate");
-            image.specmod().attribute("tiff:RowsPerStrip", rows_per_strip);
-            const UnreadFile file(
-                write_file(folder / "a.tif", image, {OIIO::TypeFloat, compression, 0}));
-            ASSERT_EQ(file.image.spec().get_string_attribute("planarconfig"), "separate");
-            RowSource source;
-            std::string error;
-            ASSERT_TRUE(source.open(file.image, {{0, 1}, {1, 3}}, error)) << error;
-            const std::pair<int, int> rows[] = {{1, 2}, {4, 20}, {0, 50}, {2, 4}, {49, 50}};
-            for (const auto& [begin, end] : rows)
-                for (size_t run = 0; run < 2; ++run) {
-                    const ChannelRun& channels = source.runs()[run];
-                    const ROI roi(0, 20, begin, end, 0, 1, channels.begin, channels.end);
-                    std::vector<float> expected(size_t(roi.npixels()) * size_t(channels.count()));
-                    auto found = expected;
-                    image.get_pixels(roi, OIIO::TypeFloat, expected.data());
-                    ASSERT_TRUE(source.read(begin, end, run, found.data(), error)) << error;
-                    EXPECT_EQ(found, expected) << begin;
-                }
-        }
+    for (const char* compression : {"none", "lzw", "zip"}) {
+        SCOPED_TRACE(compression);
+        auto image = noise(20, 50, 1);
+        image.specmod().attribute("planarconfig", "separate");
+        const UnreadFile file(
+            write_file(folder / "a.tif", image, {OIIO::TypeFloat, compression, 0}));
+        ASSERT_EQ(file.image.spec().get_string_attribute("planarconfig"), "separate");
+        RowSource source;
+        std::string error;
+        ASSERT_TRUE(source.open(file.image, {{0, 1}, {1, 3}}, error)) << error;
+        const std::pair<int, int> rows[] = {{1, 2}, {4, 20}, {0, 50}, {2, 4}, {49, 50}};
+        for (const auto& [begin, end] : rows)
+            for (size_t run = 0; run < 2; ++run) {
+                const ChannelRun& channels = source.runs()[run];
+                const ROI roi(0, 20, begin, end, 0, 1, channels.begin, channels.end);
+                std::vector<float> expected(size_t(roi.npixels()) * size_t(channels.count()));
+                auto found = expected;
+                image.get_pixels(roi, OIIO::TypeFloat, expected.data());
+                ASSERT_TRUE(source.read(begin, end, run, found.data(), error)) << error;
+                EXPECT_EQ(found, expected) << begin;
+            }
+    }
 }
 
 TEST(RowSource, OnlyTiffFilesHaveStrips) {
