@@ -170,6 +170,14 @@ void check_range_is_used(const Strings& words, const Scan& scan,
     }
 }
 
+std::vector<sequence::Item> items_of(const Scan& scan) {
+    std::vector<sequence::Item> items;
+    for (int frame : sequence::parse_frames(scan.options.frames, scan.options.lenient)) {
+        items.push_back({frame, ""});
+    }
+    return items;
+}
+
 // What the frames of a check are, whatever is on the disk.
 void pair_frames(const Strings& words, Scan& scan, const Files& numbered,
                  std::vector<Files>& listings) {
@@ -179,6 +187,8 @@ void pair_frames(const Strings& words, Scan& scan, const Files& numbered,
     sequence::Pairing pairs{numbered.items, {}, {}};
     if (!sides.empty()) {
         pairs = sequence::pair_sides(sides, scan.options);
+    } else if (pairs.items.empty() && !scan.options.frames.empty()) {
+        pairs.items = items_of(scan); // for outputs alone
     }
     if (pairs.items.empty() && !scan.patterns.empty()) {
         throw CommandError("no file matches \"" + words[scan.patterns.front().at] + "\"");
@@ -275,10 +285,8 @@ FramePlan plan_frames(const Strings& words, const std::string& directory, bool f
         return scan.plan;
     }
     Files first;
-    for (int frame : scan.options.frames.empty() || !scan.patterns.empty()
-                         ? std::vector<int>{}
-                         : sequence::parse_frames(scan.options.frames, scan.options.lenient)) {
-        first.items.push_back({frame, ""});
+    if (!scan.options.frames.empty() && scan.patterns.empty()) {
+        first.items = items_of(scan);
     }
     std::vector<Files> listings;
     if (scan.plan.check.pairs_frames() && !for_images) {

@@ -93,7 +93,9 @@ public:
         }
         const std::string view = frame.view.empty() ? "" : " " + frame.view;
         write(x, y + height + 2 * edge + 4,
-              format("{}{}  {}", frame.frame, view, status_name(frame.status)));
+              format("{}{}{}  {}", frame.frame,
+                     frame.test_frame ? "/" + std::to_string(*frame.test_frame) : "", view,
+                     status_name(frame.status)));
     }
 
     bool labelled() const { return m_labelled; }

@@ -172,7 +172,7 @@ def test_closed_pipe(program, pair, tmp_path):
     done = subprocess.run(words, stdout=writer, stderr=subprocess.PIPE, cwd=tmp_path,
                           check=False)
     os.close(writer)
-    assert done.returncode == 1
+    assert done.returncode == 1 and done.stderr == b""
     assert (tmp_path / "x.exr").exists()
 
 

@@ -56,6 +56,8 @@ def test_missing_file_is_replaced_and_said(tonetool, read, policy, value):
      "shot.1-3#.exr (3 frames) vs. shot.1-2#.exr (2 frames)"),
     (["--frames", "1-", "shot.#.exr"], 'no frame range: "1-"'),
     (["--frames", "x", "shot.#.exr"], 'no frame range: "x"'),
+    (["--frames", "1-2 4", "shot.#.exr"], '"4" is left over (valid: 1-10'),
+    (["--frames", "1-2000000000", "shot.#.exr"], "has 2000000000 frames (valid: at most"),
     (["--parallel-frames", "0", "shot.#.exr"], "out of range"),
     (["--if", "0", "shot.0001.exr"], "--if without its --endif"),
     (["--endfor"], "endfor without matching for"),
@@ -121,3 +123,157 @@ def test_no_clobber_and_dry_run(tonetool, make_image, tmp_path):
     assert "not overwriting" in ran.err and (tmp_path / b).read_bytes() == before
     tonetool("-n", a, "-o", "other.exr")
     assert os.path.exists(tmp_path / "new.exr") and not os.path.exists(tmp_path / "other.exr")
+
+
+# ---- what was not compared is not passed
+
+@pytest.fixture
+def pair_of_shots(make_image, tmp_path):
+    """r.0001.exr to r.0003.exr and as many tests, of which frame 2 is another."""
+    for frame in (1, 2, 3):
+        make_image(f"r.{frame:04d}.exr", seed=frame)
+        make_image(f"t.{frame:04d}.exr", seed=7 if frame == 2 else frame)
+    return tmp_path
+
+
+SHOTS = ["r.#.exr", "t.#.exr"]
+FLIP = "--hdrflip:fail=0.05:print=0"
+
+
+@pytest.mark.usefixtures("pair_of_shots")
+@pytest.mark.parametrize("words, text", [
+    (["r.0001.exr", "r.0002.exr", "t.0001.exr", FLIP], '"r.0001.exr" was never compared'),
+    (["r.0001.exr", "r.0002.exr", "--swap", "t.0002.exr", "--diff"], "was never compared"),
+    (["r.0001.exr", "r.0001.exr", "--exposure", "1", "r.0001.exr", "r.0001.exr", FLIP],
+     "was never compared"),
+    (["r.0001.exr", "r.0002.exr", "--qc"], '"r.0001.exr" was never compared'),
+    (["--frames", "1-3", "r.0001.exr", "r.0001.exr", FLIP], "no image that is read has a wildcard"),
+    (["--frames", "1-3", "r.#.exr", "r.0001.exr", FLIP], "--wildcardoff r.0001.exr --wildcardon"),
+    (["--frames", "1-3", "r.#.exr", "r.0001.exr", "--exposure", "0", "--diff"], "no wildcard"),
+    (["--frames", "1-3", "r.1-2#.exr", "t.1-2#.exr", FLIP], "--frames 1-3 holds for no name"),
+    (["r.1-3#.exr", "t.1-2#.exr", FLIP], '"r.1-3#.exr" has 3 frames, "t.1-2#.exr" 2'),
+    (["r.#.exr", "-o", "same.exr"], '"same.exr" would be written by every frame'),
+    (["r.#.exr", "-otex", "same.tx"], '"same.tx" would be written by every frame'),
+    (["r.#.exr", "-o:all=1", "same.%02d.exr"], "would be written by every frame"),
+    ([*SHOTS, "--hdrflip:saveexposures=same"], "would be written by every frame"),
+    (["r.#.exr", "-o", "same.{FRAME_NUMBER//3}.exr"], "was written by frame 1"),
+])
+def test_not_compared_or_written_over(tonetool, words, text):
+    ran = tonetool(*words, status=1)
+    assert text in ran.err and "check: passed" not in ran.out
+
+
+@pytest.mark.usefixtures("pair_of_shots")
+@pytest.mark.parametrize("words", [
+    ["r.0001.exr", "r.0002.exr", "--pop", "t.0001.exr", FLIP],
+    ["r.0001.exr", "--label", "r", "t.0001.exr", FLIP, "r", "t.0001.exr", "--diff"],
+    ["r.0001.exr", "r.0001.exr", "t.0001.exr", FLIP.replace("print", "tests=2:print")],
+    ["--frames", "1,3", "r.#.exr", "--wildcardoff", "r.0002.exr", "--wildcardon",
+     "--hdrflip:fail=1:quantity=mean", "-o", "map.#.exr"],
+    ["--frames", "1,3", *SHOTS, "r.0002.exr", "--mulc", "0", "--add", FLIP],
+    ["--frames", "1,3", *SHOTS, FLIP, "-o", "map.{FRAME_NUMBER}.exr"],
+    ["--frames", "1,3", "r.{FRAME_NUMBER}.exr".replace("{", "000{"), "t.000{FRAME_NUMBER}.exr", FLIP],
+    ["--frames", "1,3", "r.#.exr", "--if", "{FRAME_NUMBER==1}", "-o", "poster.exr", "--endif"],
+    ["--frames", "1", "r.#.exr", "-o", "one.exr"],
+    ["--frames", "1-3,2", "r.#.exr", "-o", "out.#.exr"],
+    ["--frames", "1-2", "--echo", "{FRAME_NUMBER}"],
+    ["-n", "r.3-1#.exr", "t.1-3#.exr", "--add", "-o", "out.#.exr"],
+])
+def test_legal_lines_stay_legal(tonetool, words):
+    tonetool(*words)
+
+
+@pytest.mark.usefixtures("pair_of_shots")
+def test_a_sequence_ends_with_a_verdict_that_names_the_worst_frame(tonetool):
+    ran = tonetool(*SHOTS, FLIP, status=3)
+    assert ran.out.splitlines()[-1].startswith(
+        "check: failed, 3 frames: 1 failed, 2 passed; worst: frame 2 (hdrflip: ")
+    ran = tonetool(*SHOTS, "--hdrflip:print=0")
+    assert "check: measured, 3 frames: 3 measured; worst: frame 2 (hdrflip: " in ran.out
+    ran = tonetool(*SHOTS, "--diff", status=1)
+    assert "worst: frame 2 (diff: " in ran.out.splitlines()[-1]
+    ran = tonetool("--frames", "1,3", *SHOTS, "--if", "{FRAME_NUMBER==1}", "--hdrflip:print=0",
+                   "--endif")
+    assert "check: measured, 2 frames: 2 measured; worst: frame 1" in ran.out
+    tonetool("--frames", "1,3", *SHOTS, "--if", "{FRAME_NUMBER==1}", FLIP, "--else", "--pop",
+             "--pop", "--endif", status=1)
+    assert "check:" not in tonetool("r.#.exr", "-o", "out.#.exr").out
+
+
+def test_numbers_that_differ(tonetool, pair_of_shots):
+    (pair_of_shots / "t.0002.exr").rename(pair_of_shots / "t.0004.exr")
+    for words in ([FLIP], ["--diff"], [FLIP, "--json", "c.json"]):
+        ran = tonetool(*SHOTS, *words, status=1)
+        assert 'no file "t.0002.exr"' in ran.err and "2 missing, 2 passed" in ran.out
+    assert '"t.#.exr" has frames 1,3-4' in tonetool(*SHOTS, "--hdrflip", status=1).err
+    (pair_of_shots / "t.0001.exr").unlink()
+    (pair_of_shots / "t.0003.exr").unlink()
+    ran = tonetool(*SHOTS, FLIP, "--json", "c.json", status=1)
+    assert "r.1-3#.exr t.4#.exr" in ran.err
+
+
+def test_ranges_of_equal_length_pair_by_position(tonetool, pair_of_shots):
+    for frame in (1, 2, 3):
+        (pair_of_shots / f"t.{frame:04d}.exr").rename(pair_of_shots / f"t.{100 + frame:04d}.exr")
+    words = ["r.1-3#.exr", "t.101-103#.exr", FLIP]
+    ran = tonetool(*words, "--json", "c.json", "--csv", "c.csv", "--junit", "c.xml", status=3)
+    assert "worst: frame 2 (test 102) (hdrflip: " in ran.out
+    found = json.loads((pair_of_shots / "c.json").read_text(encoding="utf-8"))["frames"]
+    assert [(f["frame"], f["test_frame"], f["test"]) for f in found] == [
+        (n, 100 + n, f"t.010{n}.exr") for n in (1, 2, 3)]
+    assert (pair_of_shots / "c.csv").read_text(encoding="utf-8").splitlines()[2].startswith(
+        "2,102,failed")
+    assert 'name="frame 0002 (test 0102)"' in (pair_of_shots / "c.xml").read_text(encoding="utf-8")
+    assert "worst: frame 2 (test 102)" in tonetool(*words, status=3).out
+    tonetool("--merge", "c.json", "--json", "m.json", status=3)
+    assert (pair_of_shots / "m.json").read_bytes() == (pair_of_shots / "c.json").read_bytes()
+
+
+def test_files_on_the_disk_are_names(tonetool, pair_of_shots, make_image):
+    os.mkfifo(pair_of_shots / "t.0004.exr")
+    make_image("r.0004.exr")
+    ran = tonetool(*SHOTS, FLIP, "--json", "c.json", status=1)
+    assert "is a pipe" in ran.err and "1 unreadable, 1 failed, 2 passed" in ran.out
+    make_image("e.{1+1}.0001.exr", seed=3)
+    make_image("e.2.0001.exr", seed=4)
+    assert tonetool("e.{1+1}.#.exr", "--echo", "{TOP.filename}").out == "./e.{1+1}.0001.exr\n"
+    for name in ("p+q", "ppq", "p.q"):
+        make_image(f"{name}.0001.exr")
+    assert tonetool("p+q.#.exr", "--echo", "{TOP.filename}").out == "./p+q.0001.exr\n"
+    make_image("u.-001.exr")
+    make_image("v.-0001.exr")
+    ran = tonetool("u.#.exr", "v.#.exr", FLIP)
+    assert "check: passed, 1 frame" in ran.out
+    tonetool("--frames", "-1-0", "u.#.exr", "v.#.exr", FLIP, status=1)
+    make_image("u.-0001.exr")
+    assert "are both frame -1" in tonetool("u.#.exr", "v.#.exr", FLIP, status=1).err
+    make_image("v.7.exr")
+    assert "v.7.exr\" has fewer digits" in tonetool("v.#.exr", "v.#.exr", "--diff", status=1).err
+
+
+def test_exposures_of_other_files_are_warned_of(tonetool, pair_of_shots, make_image):
+    tonetool(*SHOTS, "--hdrflip:exposures=shot", "--statistics", "range.json")
+    tonetool("--warnings-exit", "--frames", "1", *SHOTS, FLIP + ":exposures=range.json")
+    tonetool("--warnings-exit", f"{pair_of_shots}/r.#.exr", "t.#.exr",
+             FLIP + ":exposures=range.json:quantity=p99", status=3)
+    make_image("x.0001.exr")
+    ran = tonetool("--warnings-exit", "--frames", "1", "x.#.exr", "t.#.exr",
+                   FLIP + ":exposures=range.json", status=2)
+    assert '"x.0001.exr" is not among them' in ran.err
+    tonetool("--warnings-exit", "x.0001.exr", "t.0001.exr", FLIP + ":exposures=range.json",
+             status=2)
+
+
+@pytest.mark.usefixtures("pair_of_shots")
+def test_values_behind_an_equals_sign_and_results_on_the_standard_output(tonetool):
+    words = ["--frames=1,3", "--jobs=2", *SHOTS, FLIP]
+    ran = tonetool(*words, "--json", "-")
+    assert json.loads(ran.out)["counts"]["passed"] == 2 and "check: passed" in ran.err
+    assert tonetool(*words, "--csv=-").out.startswith("frame,")
+    assert tonetool(*words, "--junit", "-").out.startswith("<?xml")
+    assert "has the standard output already" in tonetool(*words, "--json", "-", "--csv", "-",
+                                                         status=1).err
+    assert "takes texts alone" in tonetool(*words, "--report", "-", status=1).err
+    assert tonetool("--echo", "--frames=1", "--echo", "x").out == "--frames=1\nx\n"
+    with open("/dev/full", "w", encoding="ascii") as full:
+        assert "standard output" in tonetool(*words, "--json", "-", status=1, stdout=full).err
