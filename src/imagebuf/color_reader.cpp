@@ -259,7 +259,7 @@ void ColorReader::clean(const Row& row, size_t from, size_t to, int y, const Sta
             kinds |= kind(row.alpha[x]) << 6;
             if (!std::isfinite(row.alpha[x]))
                 row.alpha[x] = 0;
-        } else if (alpha) {
+        } else if (alpha && m_watch) {
             counts.alpha_digest += alpha_digest(row.place + x, a);
         }
         const bool finite = kinds == 0;

@@ -97,7 +97,7 @@ void run_qc(Session& session, const Call& call) {
         throw CommandError("\"" + image.name() + "\": " + why);
     }
     take_types(image, record.facts);
-    if (has_picture(record.facts)) {
+    if (has_picture(record.facts) && !painter_of(session)) { // which looks at the picture itself
         tell_encoding(session, call, image, image.part().header(), options.pixels);
     }
     result_of(session)->qc = sequence::to_json(record);
