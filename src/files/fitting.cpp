@@ -122,14 +122,14 @@ void fit_windows(Outgoing& image, const OIIO::ImageOutput& writer) {
 void fit_channels(Outgoing& image, const OIIO::ImageOutput& writer, const Writer& from) {
     const OIIO::ImageSpec& spec = image.pixels->spec();
     const int most = most_channels(spec, writer);
-    if (spec.deep || (most == 0 && (from.lenient || is_safe(spec, writer)))) {
+    const bool lenient = from.lenient && !spec.find_attribute("tonemap:layer");
+    if (spec.deep || (most == 0 && (lenient || is_safe(spec, writer)))) {
         return;
     }
     bool mapped = false;
     const std::vector<int> chosen =
-        from.lenient
-            ? usual_channels(spec, most)
-            : picture_channels(spec, oiio::format_supports(writer, "alpha") ? 4 : 3, mapped);
+        lenient ? usual_channels(spec, most)
+                : picture_channels(spec, oiio::format_supports(writer, "alpha") ? 4 : 3, mapped);
     Strings names;
     for (int index : chosen) {
         names.push_back(spec.channelnames[static_cast<size_t>(index)]);

@@ -55,7 +55,7 @@ uint64_t finite_ones(const double (&v)[3]) {
 }
 
 void to_rec709(const ColorSpace& space, double alpha, double (&v)[3]) {
-    if (space.encoded() || space.scale != 1)
+    if (space.encoded() || space.straight || space.scale != 1)
         for (double& x : v)
             x = space.light(x, alpha);
     if (space.is_rec709)

@@ -344,8 +344,10 @@ bool find_picture(const OIIO::ImageSpec& spec, const PixelOptions& options, Colo
         return false;
     if (choice.grey())
         space.is_rec709 = true;
-    space.straight =
-        space.encoded() && choice.a >= 0 && !spec.channelformat(choice.r).is_floating_point();
+    const double gamma = double(spec.get_float_attribute("oiio:Gamma", 1));
+    space.alpha_power = gamma > 0 ? gamma : 1;
+    space.straight = (space.encoded() || space.alpha_power != 1) && choice.a >= 0 &&
+                     !spec.channelformat(choice.r).is_floating_point();
     return true;
 }
 
@@ -397,11 +399,12 @@ void state_chromaticities(OIIO::ImageSpec& spec) {
 double ColorSpace::light(double value, double alpha) const {
     // A pixel of alpha 0 or above 1 has not been multiplied by it.
     const double a = straight && alpha > 0 && alpha < 1 ? alpha : 1;
+    value /= alpha_power == 1 ? a : std::pow(a, alpha_power);
     if (srgb_encoded)
-        value = srgb_to_linear(value / a) * a;
+        value = srgb_to_linear(value);
     else if (gamma > 0)
-        value = std::copysign(std::pow(std::abs(value) / a, gamma), value) * a;
-    return value * scale;
+        value = std::copysign(std::pow(std::abs(value), gamma), value);
+    return value * a * scale;
 }
 
 double srgb_to_linear(double v) {

@@ -96,8 +96,9 @@ TEST(FindColor, SaysWhatThereIsInstead) {
         {{"R", "G", "B"}, "_", {"\"_\"", "R,G,B"}},
         {{"Z"}, "", {"\"Z\", the only layer, holds depths", "layer=Z"}},
         {{"uv.U"}, "", {"holds data", "layer=uv"}},
-        {rgb_of("bumpnormals"), "", {"\"bumpnormals\", the only layer, holds normals",
-                                    "layer=bumpnormals"}},
+        {rgb_of("bumpnormals"),
+         "",
+         {"\"bumpnormals\", the only layer, holds normals", "layer=bumpnormals"}},
         {rgb_of("VRayZDepth"), "", {"holds depths", "layer=VRayZDepth"}},
         {rgb_of("Denoise_Albedo"), "", {"holds albedo"}},
         {{"Y", "RY", "BY"}, "", {"needs R,G,B", "3 channel"}},
@@ -121,18 +122,17 @@ TEST(FindColor, SaysWhatThereIsInstead) {
 
 // One channel stands for all three.
 TEST(FindColor, OneChannelIsGrey) {
-    const Chosen cases[] = {
-        {{"Y"}, "", 0, 0, 0, -1, ""},
-        {{"Y", "A"}, "", 0, 0, 0, 1, ""},
-        {{"R"}, "", 0, 0, 0, -1, ""},
-        {{"A"}, "", 0, 0, 0, -1, ""},
-        {{"Y", "Z"}, "", 0, 0, 0, -1, ""},
-        {{"N.X", "N.Y", "N.Z", "Y"}, "", 3, 3, 3, -1, ""},
-        {{"matte"}, "", 0, 0, 0, -1, "matte"},
-        {{"C.Y", "C.A"}, "", 0, 0, 0, 1, "C"},
-        {{"Z"}, "Z", 0, 0, 0, -1, "Z"},
-        {{"R", "G", "B", "depth.Z"}, "depth", 3, 3, 3, -1, "depth"},
-        {{"R", "G", "B", "mask"}, "MASK", 3, 3, 3, -1, "mask"}};
+    const Chosen cases[] = {{{"Y"}, "", 0, 0, 0, -1, ""},
+                            {{"Y", "A"}, "", 0, 0, 0, 1, ""},
+                            {{"R"}, "", 0, 0, 0, -1, ""},
+                            {{"A"}, "", 0, 0, 0, -1, ""},
+                            {{"Y", "Z"}, "", 0, 0, 0, -1, ""},
+                            {{"N.X", "N.Y", "N.Z", "Y"}, "", 3, 3, 3, -1, ""},
+                            {{"matte"}, "", 0, 0, 0, -1, "matte"},
+                            {{"C.Y", "C.A"}, "", 0, 0, 0, 1, "C"},
+                            {{"Z"}, "Z", 0, 0, 0, -1, "Z"},
+                            {{"R", "G", "B", "depth.Z"}, "depth", 3, 3, 3, -1, "depth"},
+                            {{"R", "G", "B", "mask"}, "MASK", 3, 3, 3, -1, "mask"}};
     for (const Chosen& c : cases) {
         SCOPED_TRACE(testing::PrintToString(c.channels) + " " + c.asked);
         ColorChoice choice;

@@ -13,7 +13,8 @@ namespace {
 using Bytes = std::vector<unsigned char>;
 
 TEST(RadianceExposure, IsTheProductOfAllLines) {
-    const std::string start = "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n", end = "\n-Y 2 +X 2\nEXPOSURE=3\n";
+    const std::string start = "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n",
+                      end = "\n-Y 2 +X 2\nEXPOSURE=3\n";
     EXPECT_EQ(radiance_exposure(start + end), std::nullopt);
     EXPECT_EQ(radiance_exposure(start + "EXPOSURE=16\n" + end), 16);
     EXPECT_EQ(radiance_exposure(start + "EXPOSURE=2\nSOFTWARE=x\nEXPOSURE= 4e0\n" + end), 8);
@@ -82,8 +83,10 @@ std::optional<std::string> told(const Bytes& bytes) {
     return unapplied_profile(spec);
 }
 
-const double kSrgb[3][3] = {{0.4360, 0.2225, 0.0139}, {0.3851, 0.7169, 0.0971}, {0.1431, 0.0606, 0.7141}};
-const double kP3[3][3] = {{0.5151, 0.2412, -0.0011}, {0.2919, 0.6922, 0.0419}, {0.1572, 0.0666, 0.7841}};
+const double kSrgb[3][3] = {
+    {0.4360, 0.2225, 0.0139}, {0.3851, 0.7169, 0.0971}, {0.1431, 0.0606, 0.7141}};
+const double kP3[3][3] = {
+    {0.5151, 0.2412, -0.0011}, {0.2919, 0.6922, 0.0419}, {0.1572, 0.0666, 0.7841}};
 
 Bytes parametric() {
     Bytes curve;

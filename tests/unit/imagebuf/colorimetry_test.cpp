@@ -219,6 +219,23 @@ TEST(FindPicture, IntegersAreDecodedBeforeTheyAreAssociated) {
     }
 }
 
+// OpenImageIO multiplies the colour of a PNG file by alpha to the power of its gamma.
+TEST(FindPicture, TheReadersAlphaIsTakenBack) {
+    ImageSpec spec = make_spec(2, 2, {"R", "G", "B", "A"}, OIIO::TypeUInt8);
+    spec.attribute("oiio:ColorSpace", "sRGB");
+    spec.attribute("oiio:Gamma", 1.8f);
+    const double read = 0.5 * std::pow(0.25, 1.8);
+    for (auto [from, expected] :
+         {std::pair("", std::pow(0.5, 1.8) * 0.25), std::pair("srgb", srgb_to_linear(0.5) * 0.25),
+          std::pair("rec709", 0.5 * 0.25)}) {
+        ColorChoice choice;
+        ColorSpace space;
+        std::string error;
+        ASSERT_TRUE(find_picture(spec, {"", from}, choice, space, error)) << error;
+        EXPECT_NEAR(space.light(read, 0.25), expected, 1e-7) << from; // 1.8 in float
+    }
+}
+
 TEST(ColorTags, OfAnotherEncodingGo) {
     ImageSpec spec = tagged("sRGB", kSpaces[0].chromaticities);
     const unsigned char profile[4] = {1, 2, 3, 4};

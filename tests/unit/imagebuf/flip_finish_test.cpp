@@ -122,7 +122,8 @@ TEST_P(NonFinite, InBothImagesIsEqual) {
 
 TEST_P(NonFinite, InBothImagesOfAnotherKindIsAnErrorOf1) {
     const auto reference = with_pixel(m_reference, 20, 15, m_bad);
-    for (std::vector<float> other : {std::vector<float>{kNan, kInf, 0.25f}, {-kInf, -kInf, -kInf}}) {
+    for (std::vector<float> other :
+         {std::vector<float>{kNan, kInf, 0.25f}, {-kInf, -kInf, -kInf}}) {
         const Outcome r = run(reference, with_pixel(m_test, 20, 15, other));
         EXPECT_EQ(at(r.map, 20, 15), 1.0f);
         for (const auto& exposure : r.result.exposures)
@@ -174,8 +175,10 @@ TEST(IgnoredAlpha, IsCounted) {
     const struct {
         ImageBuf reference, test;
         int differing;
-    } cases[] = {{with_alpha(0), with_alpha(7), 7},  {with_alpha(7), with_alpha(7), 0},
-                 {opaque, with_alpha(3), 3},         {with_alpha(3), opaque, 3},
+    } cases[] = {{with_alpha(0), with_alpha(7), 7},
+                 {with_alpha(7), with_alpha(7), 0},
+                 {opaque, with_alpha(3), 3},
+                 {with_alpha(3), opaque, 3},
                  {opaque, with_alpha(0), 0}};
     for (const auto& c : cases) {
         const FlipSummary s = run(c.reference, c.test).result.summary;

@@ -227,11 +227,12 @@ TEST(FlipQuantity, PercentilesAndSharesThatWereAskedFor) {
     EXPECT_EQ(ToneAlgo::flip_quantity(pool, "above0.2"), above(0.2));
     EXPECT_EQ(ToneAlgo::flip_quantity(pool, "above0"), above(0));
     EXPECT_EQ(map.spec().get_float_attribute("FLIP:above0.2"), float(above(0.2)));
-    for (const char* name : {"p101", "p-1", "p", "px", "pnan", "above", "above-1", "aboveinf",
-                             "P50", "p5 0"}) {
+    for (const char* name :
+         {"p101", "p-1", "p", "px", "pnan", "above", "above-1", "aboveinf", "P50", "p5 0"}) {
         options.quantities = {name};
         EXPECT_THAT(ToneAlgo::hdr_flip(reference, reference, options).geterror(),
-                    HasSubstr("unknown quantity")) << name;
+                    HasSubstr("unknown quantity"))
+            << name;
     }
 }
 

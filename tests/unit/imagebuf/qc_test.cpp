@@ -165,7 +165,8 @@ TEST(QcFacts, Files_of_data_have_layers_and_no_picture) {
     const std::vector<std::vector<std::string>> files = {
         {"Z"}, {"N.X", "N.Y", "N.Z"}, {"albedo.R", "albedo.G", "albedo.B"}, {"objectid"}};
     for (const auto& channels : files) {
-        ImageBuf image = constant(make_spec(8, 4, channels), std::vector<float>(channels.size(), 1));
+        ImageBuf image =
+            constant(make_spec(8, 4, channels), std::vector<float>(channels.size(), 1));
         set(image, 3, 2, 0, kNan);
         const QcFacts facts = facts_of(image);
         ASSERT_EQ(facts.layers.size(), 1U);
@@ -210,10 +211,9 @@ TEST(QcFacts, Long_metadata_are_kept_by_their_hash) {
 }
 
 TEST(QcFacts, Say_why_there_are_none) {
-    EXPECT_THAT(
-        error_of(constant(make_spec(4, 4, {"a.R", "a.G", "a.B", "b.R", "b.G", "b.B"}),
-                          {1, 1, 1, 1, 1, 1})),
-        HasSubstr("layer="));
+    EXPECT_THAT(error_of(constant(make_spec(4, 4, {"a.R", "a.G", "a.B", "b.R", "b.G", "b.B"}),
+                                  {1, 1, 1, 1, 1, 1})),
+                HasSubstr("layer="));
     QcOptions no_such;
     no_such.pixels.layer = "beauty";
     EXPECT_THAT(error_of(constant(make_spec(4, 4, {"Z"}), {1}), no_such), HasSubstr("beauty"));
