@@ -278,9 +278,13 @@ std::string Evaluator::image_attribute(bool found) {
     if (!found) {
         fail("not a valid image");
     }
+    const bool in_brackets = !m_rest.empty() && m_rest.front() == '[';
     const std::string name = attribute_name();
     if (auto value = m_names.attribute(name)) {
         return *value;
+    }
+    if (in_brackets) { // TOP[name]: what is not there is empty
+        return "";
     }
     fail("unknown attribute name '" + name + "'");
 }
