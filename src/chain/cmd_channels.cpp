@@ -80,11 +80,9 @@ void print_count(Session& session, OIIO::imagesize_t count, const std::string& o
 }
 
 void colorcount(const Op& op) {
-    // oiiotool's help has a semicolon between the colours, but what it takes is a colon.
+    // Between the colours oiiotool takes a colon as well as the semicolon of its help.
     std::string list = op.call.argument(0);
-    if (!op.session.compat) {
-        std::replace(list.begin(), list.end(), ';', ':');
-    }
+    std::replace(list.begin(), list.end(), ';', ':');
     const Strings colors = split(list, ':');
     Floats values;
     for (const std::string& color : colors) {

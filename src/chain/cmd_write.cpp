@@ -117,9 +117,10 @@ void convert_output(Session& session, const Call& call, const std::string& filen
     }
 }
 
-bool keeps_old(Session& session, const std::string& filename) {
+bool keeps_old(Session& session, const Call& call, const std::string& filename) {
     if (session.no_clobber && OIIO::Filesystem::exists(filename)) {
-        session.warning("-o", filename + " already exists, not overwriting.");
+        session.warning("-" + call.row().names.front(),
+                        filename + " already exists, not overwriting.");
         return true;
     }
     return session.update && !session.compat && OIIO::Filesystem::exists(filename) &&
@@ -128,7 +129,7 @@ bool keeps_old(Session& session, const std::string& filename) {
 
 void write_one(Session& session, const Call& call, const ImagePtr& image,
                const std::string& filename, const Save& save) {
-    if (keeps_old(session, filename)) {
+    if (keeps_old(session, call, filename)) {
         return;
     }
     if (session.verbose) {
