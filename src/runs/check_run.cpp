@@ -67,6 +67,13 @@ int PlanRun::check() {
     if (m_threads > 0) {
         OIIO::attribute("threads", m_threads);
     }
+    if (!m_plan.check.judges()) { // an --if may have left frames out
+        auto& all = frames.results();
+        all.erase(std::remove_if(all.begin(), all.end(), sequence::is_unmeasured), all.end());
+        if (all.empty()) {
+            return status;
+        }
+    }
     sequence::ShotResult shot{
         m_plan.check.essence, m_context.shot, std::move(frames.results()), {}, {}, {}};
     conclude(shot);

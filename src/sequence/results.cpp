@@ -20,6 +20,8 @@ constexpr std::array<const char*, 9> status_names{"passed",     "measured",     
                                                   "unreadable", "error",         "crashed"};
 constexpr std::array<const char*, 3> severity_names{"info", "warning", "error"};
 
+constexpr char nothing_measured[] = "nothing was measured";
+
 template <class Enum, size_t N>
 std::optional<Enum> named(const std::array<const char*, N>& names, const std::string& name) {
     const auto found = std::find(names.begin(), names.end(), name);
@@ -178,6 +180,10 @@ std::optional<Severity> severity_of_name(const std::string& name) {
     return named<Severity>(severity_names, name);
 }
 
+bool is_unmeasured(const FrameResult& frame) {
+    return frame.status == Status::Error && frame.message == nothing_measured;
+}
+
 void judge(FrameResult& frame) {
     std::vector<Found> found;
     for (Measurement& measurement : frame.measurements) {
@@ -196,7 +202,7 @@ void judge(FrameResult& frame) {
     frame.message.clear();
     if (frame.measurements.empty() && frame.faults.empty() && frame.qc.empty()) {
         frame.status = Status::Error;
-        frame.message = "nothing was measured";
+        frame.message = nothing_measured;
         return;
     }
     // Passed where --qc found nothing or a threshold held; measurements alone pass nothing.

@@ -125,6 +125,9 @@ struct ShotResult {
 /// already: sets status and message.
 void judge(FrameResult& frame);
 
+/// Nothing was measured of the frame, and nothing else is wrong with it.
+bool is_unmeasured(const FrameResult& frame);
+
 /// Sorts the frames, finds the faults of --qc anew and fills verdict, sentence and worst. A shot
 /// without a frame that was measured is an Error, never passed. A runtime_error if a frame is there
 /// twice.
