@@ -137,11 +137,12 @@ bool read_back_rows(OIIO::ImageInput& in, int subimage, int level, const OIIO::I
 
 bool read_back_levels(OIIO::ImageInput& in, int subimage) {
     for (int level = 0;; ++level) {
-        const OIIO::ImageSpec spec = in.spec(subimage, level);
-        if (spec.undefined()) {
+        // Not by in.spec(): that of TIFF files has the first level's for all that are not there.
+        if (!in.seek_subimage(subimage, level)) {
             (void)in.geterror();
             return level > 0;
         }
+        const OIIO::ImageSpec spec = in.spec();
         OIIO::DeepData deep;
         if (!(spec.deep ? in.read_native_deep_image(subimage, level, deep)
                         : read_back_rows(in, subimage, level, spec)))
