@@ -19,8 +19,9 @@ const char wanted_numbers[] = "float32, float16 or float64 (linear), uint8 or ui
 
 std::string described(const py::array& array) {
     const std::string type = py::str(array.dtype());
-    return "is a " + (array.attr("dtype").attr("isnative").cast<bool>() ? "" : "byte-swapped ") +
-           type + " array of shape " + std::string(py::str(array.attr("shape")));
+    return std::string("is a ") +
+           (array.attr("dtype").attr("isnative").cast<bool>() ? "" : "byte-swapped ") + type +
+           " array of shape " + std::string(py::str(array.attr("shape")));
 }
 
 // What OpenImageIO calls the numbers of an array that has those of an image; unknown: it has not.
