@@ -70,7 +70,7 @@ def test_pictures_are_upright(tonetool, make_image, read):
 
 
 def test_alpha_that_hides_the_picture_is_said(tonetool, make_image):
-    pixels = np.full((12, 16, 4), 0.5, np.float32)
+    pixels = np.random.default_rng(4).random((12, 16, 4)).astype(np.float32) + 0.1
     pixels[..., 3] = 0
     hidden = make_image("a.exr", channels=RGB + ["A"], pixels=pixels)
     for words in (["--tonemap", "-o", "a.png"], ["-o", "a.tga"], ["-d", "uint8", "-o", "a.tif"]):
@@ -124,8 +124,8 @@ def test_gamma_of_a_png_is_applied(tonetool, make_image, png_with, read):
         # and stays with the pixels
         tonetool("--warnings-exit", tagged, "-o", "copy.png")
         tonetool("a.exr", "copy.png", "--hdrflip:fail=0.002")
-            ran = tonetool("--warnings-exit", tagged, "-o", "copy.tif", status=2)
-            assert "not applied" in ran.err
+        ran = tonetool("--warnings-exit", tagged, "-o", "copy.tif", status=0 if value == 1 else 2)
+        assert value == 1 or "not applied" in ran.err
     # what is said otherwise goes first
     tonetool(tagged, "--tonemap:curve=linear:from=rec709:encode=none", "-d", "float",
              "-o", "b.exr")
@@ -235,12 +235,15 @@ def test_colour_is_decoded_before_it_is_associated(tonetool, make_image, kind, e
     if (kind, extension) == ("uint16", "tga"):
         pytest.skip("TGA has no 16 bits")
     straight = np.random.default_rng(6).random((12, 16, 4))
-    straight[..., 3] = 0.5 + straight[..., 3] / 2 # 8 bits of less alpha are few of the colour
+    straight[..., 3] = 0.5 + straight[..., 3] / 2  # 8 bits of less alpha are few of the colour
+    # The readers of PNG and TGA cut 8 bits off after they have multiplied them by alpha: noise
+    # without that is at 0.01, and decoded after alpha at 0.1.
+    limit = 0.05 if kind == "uint8" else 0.02
     light = np.concatenate([linear(straight[..., :3]) * straight[..., 3:], straight[..., 3:]], -1)
     make_image("a.exr", channels=RGB + ["A"], pixels=light)
     stored = np.concatenate([straight[..., :3] * straight[..., 3:], straight[..., 3:]], -1)
     make_image(f"b.{extension}", channels=RGB + ["A"], kind=kind, pixels=stored)
-    tonetool("a.exr", f"b.{extension}", "--ldrflip:fail=0.02")
+    tonetool("a.exr", f"b.{extension}", f"--ldrflip:fail={limit}")
     tonetool(f"b.{extension}", "--tonemap:curve=linear:encode=none", "-o", "c.exr")
     assert np.abs(read("c.exr")[0][..., :3] - light[..., :3]).max() < 0.02
     # A decoded image is one.

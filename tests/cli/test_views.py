@@ -224,7 +224,7 @@ def test_hdrflip_from_a_space_of_the_configuration(tonetool, make_image, tmp_pat
     tonetool(*config, log, f"--tonemap:view=Film:from=LOG", "-o", "t.exr")
     assert np.abs(pixels(tmp_path / "t.exr") - scene ** (1 / 2.2)).max() < 1e-3
     for command in (f"hdrflip:{FILM}", "tonemap:view=Film"):
-        ran = tonetool(*config, log, log, f"--{command}:from=LGO", status=1)
+        ran = tonetool(*config, log, log, f"--{command}:from=LOGS", status=1)
         assert 'did you mean "LOG"' in ran.err
 
 
@@ -236,13 +236,13 @@ def test_without_from_a_configuration_must_say_its_light(tonetool, tmp_path):
 
 
 def test_a_misspelt_context_variable_is_an_error(tonetool, tmp_path):
-    ran = tonetool("--colorconfig", CONFIG, REFERENCE, f"--tonemap:{ACES}:context=SHTO=a", "-o",
+    ran = tonetool("--colorconfig", CONFIG, REFERENCE, f"--tonemap:{ACES}:context=SHOTS=a", "-o",
                    "a.exr", status=1)
-    assert 'unknown context variable "SHTO"' in ran.err
+    assert 'unknown context variable "SHOTS"' in ran.err
     text = PLAIN_CONFIG.format(roles="scene_linear: light", light="light")
     (tmp_path / "c.ocio").write_text(text.replace("displays:", "environment: {SHOT: x}\ndisplays:"))
     for command in ("tonemap:view=Film:from=light", f"hdrflip:{FILM}:from=light"):
         words = ["--colorconfig", "c.ocio", REFERENCE, REFERENCE]
-        ran = tonetool(*words, f"--{command}:context=SHTO=a", "-o", "a.exr", status=1)
+        ran = tonetool(*words, f"--{command}:context=SHOTS=a", "-o", "a.exr", status=1)
         assert 'did you mean "SHOT"' in ran.err
         tonetool(*words, f"--{command}:context=SHOT=a", "-o", "a.exr")
