@@ -60,10 +60,10 @@ def test_the_result_is_srgb_unless_asked_otherwise(tonetool, tmp_path):
 
 
 def test_a_file_says_how_it_is_encoded(tonetool, tmp_path):
-    ran = tonetool(CORNELL, "--tonemap", "-o", "out.png")
+    ran = tonetool("--warnings-exit", CORNELL, "--tonemap", "-o", "out.png")
     assert read(tmp_path / "out.png")[1].get_string_attribute("oiio:ColorSpace") == "sRGB"
-    # The picture is the layer that was mapped, not the first channels.
-    assert "ViewLayer.Combined.R" in ran.err
+    # The picture is the layer that was mapped, and that is no news.
+    assert "Can't save" not in ran.err
     # Readers of OpenEXR take every file for linear light.
     assert "display-encoded" in tonetool(CORNELL, "--tonemap", "-o", "out.exr").err
     assert not tonetool(CORNELL, "--tonemap:encode=none", "-o", "out.exr").err
