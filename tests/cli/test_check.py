@@ -190,7 +190,7 @@ def test_every_comparison_is_recorded(tonetool, anim):
              "--ldrflip:layer=ViewLayer.Combined:print=0:fail=0.999", "ref.#.exr", "test.#.exr",
              "--errormap:metric=psnr:layer=ViewLayer.Combined:print=0:fail=10",
              "ref.#.exr", "test.#.exr", "--flipdiff:layer=ViewLayer.Combined:print=0",
-             "ref.#.exr", "test.#.exr", "--failpercent", "99.99", "--warnpercent", "100",
+             "ref.#.exr", "test.#.exr", "--fail", "100", "--warn", "100",
              "--diff", "--json", "c.json"))
     (first, _) = load(anim / "c.json")["frames"]
     assert [m["command"] for m in first["measurements"]] == ["hdrflip", "ldrflip", "errormap",

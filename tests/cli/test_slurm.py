@@ -257,7 +257,7 @@ def test_folders_of_any_name(program, fake_slurm, tmp_path, name):
         subprocess.run([program, "--pattern", f"constant:color={value},1,0.1", "8x8", "3",
                         "-o", "a.exr"], cwd=here, check=True)
         for number in (1, 2):
-            shutil.copy(here / "a.exr", here / f"{side}.{number}.exr")
+            shutil.copy(here / "a.exr", here / f"{side}.{number:04d}.exr")
     line = ["--frames", "1-2", "ref.#.exr", "test.#.exr", "--hdrflip:fail=1e-3:exposures=shot",
             "--json", "check.json", "--csv", "check.csv"]
     alone, wanted = local(program, here, line)
