@@ -112,12 +112,14 @@ def test_subimages_are_kept_and_chosen(tonetool, make_parts, read):
 
 def test_comparing_only_the_first_subimage_is_said(tonetool, make_parts):
     a, b = make_parts("a.exr", 0.25, 0.5), make_parts("b.exr", 0.25, 0.75)
-    ran = tonetool("--warnings-exit", a, b, "--hdrflip:fail=0", status=2)
-    assert "only the first of 2 subimages" in ran.err
+    ran = tonetool("--warnings-exit", a, b, "--hdrflip", status=2)
+    assert "pictures are not looked at: two" in ran.err
+    ran = tonetool(a, b, "--hdrflip:fail=0", status=1)
+    assert "pictures are not looked at: two" in ran.err
     for name in ("0", "1"):
         ran = tonetool(a, "--subimage", name, b, "--subimage", name, "--hdrflip:fail=0",
                        status=0 if name == "0" else 3)
-        assert "only the first" not in ran.err
+        assert "not looked at" not in ran.err
 
 
 def test_output_writes_all_with_a_pattern(tonetool, make_image, read):
