@@ -47,6 +47,7 @@ Given given_images(const py::object& objects) {
     for (const py::object& object : to_items(objects, "chain: images", "Sequence[Image]")) {
         const std::string where = "chain: images[" + std::to_string(given.images.size()) + "]";
         given.images.push_back(std::make_unique<InputImage>(object, where));
+        check_read(given.images.back()->buf(), where);
         given.stack.push_back(shared(given.images.back()->buf()));
         given.arrays =
             (given.arrays || given.images.size() == 1) && given.images.back()->is_array();

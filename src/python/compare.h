@@ -46,8 +46,8 @@ void add_pair_summary(ResultClass<S>& result) {
         .field("nonfinite_both", &S::nonfinite_both,
                "Pixels that are NaN or Inf in both images and alike: error 0.")
         .field("nonfinite_unlike", &S::nonfinite_unlike,
-               "Pixels that are NaN or Inf in both images, but of another kind or beside other "
-               "values: they count as different.")
+               "Pixels that are NaN or Inf in both images, of another kind or beside "
+               "other values: they differ.")
         .field("alpha_ignored", &S::alpha_ignored,
                "Pixels whose alpha differs, where alpha is ignored.")
         .field("region", &S::region, "Pixels compared.")

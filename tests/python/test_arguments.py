@@ -170,16 +170,16 @@ def test_truncated_file(tmp_path, noise, name, kind, call):
     broken = cut(tmp_path, name, (noise * 255).astype(kind) if kind == np.uint8 else noise)
     with pytest.raises(tonetool.Error, match=re.escape(name)):
         call(broken)
-    broken.read(force=True)
-    broken.geterror()  # whoever looks at it takes it
-    with pytest.raises(tonetool.Error, match=re.escape(name)):
-        call(broken)
+    if not broken.read(force=True):  # of a TIFF file OpenImageIO 2.4 says that it was read
+        broken.geterror()  # whoever looks at it takes it
+        with pytest.raises(tonetool.Error, match=re.escape(name)):
+            call(broken)
     assert not list(tmp_path.glob("*.out.exr"))
 
 
 def latin1(tmp_path, noise, names):
     """A file whose names of channels are Latin-1."""
-    path = tmp_path / "latin1.exr"
+    path = tmp_path / f"latin1.{names}.exr"
     tonetool.write_image(tonetool.image(noise, channels=["QQ.R", "QQ.G", names]), path)
     data = path.read_bytes()
     path.write_bytes(data[:400].replace(b"QQ", b"\xfc\xe9") + data[400:])
