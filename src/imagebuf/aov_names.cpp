@@ -215,9 +215,11 @@ AovKind kind_of_layer(const std::string& token) {
 
 std::string plain_word(const std::string& name) {
     std::string word;
-    for (const char c : lower_case(name))
-        if (std::isalnum(static_cast<unsigned char>(c)))
+    for (const char c : lower_case(name)) {
+        const auto byte = static_cast<unsigned char>(c);
+        if (std::isalnum(byte) || byte >= 0x80) // letters of other alphabets tell names apart
             word += c;
+    }
     return word;
 }
 

@@ -8,6 +8,7 @@
 #include <unistd.h>
 
 #include "imagebuf/guard.h"
+#include "imagebuf/has_pixels.h"
 #include "imagebuf/output_target.h"
 #include "imagebuf/write_checks.h"
 #include "include/tonetool/texture.h"
@@ -154,8 +155,20 @@ bool write_checked(OIIO::ImageBufAlgo::MakeTextureMode mode, const OIIO::ImageBu
 
 bool write_texture(OIIO::ImageBufAlgo::MakeTextureMode mode, const OIIO::ImageBuf& image,
                    const std::string& filename, const ImageSpec& config, std::string& error) {
-    return contained(
-        error, [&](std::string& why) { return write_checked(mode, image, filename, config, why); });
+    return contained(error, [&](std::string& why) {
+        // make_texture() takes what a reader has not read for black.
+        OIIO::ImageBuf whole;
+        if (!has_pixels(image)) {
+            why = with_name(image, "the image holds no pixels");
+            return false;
+        }
+        if (is_file_to_read(image)) {
+            if (!read_whole(image, image.nativespec().format, whole, why))
+                return false;
+            return write_checked(mode, whole, filename, config, why);
+        }
+        return write_checked(mode, image, filename, config, why);
+    });
 }
 
 } // namespace tonetool

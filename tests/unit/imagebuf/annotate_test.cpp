@@ -72,9 +72,10 @@ TEST(Annotate, LdrMapsHaveNoExposures) {
     const auto map = ToneAlgo::ldr_flip(reference, disturbed(reference, 0.2, 2));
     EXPECT_GT(number(map, "meanerror"), 0);
     EXPECT_GT(number(map, "ppd"), 67);
-    for (const char* name : {"FLIP:startExposure", "FLIP:tonemapper", "FLIP:numExposures",
-                             "FLIP:warnings", "FLIP:alphaMaxError"})
+    for (const char* name :
+         {"FLIP:startExposure", "FLIP:tonemapper", "FLIP:numExposures", "FLIP:alphaMaxError"})
         EXPECT_EQ(map.spec().find_attribute(name), nullptr) << name;
+    EXPECT_THAT(map.spec().get_string_attribute("FLIP:warnings"), HasSubstr("white in both"));
 }
 
 TEST(Annotate, AlphaIsSaidWhereItWasCompared) {

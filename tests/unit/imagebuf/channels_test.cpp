@@ -95,7 +95,7 @@ TEST(FindColor, SaysWhatThereIsInstead) {
         {{"R", "G", "B", "red", "green", "blue"}, "", {"two spellings", "red"}},
         {{"R", "G", "B"}, "_", {"\"_\"", "R,G,B"}},
         {{"Z"}, "", {"\"Z\", the only layer, holds depths", "layer=Z"}},
-        {{"uv.U"}, "", {"holds data", "layer=uv"}},
+        {{"uv.U"}, "", {"holds coordinates", "layer=uv"}},
         {rgb_of("bumpnormals"),
          "",
          {"\"bumpnormals\", the only layer, holds normals", "layer=bumpnormals"}},

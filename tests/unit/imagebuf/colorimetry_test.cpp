@@ -182,7 +182,7 @@ TEST(FindSpace, AppliesTheGammaOfTheHeader) {
         EXPECT_NEAR(space.light(0.5, 1), std::pow(0.5, 1.8), 1e-7); // 1.8 in float
         EXPECT_EQ(space_of(spec, "rec709").encoded(), false);
     }
-    EXPECT_EQ(space_of(tagged(""), "gamma2.2").gamma, 2.2);
+    EXPECT_FLOAT_EQ(float(space_of(tagged(""), "gamma2.2").gamma), 2.2f);
     png.attribute("oiio:Gamma", 1.0f);
     EXPECT_EQ(space_of(png).name, "rec709");
     // A space that was converted to, after which the old gamma stayed behind.

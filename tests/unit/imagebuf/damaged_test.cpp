@@ -9,6 +9,7 @@
 
 #include "damaged_files.h"
 #include "imagebuf/utf8.h"
+#include "include/tonetool/texture.h"
 #include "include/tonetool/tonetool.h"
 
 namespace tonetool {
@@ -162,6 +163,11 @@ std::vector<Function> numbers_and_files() {
          [](const Call& c) {
              return write_images({{&c.good, c.good.spec()}, {&c.bad, c.bad.spec()}}, c.file,
                                  c.error);
+         }},
+        {"write_texture", "",
+         [](const Call& c) {
+             return write_texture(OIIO::ImageBufAlgo::MakeTxTexture, c.bad, c.file,
+                                  OIIO::ImageSpec(), c.error);
          }},
     };
 }
