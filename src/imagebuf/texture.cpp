@@ -162,6 +162,10 @@ bool write_texture(OIIO::ImageBufAlgo::MakeTextureMode mode, const OIIO::ImageBu
             why = with_name(image, "the image holds no pixels");
             return false;
         }
+        if (image.deep()) {
+            why = with_name(image, "deep images cannot be turned into textures");
+            return false;
+        }
         if (is_file_to_read(image)) {
             if (!read_whole(image, image.nativespec().format, whole, why))
                 return false;
