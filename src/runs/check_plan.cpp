@@ -130,6 +130,11 @@ private:
 
     void take_file(size_t at) {
         const std::string& word = m_words[at];
+        if (m_plan.has("merge")) { // parts are names, whatever signs are in them
+            m_plan.inputs.push_back(at);
+            keep(at, word);
+            return;
+        }
         if (m_labels.count(word) == 0 && word.find('{') == std::string::npos) {
             m_plan.inputs.push_back(at);
         }
