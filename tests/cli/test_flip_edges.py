@@ -184,7 +184,7 @@ def test_reference_median_negative(tonetool, put, map_of):
 def test_all_black_reference(tonetool, testimages, modifiers):
     black, plain = testimages / "black.exr", testimages / "plain.exr"
     for test in (plain, black):
-        ran = tonetool(black, test, ":".join(filter(None, ["--hdrflip:fail=1", modifiers])),
+        ran = tonetool(black, test, ":".join(filter(None, ["--hdrflip:fail=0.9999", modifiers])),
                        status=1)
         assert "the reference is black" in ran.err and not passes(ran)
         for name in ("startExposure", "stopExposure", "maxluminance", "medianluminance"):
@@ -266,7 +266,7 @@ def test_nonfinite_in_both(map_of):
 def test_no_finite_pixel(tonetool, put, command):
     ref, nothing = put("a.exr", picture()), put("b.exr", flat(np.nan, 0, 0))
     for pair in ((ref, nothing), (nothing, ref), (nothing, nothing)):
-        ran = tonetool(*pair, f"--{command}:fail=1", status=1)
+        ran = tonetool(*pair, f"--{command}:fail=0.9999", status=1)
         assert "no finite pixel" in ran.err and not passes(ran)
 
 
@@ -353,7 +353,7 @@ def test_one_exposure(tonetool, two, read):
 @pytest.mark.parametrize("count", ["0", "-1", "1.5", "1e9", "1025", "99999999999999999999", "nan",
                                    "0x2", "2 ", "two"])
 def test_number_of_exposures(tonetool, two, count):
-    ran = tonetool(*two, f"--hdrflip:fail=1:numExposures={count}", status=1)
+    ran = tonetool(*two, f"--hdrflip:fail=0.9999:numExposures={count}", status=1)
     assert "numExposures" in ran.err and count in ran.err and "1 to 1024" in ran.err
     assert not passes(ran)
 
@@ -369,7 +369,7 @@ def test_one_end_given(tonetool, two, given, kept):
 @pytest.mark.parametrize("modifiers", ["startExposure=2:stopExposure=1", "startExposure=100",
                                        "stopExposure=-100", "maxluminance=1:medianluminance=2"])
 def test_exposures_out_of_order(tonetool, two, modifiers):
-    ran = tonetool(*two, f"--hdrflip:fail=1:{modifiers}", status=1)
+    ran = tonetool(*two, f"--hdrflip:fail=0.9999:{modifiers}", status=1)
     assert "above" in ran.err and not passes(ran)
 
 
@@ -377,13 +377,14 @@ def test_exposures_out_of_order(tonetool, two, modifiers):
                                   "medianluminance"])
 @pytest.mark.parametrize("value", ["nan", "inf", "-inf", "1e99", "0,5", "1e400", "''"])
 def test_exposures_that_are_not_numbers(tonetool, two, name, value):
-    ran = tonetool(*two, f"--hdrflip:fail=1:{name}={value}", status=1)
+    ran = tonetool(*two, f"--hdrflip:fail=0.9999:{name}={value}", status=1)
     assert name in ran.err and not passes(ran)
 
 
 @pytest.mark.parametrize("value", ["-1000", "1000", "-127", "128"])
 def test_exposures_out_of_range(tonetool, two, value):
-    ran = tonetool(*two, f"--hdrflip:fail=1:startExposure={value}:stopExposure={value}", status=1)
+    ran = tonetool(*two, f"--hdrflip:fail=0.9999:startExposure={value}:stopExposure={value}",
+                   status=1)
     assert value in ran.err and "-126" in ran.err and "127" in ran.err and not passes(ran)
 
 
@@ -392,7 +393,7 @@ def test_exposures_out_of_range(tonetool, two, value):
     "nan,1,0,0,0,1", "0,1,0,0,0", "0,1,0,0,0,1,0", "0,1,0,0,0,", "1,-1,0,0,0,1"])
 def test_curves_that_hide_differences(tonetool, two, coeffs):
     for how in ("", ":startExposure=0:stopExposure=0"):
-        ran = tonetool(*two, f"--hdrflip:fail=1:coeffs={coeffs}{how}", status=1)
+        ran = tonetool(*two, f"--hdrflip:fail=0.9999:coeffs={coeffs}{how}", status=1)
         assert "coeffs" in ran.err or "curve" in ran.err
         assert not passes(ran)
 
@@ -436,7 +437,7 @@ def test_display_windows_differ(tonetool, put, width, height, command):
     a = put("a.exr", picture())
     b = put("b.exr", picture(height=height, width=width))
     for pair in ((a, b), (b, a)):
-        ran = tonetool(*pair, f"--{command}:fail=1", status=1)
+        ran = tonetool(*pair, f"--{command}:fail=0.9999", status=1)
         assert f"{width}x{height}" in ran.err and f"{WIDTH}x{HEIGHT}" in ran.err
         assert "resize=" in ran.err and "crop=" in ran.err and not passes(ran)
 
@@ -444,10 +445,10 @@ def test_display_windows_differ(tonetool, put, width, height, command):
 def test_display_windows_at_different_places(tonetool, put):
     a = put("a.exr", picture(), window=(0, 0, 0, 0, WIDTH, HEIGHT))
     b = put("b.exr", picture(), window=(5, 0, 5, 0, WIDTH, HEIGHT))
-    tonetool(a, b, "--hdrflip:fail=1", status=1)
+    tonetool(a, b, "--hdrflip:fail=0.9999", status=1)
     tonetool(a, b, "--hdrflip:fail=0.01:crop=1", status=3)
     far = put("c.exr", picture(), window=(WIDTH, 0, WIDTH, 0, WIDTH, HEIGHT))
-    ran = tonetool(a, far, "--hdrflip:fail=1:crop=1", status=1)
+    ran = tonetool(a, far, "--hdrflip:fail=0.9999:crop=1", status=1)
     assert "nothing to compare" in ran.err
 
 
@@ -470,7 +471,7 @@ def test_crop_without_a_covered_pixel(tonetool, put):
     a = put("a.exr", picture(), window=(100, 100, 0, 0, 200, 200))
     b = put("b.exr", picture(), window=(0, 0, 0, 0, 50, 50))
     for pair in ((a, b), (b, a)):
-        ran = tonetool(*pair, "--hdrflip:fail=1:crop=1", status=1)
+        ran = tonetool(*pair, "--hdrflip:fail=0.9999:crop=1", status=1)
         assert "nothing to compare" in ran.err
 
 
@@ -515,7 +516,7 @@ def test_data_windows_too_far_apart(tonetool, put):
     """A union that no memory holds is an error, not an overflow."""
     a = put("a.exr", picture(), window=(1000000000, 1000000000, 0, 0, 200, 100))
     b = put("b.exr", picture(), window=(-1000000000, -1000000000, 0, 0, 200, 100))
-    assert not passes(tonetool(a, b, "--hdrflip:fail=1", status=1))
+    assert not passes(tonetool(a, b, "--hdrflip:fail=0.9999", status=1))
 
 
 def test_pixels_outside_the_display_window_count(tonetool, put, testimages):
@@ -563,7 +564,7 @@ def test_no_colour(tonetool, put, channels):
     good = put("b.exr", picture())
     for pair in ((a, good), (good, a), (a, a)):
         for command in COMMANDS:
-            ran = tonetool(*pair, f"--{command}:fail=1", status=1)
+            ran = tonetool(*pair, f"--{command}:fail=0.9999", status=1)
             assert "needs R,G,B" in ran.err and not passes(ran)
 
 
@@ -593,7 +594,7 @@ def layers_file(put, name, layers):
     ("diffuse", "specular")])
 def test_two_candidates_are_an_error(tonetool, put, layers):
     a = layers_file(put, "a.exr", {layer: picture(i) for i, layer in enumerate(layers)})
-    ran = tonetool(a, a, "--hdrflip:fail=1", status=1)
+    ran = tonetool(a, a, "--hdrflip:fail=0.9999", status=1)
     for layer in layers:
         assert layer in ran.err
     tonetool(a, a, f"--hdrflip:fail=0:layer={layers[1]}")
@@ -610,13 +611,13 @@ def test_layer_that_one_image_lacks(tonetool, put):
     a = layers_file(put, "a.exr", {"beauty": picture(1), "key": picture(2)})
     b = layers_file(put, "b.exr", {"beauty": picture(1)})
     for pair in ((a, b), (b, a)):
-        ran = tonetool(*pair, "--hdrflip:fail=1:layer=key", status=1)
+        ran = tonetool(*pair, "--hdrflip:fail=0.9999:layer=key", status=1)
         assert '"key"' in ran.err and "beauty" in ran.err
 
 
 @pytest.mark.parametrize("layer", ["_", "-", "' '"])
 def test_layer_name_of_separators(tonetool, two, layer):
-    tonetool(*two, f"--hdrflip:fail=1:layer={layer}", status=1)
+    tonetool(*two, f"--hdrflip:fail=0.9999:layer={layer}", status=1)
 
 
 @pytest.mark.parametrize("names", ["R,G,B,red,green,blue", "R,G,B,r,g,b"])
@@ -624,7 +625,7 @@ def test_two_spellings_of_one_colour(tonetool, put, names):
     channels = tuple(names.split(","))
     files = [put(f"{seed}.exr", np.dstack([picture(seed), picture(3)]), channels)
              for seed in (1, 2)]
-    assert tonetool("--warnings-exit", *files, "--hdrflip:fail=1", status=1).err
+    assert tonetool("--warnings-exit", *files, "--hdrflip:fail=0.9999", status=1).err
 
 
 # ---- files and colour
@@ -735,13 +736,13 @@ def test_every_format_is_compared_and_its_torso_refused(tonetool, put, name, tmp
         whole = (tmp_path / file).read_bytes()
         (tmp_path / file).write_bytes(whole[:len(whole) * 6 // 10])
     for pair in ((one, two_), (one, one)):
-        assert not passes(tonetool(*pair, "--ldrflip:fail=1", status=1))
+        assert not passes(tonetool(*pair, "--ldrflip:fail=0.9999", status=1))
 
 
 def test_rec709_video_needs_a_word(tonetool, put):
     """DPX and PPM readers tag the camera curve, which is neither linear nor sRGB."""
     a = put("a.ppm", picture(), kind="uint8")
-    ran = tonetool(a, a, "--hdrflip:fail=1", status=1)
+    ran = tonetool(a, a, "--hdrflip:fail=0.9999", status=1)
     assert "Rec709" in ran.err and "from=" in ran.err
     tonetool(a, a, "--hdrflip:fail=0:from=srgb")
 
@@ -786,13 +787,13 @@ def test_signed_integers(tonetool, put):
 @pytest.mark.parametrize("command", COMMANDS)
 @pytest.mark.parametrize("ppd", ["0", "0.1", "nan", "inf", "1e9", "-67", "1001", "67,02", "0x43"])
 def test_pixels_per_degree_out_of_range(tonetool, two, command, ppd):
-    ran = tonetool(*two, f"--{command}:fail=1:ppd={ppd}", status=1)
+    ran = tonetool(*two, f"--{command}:fail=0.9999:ppd={ppd}", status=1)
     assert "ppd" in ran.err and ppd in ran.err and "1 to 1000" in ran.err and not passes(ran)
 
 
 @pytest.mark.parametrize("screen", ["distance=1e-6", "width=1e6", "pixels=1e7", "distance=1e6"])
 def test_screens_out_of_range(tonetool, two, screen):
-    ran = tonetool(*two, f"--hdrflip:fail=1:{screen}", status=1)
+    ran = tonetool(*two, f"--hdrflip:fail=0.9999:{screen}", status=1)
     assert "ppd" in ran.err and not passes(ran)
 
 
@@ -888,20 +889,20 @@ def test_a_failure_is_not_forgotten(tonetool, two):
 def test_an_error_after_a_failure_is_an_error(tonetool, two, tmp_path):
     a, b = two
     tonetool(a, b, "--hdrflip:fail=0", "nosuch.exr", status=1)
-    tonetool(a, b, "--hdrflip:fail=1", "nosuch.exr", status=1)
-    tonetool(a, b, "--hdrflip:fail=1", a, "--hdrflip:tests=9:fail=1", status=1)
-    tonetool("--warnings-exit", a, b, "--hdrflip:fail=1:warn=0", "--bogus", status=1)
+    tonetool(a, b, "--hdrflip:fail=0.9999", "nosuch.exr", status=1)
+    tonetool(a, b, "--hdrflip:fail=0.9999", a, "--hdrflip:tests=9:fail=0.9999", status=1)
+    tonetool("--warnings-exit", a, b, "--hdrflip:fail=0.9999:warn=0", "--bogus", status=1)
     assert sorted(os.listdir(tmp_path)) == sorted(two)
 
 
 @pytest.mark.parametrize("words", [
-    ["ref.exr", "test.exr"], ["--hdrflip"], ["ref.exr", "--hdrflip:fail=1"],
-    ["ref.exr", "test.exr", "--hdrflip:tests=2:fail=1"], ["-q", "--threads", "1"],
+    ["ref.exr", "test.exr"], ["--hdrflip"], ["ref.exr", "--hdrflip:fail=0.9999"],
+    ["ref.exr", "test.exr", "--hdrflip:tests=2:fail=0.9999"], ["-q", "--threads", "1"],
     ["ref.exr", "test.exr", "--swap", "--pop", "--pop"], ["ref.exr", "--hdrflip", "-o", "x.exr"],
-    ["ref.exr", "test.exr", "--hdrflip:fail=1", "--hdrflip:fail=1"],
-    ["ref.exr", "test.exr", "--hdrflip:fail=1", "--ldrflip:fail=1"],
-    ["ref.exr", "--label", "test.exr"], ["--", "ref.exr", "test.exr", "--hdrflip:fail=1"],
-    ["ref.exr,test.exr", "--hdrflip:fail=1"], ["", "", "--hdrflip:fail=1"]])
+    ["ref.exr", "test.exr", "--hdrflip:fail=0.9999", "--hdrflip:fail=0.9999"],
+    ["ref.exr", "test.exr", "--hdrflip:fail=0.9999", "--ldrflip:fail=0.9999"],
+    ["ref.exr", "--label", "test.exr"], ["--", "ref.exr", "test.exr", "--hdrflip:fail=0.9999"],
+    ["ref.exr,test.exr", "--hdrflip:fail=0.9999"], ["", "", "--hdrflip:fail=0.9999"]])
 def test_chains_that_measure_nothing(tonetool, two, words):
     assert two == ("ref.exr", "test.exr")
     tonetool(*words, status=1)
@@ -916,18 +917,20 @@ def test_quiet_keeps_failures(tonetool, two):
 
 
 @pytest.mark.parametrize("words", [
-    ["--hdrflip:fail=0:Fail=1"], ["--hdrflip:FAIL=1"], ["--hdrflip:fail=0:fail=1"],
-    ["--hdrflip:fail =1"], ["--hdrflip: fail=1"], ["--hdrflip:fail= 1"], ["--hdrflip:fail=1 "],
-    ["--hdrflip:quality=max:fail=1"], ["--hdrflip;fail=1"], ["--hdrflip=fail=1"],
-    ["--hdrflip,fail=1"], ["--hdrflip:fail=1,quantity=max"], ["--hdrflip:fail=1:quantity=p100"],
-    ["--hdrflip:fail=1:quantity='max'x"], ["--hdrflip:fail:1"], ["--HDRFLIP:fail=1"],
-    ["\N{EN DASH}hdrflip:fail=1"], ["\N{EM DASH}hdrflip:fail=1"], ["--hdrflip:fail=\uff11"]])
+    ["--hdrflip:fail=0:Fail=0.9999"], ["--hdrflip:FAIL=0.9999"],
+    ["--hdrflip:fail=0:fail=0.9999"], ["--hdrflip:fail =0.9999"], ["--hdrflip: fail=0.9999"],
+    ["--hdrflip:fail= 0.9999"], ["--hdrflip:fail=0.9999 "],
+    ["--hdrflip:quality=max:fail=0.9999"], ["--hdrflip;fail=0.9999"], ["--hdrflip=fail=0.9999"],
+    ["--hdrflip,fail=0.9999"], ["--hdrflip:fail=0.9999,quantity=max"],
+    ["--hdrflip:fail=0.9999:quantity=p100"], ["--hdrflip:fail=0.9999:quantity='max'x"],
+    ["--hdrflip:fail:1"], ["--HDRFLIP:fail=0.9999"], ["\N{EN DASH}hdrflip:fail=0.9999"],
+    ["\N{EM DASH}hdrflip:fail=0.9999"], ["--hdrflip:fail=\uff11"]])
 def test_misspelt_is_an_error(tonetool, two, words):
     ran = tonetool(*two, *words, status=1)
     assert not passes(ran) and "ERROR" in ran.err
 
 
-@pytest.mark.parametrize("name", ["a b.exr", "a:fail=1.exr", "it's.exr", 'q"q.exr',
+@pytest.mark.parametrize("name", ["a b.exr", "a:fail=0.9999.exr", "it's.exr", 'q"q.exr',
                                   "\u00fcn\u00ef.exr", "x=1.exr", "ref.exr?x=1",
                                   "ref.exr?x=1&y=2", "test#.exr", "@.exr",
                                   "%04d.exr", "{TOP.width}.exr", "hdrflip", "1", "a,b.exr"])
@@ -974,16 +977,16 @@ def test_several_tests_are_one_call_each(tonetool, put, read):
 def test_one_bad_test_of_several(tonetool, two, testimages, tmp_path):
     a, b = two
     for bad in ("y_only.exr", "plain.exr", "truncated.exr", "deep.exr"):
-        ran = tonetool(a, b, testimages / bad, "--hdrflip:tests=2:fail=1:saveexposures=s",
+        ran = tonetool(a, b, testimages / bad, "--hdrflip:tests=2:fail=0.9999:saveexposures=s",
                        "-o", "x.exr", status=1)
         assert not passes(ran) and sorted(os.listdir(tmp_path)) == sorted(two)
 
 
 def test_saved_exposures_that_cannot_be_written(tonetool, two, tmp_path):
-    ran = tonetool(*two, "--hdrflip:fail=1:numExposures=2:saveexposures=nosuch/s", status=1)
+    ran = tonetool(*two, "--hdrflip:fail=0.9999:numExposures=2:saveexposures=nosuch/s", status=1)
     assert "nosuch/s.00.reference.exr" in ran.err
     (tmp_path / "s.01.flip.exr").symlink_to("/dev/full")
-    tonetool(*two, "--hdrflip:fail=1:numExposures=2:saveexposures=s", status=1)
+    tonetool(*two, "--hdrflip:fail=0.9999:numExposures=2:saveexposures=s", status=1)
 
 
 # ---- outputs
@@ -1002,7 +1005,7 @@ def test_old_output_survives_an_error(tonetool, two, testimages, tmp_path):
     old = tmp_path / "x.exr"
     old.write_bytes(b"old")
     for bad in ("truncated.exr", "y_only.exr", "nosuch.exr", "not_an_image.exr"):
-        tonetool(two[0], testimages / bad, "--hdrflip:fail=1", "-o", "x.exr", status=1)
+        tonetool(two[0], testimages / bad, "--hdrflip:fail=0.9999", "-o", "x.exr", status=1)
         assert old.read_bytes() == b"old"
 
 
@@ -1011,7 +1014,7 @@ def test_old_output_survives_an_error(tonetool, two, testimages, tmp_path):
 def test_nobody_hears_the_result(program, two, tmp_path, closed, read):
     """Standard output that cannot be written is an error; what is written is not spoilt by it."""
     for last in (two[0], two[1]):
-        line = f'"$0" ref.exr {last} --hdrflip:fail=1 -o x.exr {closed}'
+        line = f'"$0" ref.exr {last} --hdrflip:fail=0.9999 -o x.exr {closed}'
         done = subprocess.run(["bash", "-c", line, program], cwd=tmp_path, check=False,
                               stdout=subprocess.PIPE, stderr=subprocess.PIPE, timeout=60)
         assert done.returncode == 1 and not done.stdout
@@ -1046,7 +1049,7 @@ def test_killed_while_it_works(program, put, tmp_path, signal):
     """Neither a pass nor half a file."""
     a, b = put("a.exr", picture(1, 600, 800)), put("b.exr", picture(2, 600, 800))
     (tmp_path / "x.exr").write_bytes(b"old")
-    with subprocess.Popen([program, a, b, "--hdrflip:fail=1:numExposures=200", "-o", "x.exr"],
+    with subprocess.Popen([program, a, b, "--hdrflip:fail=0.9999:numExposures=200", "-o", "x.exr"],
                           cwd=tmp_path, stdout=subprocess.PIPE) as running:
         time.sleep(0.5)
         running.send_signal(getattr(signals, f"SIG{signal}"))

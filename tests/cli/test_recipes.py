@@ -482,7 +482,7 @@ def test_doctor(tonetool, host, tmp_path):
     assert "doctor: oiiotool reads recipes" in doctor(tonetool, 0, OIIO_LIBRARY_PATH=str(folder))
     said = doctor(tonetool, 1)
     assert "OIIO_LIBRARY_PATH is not set; this line mends it:" in said
-    (line,) = [line for line in said.splitlines() if line.startswith("export ")]
+    (line,) = [line.strip() for line in said.splitlines() if "  export " in line]
     mended = subprocess.run(["sh", "-c", f"{line}\n{os.environ['TONETOOL']} --doctor"],
                             env=for_hosts(environment()), capture_output=True, text=True,
                             check=False)

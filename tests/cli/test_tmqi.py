@@ -53,12 +53,13 @@ def test_thresholds_are_to_be_reached(tonetool, shown):
     q = tonetool(*shown, "--tmqi").fact("Q")
     ran = tonetool(*shown, "--tmqi:fail=0.99", status=3)
     assert f"tmqi: FAIL Q {q} < 0.99" in ran.out
+    assert f"tmqi: PASS Q {q} >= 0.1" in tonetool(*shown, "--tmqi:fail=0.1").out
     ran = tonetool(*shown, "--tmqi:fail=0.1:warn=0.99")
-    assert f"tmqi: PASS Q {q} >= 0.1" in ran.out
+    assert f"tmqi: WARNING Q {q} < 0.99" in ran.out
     assert f"WARNING: tmqi : Q {q} < 0.99" in ran.err
     tonetool(*shown, "--tmqi:warn=0.99", "--warnings-exit", status=2)
     for quantity in "SN":
-        ran = tonetool(*shown, f"--tmqi:fail=1:quantity={quantity}", status=3)
+        ran = tonetool(*shown, f"--tmqi:fail=0.9999:quantity={quantity}", status=3)
         assert f"tmqi: FAIL {quantity} " in ran.out
     assert "higher is better" in tonetool("--help", "--tmqi").out
 
