@@ -63,10 +63,20 @@ void add_setting(OIIO::ImageSpec& config, const Call& call, const Setting& setti
     }
 }
 
-void set_layout(OIIO::ImageSpec& config, const OutputSettings& output) {
-    config.tile_width = output.tile_width > 0 ? output.tile_width : 64;
-    config.tile_height = output.tile_width > 0 ? output.tile_height : 64;
+void set_tiles(OIIO::ImageSpec& config, Session& session, const Call& call,
+               const OutputSettings& output) {
+    const bool ignored = session.compat && call.text("tile");
+    if (ignored) {
+        session.warning(call.text(),
+                        "tile= has no effect on textures, as in oiiotool (--tile has)");
+    }
+    const OutputSettings& asked = ignored ? session.output : output;
+    config.tile_width = asked.tile_width > 0 ? asked.tile_width : 64;
+    config.tile_height = asked.tile_width > 0 ? asked.tile_height : 64;
     config.tile_depth = 1;
+}
+
+void set_layout(OIIO::ImageSpec& config, const OutputSettings& output) {
     if (output.type && output.type->bits > 0) {
         config.attribute("oiio:BitsPerSample", output.type->bits);
     }
@@ -99,6 +109,7 @@ OIIO::ImageSpec texture_config(Session& session, const Call& call, const Image& 
                      call.text("swrap").value_or(wrap) + "," + call.text("twrap").value_or(wrap));
     config.attribute("maketx:bumpformat", call.text("bumpformat").value_or("auto"));
     config.attribute("maketx:colorconfig", session.color_config);
+    set_tiles(config, session, call, output);
     set_layout(config, output);
     config.set_format(output.type ? output.type->type
                                   : session.types.of(image.part(), session.compat).type);

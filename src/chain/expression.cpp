@@ -27,7 +27,13 @@ public:
         if (!m_session.variables.contains(name)) {
             return std::nullopt;
         }
-        const std::string text = m_session.variables.get_string(name);
+        const OIIO::ParamValue& variable = *m_session.variables.find(name);
+        const OIIO::TypeDesc type = variable.type();
+        // Of several values oiiotool marks where they begin and end: {1,2,3}, (0.5,0.5,0.5).
+        const bool several = type.basevalues() > 1 && type != OIIO::TypeRational &&
+                             type != OIIO::TypeTimeCode && type != OIIO::TypeKeyCode;
+        const std::string text =
+            several ? OIIO::tostring(type, variable.data()) : variable.get_string();
         const bool number = OIIO::Strutil::string_is_float(text);
         return number ? expression_number(double(OIIO::Strutil::stof(text))) : text;
     }

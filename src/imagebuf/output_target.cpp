@@ -1,5 +1,6 @@
 #include "imagebuf/output_target.h"
 
+#include <OpenImageIO/strutil.h>
 #include <algorithm>
 #include <atomic>
 #include <cerrno>
@@ -76,7 +77,8 @@ void sync_folder_of(const std::string& path) {
 } // namespace
 
 OutputTarget::OutputTarget(const std::string& name, Links links)
-    : m_final(links == Links::Follow ? resolve(name) : name),
+    : m_name(name),
+      m_final(links == Links::Follow ? resolve(name) : name),
       m_links(links) {}
 
 OutputTarget::~OutputTarget() {
@@ -125,6 +127,10 @@ bool OutputTarget::take_rights(const struct stat& old, std::string& error) {
         return true;
     error = reason();
     return false;
+}
+
+std::string OutputTarget::in_its_name(const std::string& error, const std::string& written) const {
+    return OIIO::Strutil::replace(error, written, m_name, true);
 }
 
 bool OutputTarget::commit(std::string& error) {

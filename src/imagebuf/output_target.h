@@ -31,12 +31,16 @@ public:
     /// A name beside the target that no other writer uses.
     std::string unused_name() const;
 
+    /// What a writer said of the file it was given, said of the one that was asked for.
+    std::string in_its_name(const std::string& error, const std::string& written) const;
+    std::string in_its_name(const std::string& error) const { return in_its_name(error, path()); }
+
 private:
     bool hold();
     bool open_temporary(std::string& error);
     bool take_rights(const struct stat& old, std::string& error);
 
-    std::string m_final, m_temporary;
+    std::string m_name, m_final, m_temporary; // m_name: as it was asked for
     Links m_links;
     int m_fd = -1, m_slot = -1;
 };

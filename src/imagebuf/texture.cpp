@@ -147,8 +147,10 @@ bool write_checked(OIIO::ImageBufAlgo::MakeTextureMode mode, const OIIO::ImageBu
     const bool made = make(mode, image, job, config, error);
     if (!job.proxy.failure().empty())
         error = job.proxy.failure();
-    return made && job.proxy.failure().empty() &&
-           (proxied || reads_back(job.target.path(), 1, error)) && job.target.commit(error);
+    if (made && job.proxy.failure().empty() && (proxied || reads_back(job.target.path(), 1, error)))
+        return job.target.commit(error);
+    error = job.target.in_its_name(error);
+    return false;
 }
 
 } // namespace

@@ -212,12 +212,13 @@ bool write_checked(const std::vector<OutputImage>& images, const std::string& fi
         sure.copy_to(proxy);
     if (!proxy.failure().empty())
         error = proxy.failure();
-    if (!written || !proxy.failure().empty())
-        return false;
     // Writers without a proxy, and those that pass it over (several subimages, deep pixels), have
     // opened the file by its name.
-    if (proxy.size() == 0 && !reads_back(target.path(), count_subimages(images), error))
+    if (!written || !proxy.failure().empty() ||
+        (proxy.size() == 0 && !reads_back(target.path(), count_subimages(images), error))) {
+        error = target.in_its_name(surely ? target.in_its_name(error, sure.path()) : error);
         return false;
+    }
     if (undescribed)
         clear_description(proxy);
     error = proxy.failure();
