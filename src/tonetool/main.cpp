@@ -1,7 +1,10 @@
 // The tonetool program: its arguments go to the chain, the chain's status comes back.
+#include <cerrno>
 #include <csignal>
 #include <exception>
+#include <fcntl.h>
 #include <iostream>
+#include <unistd.h>
 
 #include "include/tonetool/write.h"
 #include "runs/runs.h"
@@ -31,11 +34,23 @@ void install_signal_handlers() {
 #endif
 }
 
+// What is opened later must not take the place of a standard stream that is closed: results would
+// be written into it. Reads and writes fail as they did.
+void hold_closed_streams() {
+    for (int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
+        if (::fcntl(stream, F_GETFD) < 0 && errno == EBADF) {
+            // The lowest number that is free: this one.
+            (void)::open("/dev/null", stream == STDIN_FILENO ? O_WRONLY : O_RDONLY);
+        }
+    }
+}
+
 } // namespace
 
 int main(int argc, char** argv) {
     const tonetool::PrintableStream out(std::cout), err(std::cerr);
     try {
+        hold_closed_streams();
         install_signal_handlers();
         tonetool::register_tone_format();
         tonetool::runs::know_all_commands();
