@@ -48,7 +48,7 @@ void execute(Session& session, Call& call) {
     stack.erase(first, stack.end());
     for (const ImagePtr& image : call.images) {
         image->used = true;
-        image->worked_on |= call.row().group != Group::Stack;
+        image->worked_on |= call.row().group != Group::Stack && call.row().group != Group::Print;
         if (call.row().group != Group::Stack) {
             session.note_format(*image);
         }

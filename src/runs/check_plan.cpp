@@ -4,6 +4,7 @@
 #include <set>
 
 #include "chain/registry.h"
+#include "runs/frames.h"
 #include "text/error.h"
 #include "text/token.h"
 
@@ -20,13 +21,11 @@ public:
     Walk(const Strings& words, bool compat) : m_words(words), m_compat(compat) {}
 
     CheckPlan plan() {
-        while (m_next < m_words.size()) {
-            const size_t at = m_next++;
-            const Command* row = command(m_words[at]);
-            if (row) {
-                take_command(*row, at);
+        for (const LeadWord& lead : lead_words(m_words)) {
+            if (lead.row) {
+                take_command(lead);
             } else {
-                take_file(at);
+                take_file(lead.at);
             }
         }
         check_merge();
@@ -34,20 +33,14 @@ public:
     }
 
 private:
-    static std::string name_of(const std::string& word) {
-        const std::string bare = word.substr(word.size() > 1 && word[1] == '-' ? 2 : 1);
-        return bare.substr(0, bare.find_first_of(":="));
-    }
-    static const Command* command(const std::string& word) {
-        return word.size() > 1 && word[0] == '-' ? find_command(name_of(word)) : nullptr;
-    }
-
     void keep(size_t at, const std::string& word) {
         m_plan.essence.push_back(word);
         m_plan.essence_at.push_back(at);
     }
 
-    void take_command(const Command& row, size_t at) {
+    void take_command(const LeadWord& lead) {
+        const Command& row = *lead.row;
+        const size_t at = lead.at;
         const std::string& name = row.names.front();
         const bool check = row.group == Group::Check, manner = check || row.manner;
         note_blocks(name);
@@ -57,14 +50,10 @@ private:
         }
         // What --qc looks for is part of what comes of the line.
         if (check || name == "qc") {
-            take_check(row, at);
+            take_check(lead);
         }
-        for (const std::string& argument : row.args) {
-            if (argument.front() == '=' || m_next >= m_words.size() ||
-                chain::is_left_out(argument, m_words, m_next)) {
-                break;
-            }
-            take_argument(row, manner, m_next++);
+        for (const size_t argument : lead.arguments) {
+            take_argument(row, manner, argument);
         }
     }
 
@@ -92,14 +81,17 @@ private:
         }
     }
 
-    void take_check(const Command& row, size_t at) {
-        const std::string& name = row.names.front();
-        const bool complete =
-            row.args.empty() || (at + 1 < m_words.size() && !command(m_words[at + 1]));
-        if (!complete) {
-            throw CommandError("--" + name + ": missing argument " + row.args.front());
+    static bool is_known_command(const std::string& word) {
+        return word.size() > 1 && word[0] == '-' && find_command(parse_token(word, true).name);
+    }
+
+    void take_check(const LeadWord& lead) {
+        const Strings& arguments = lead.row->args;
+        const std::string& name = lead.row->names.front();
+        const std::string argument = lead.arguments.empty() ? "" : m_words[lead.arguments.front()];
+        if (!arguments.empty() && (lead.arguments.empty() || is_known_command(argument))) {
+            throw CommandError("--" + name + ": missing argument " + arguments.front());
         }
-        const std::string argument = row.args.empty() ? "" : m_words[at + 1];
         if (!m_plan.words.emplace(name, argument).second) {
             throw CommandError("--" + name + " is given twice");
         }
@@ -177,7 +169,6 @@ private:
     }
 
     const Strings& m_words;
-    size_t m_next = 0;
     CheckPlan m_plan;
     std::set<std::string> m_labels;
     bool m_compat;

@@ -27,17 +27,30 @@ std::string full_command_line(const Strings& words, bool compat) {
     return line;
 }
 
-std::vector<bool> commands_among(const Strings& words) {
-    std::vector<bool> found(words.size());
+std::vector<LeadWord> lead_words(const Strings& words) {
+    std::vector<LeadWord> found;
     for (size_t i = 0; i < words.size(); ++i) {
         const std::string& word = words[i];
-        found[i] = word.size() > 1 && word[0] == '-';
-        const Token token = parse_token(found[i] ? word : "", true);
-        const chain::Command* row = found[i] ? chain::find_command(token.name) : nullptr;
-        for (size_t a = token.value.size(); row && a < row->args.size(); ++a) {
-            const std::string& argument = row->args[a];
-            i += argument.front() != '=' && !chain::is_left_out(argument, words, i + 1) ? 1 : 0;
+        LeadWord lead{i, word.size() > 1 && word[0] == '-'};
+        const Token token = parse_token(lead.is_command ? word : "", true);
+        lead.row = lead.is_command ? chain::find_command(token.name) : nullptr;
+        for (size_t a = token.value.size(); lead.row && a < lead.row->args.size(); ++a) {
+            const std::string& argument = lead.row->args[a];
+            if (argument.front() == '=' || i + 1 >= words.size() ||
+                chain::is_left_out(argument, words, i + 1)) {
+                break;
+            }
+            lead.arguments.push_back(++i);
         }
+        found.push_back(std::move(lead));
+    }
+    return found;
+}
+
+std::vector<bool> commands_among(const Strings& words) {
+    std::vector<bool> found(words.size());
+    for (const LeadWord& lead : lead_words(words)) {
+        found[lead.at] = lead.is_command;
     }
     return found;
 }

@@ -39,6 +39,17 @@ std::string crashed(const std::string& how) {
     return "the libraries that read or compare its files crashed: " + how;
 }
 
+// What is wrong with the folder of the state, or "": what was measured is right all the same.
+std::string keep_in(const State& state, const sequence::Item& item, const sequence::Origin& origin,
+                    const sequence::FileLog& files, const sequence::Kept& found) {
+    try {
+        state.keep(item, origin, files, found);
+        return "";
+    } catch (const std::exception& problem) {
+        return problem.what();
+    }
+}
+
 } // namespace
 
 sequence::Item FrameContext::item(size_t index) const {
@@ -84,6 +95,11 @@ void FrameContext::run_commands(Session& session, size_t index) const {
     }
 }
 
+void FrameContext::print_error(size_t index, const std::string& error, std::ostream& err) const {
+    std::ostringstream nowhere;
+    session(index, nowhere, err).error("", error);
+}
+
 // ---- plain frames
 
 Ran PlainFrames::run(size_t index, std::ostream& out, std::ostream& err) {
@@ -97,9 +113,7 @@ Ran PlainFrames::run(size_t index, std::ostream& out, std::ostream& err) {
 }
 
 Ran PlainFrames::failed(size_t index, Status status, const std::string& why, std::ostream& err) {
-    std::ostringstream nowhere;
-    Session session = m_context.session(index, nowhere, err);
-    session.error("", status == Status::Crashed ? crashed(why) : why);
+    m_context.print_error(index, status == Status::Crashed ? crashed(why) : why, err);
     return {1, "error", true};
 }
 
@@ -111,15 +125,14 @@ ExposureFrames::ExposureFrames(const FrameContext& context, const std::optional<
       m_samples(context.plan.runs.size()),
       m_errors(context.plan.runs.size()) {}
 
-sequence::ExposureSamples ExposureFrames::measure(size_t index, std::ostream& err,
-                                                  std::string& error) const {
+ExposureFrames::Measured ExposureFrames::measure(size_t index, std::ostream& err) const {
     const FrameRun& run = m_context.plan.runs[index];
     const CheckPlan& check = m_context.plan.check;
     const sequence::Item item = m_context.item(index);
     const sequence::Origin origin{words_at(run.words, check.essence_at), "exposures", {}};
     if (m_state) {
         if (const auto kept = m_state->find(item, origin)) {
-            return sequence::samples_from_json(kept->result);
+            return {sequence::samples_from_json(kept->result).at(0), ""};
         }
     }
     sequence::ExposureSample found{run.frame.number, run.frame.view, -1, 0};
@@ -131,26 +144,29 @@ sequence::ExposureSamples ExposureFrames::measure(size_t index, std::ostream& er
     session.dry_run = true;
     m_context.run_commands(session, index);
     if (session.errors > 0 || found.max_luminance < 0) {
-        error = session.first_error;
-        return {};
+        return {std::nullopt, session.first_error};
     }
+    Measured measured{found, ""};
     if (m_state) {
-        m_state->keep(item, origin, session.files, {sequence::to_json({found}), "", "", 0});
+        measured.error =
+            keep_in(*m_state, item, origin, session.files, {sequence::to_json({found}), "", "", 0});
+        if (!measured.error.empty()) {
+            m_context.print_error(index, measured.error, err);
+        }
     }
-    return {found};
+    return measured;
 }
 
 Ran ExposureFrames::run(size_t index, std::ostream&, std::ostream& err) {
-    std::string error;
-    const sequence::ExposureSamples found = measure(index, err, error);
-    return {found.empty() ? 1 : 0, found.empty() ? "no exposures" : "exposures", false,
-            packed({found.empty() ? "" : sequence::to_json(found), error})};
+    const Measured measured = measure(index, err);
+    const bool found = measured.sample.has_value();
+    return {found && measured.error.empty() ? 0 : 1, found ? "exposures" : "no exposures", false,
+            packed({found ? sequence::to_json({*measured.sample}) : "", measured.error})};
 }
 
 Ran ExposureFrames::failed(size_t index, Status status, const std::string& why, std::ostream& err) {
     const std::string error = status == Status::Crashed ? crashed(why) : why;
-    std::ostringstream nowhere;
-    m_context.session(index, nowhere, err).error("", error);
+    m_context.print_error(index, error, err);
     return {1, "no exposures", false, packed({"", error})};
 }
 
@@ -253,13 +269,12 @@ CheckedFrames::Checked CheckedFrames::check_or_find(size_t index) const {
     }
     Checked made = check(index);
     if (made.result.status <= Status::SizeMismatch) {
-        try {
-            m_state->keep(item, origin, made.files,
-                          {sequence::to_json(made.result), made.out, made.err, made.status});
-        } catch (const std::exception& problem) {
-            // What was measured stays in the result.
+        const std::string error =
+            keep_in(*m_state, item, origin, made.files,
+                    {sequence::to_json(made.result), made.out, made.err, made.status});
+        if (!error.empty()) {
             made.result.status = Status::Error;
-            made.result.message = problem.what();
+            made.result.message = error;
             made.status = 1;
         }
     }
@@ -280,8 +295,7 @@ Ran CheckedFrames::failed(size_t index, Status status, const std::string& why, s
     FrameResult result = unchecked(index);
     result.status = status;
     result.message = status == Status::Crashed ? crashed(why) : why;
-    std::ostringstream nowhere;
-    m_context.session(index, nowhere, err).error("", result.message);
+    m_context.print_error(index, result.message, err);
     return {1, in_words(result), false, packed({sequence::to_json(result), "", "", ""})};
 }
 

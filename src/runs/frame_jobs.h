@@ -25,6 +25,8 @@ struct FrameContext {
     sequence::Item item(size_t index) const;
     /// Runs the words of the frame, if its files are there.
     void run_commands(chain::Session& session, size_t index) const;
+    /// Prints what ended the run of a frame, as its commands' errors are printed.
+    void print_error(size_t index, const std::string& error, std::ostream& err) const;
 };
 
 /// A frame whose commands do what they do.
@@ -54,7 +56,12 @@ public:
     std::string first_error() const;
 
 private:
-    sequence::ExposureSamples measure(size_t index, std::ostream& err, std::string& error) const;
+    // A frame's exposures, if it has any, and what was wrong with it.
+    struct Measured {
+        std::optional<sequence::ExposureSample> sample;
+        std::string error;
+    };
+    Measured measure(size_t index, std::ostream& err) const;
 
     const FrameContext& m_context;
     const std::optional<sequence::State>& m_state;

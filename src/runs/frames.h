@@ -33,7 +33,15 @@ struct FramePlan {
     std::vector<size_t> sequences; ///< of a check: indices of the input words with wildcards
 };
 
-/// Which words are commands: a word with a dash that another command takes as its argument is not.
+/// A word of a command line that stands for itself: a command, known or not, or a file.
+struct LeadWord {
+    size_t at = 0;
+    bool is_command = false; ///< has a dash, and no other command takes it as its argument
+    const chain::Command* row = nullptr;
+    std::vector<size_t> arguments{}; ///< the words that it takes
+};
+std::vector<LeadWord> lead_words(const Strings& words);
+/// Which words are commands.
 std::vector<bool> commands_among(const Strings& words);
 
 /// "--frames=1-3" as "--frames", "1-3": of what says which frames, how many at a time and where
