@@ -174,6 +174,7 @@ bool find_part(const std::vector<ImageSpec>& parts, const PixelOptions& options,
     if (!chosen)
         return true;
     choice.part = chosen->part;
+    choice.picture = chosen->shown;
     for (const Picture& one : pictures)
         if (!one.data && (one.part != chosen->part || one.view != chosen->view))
             choice.left_out.push_back(one.shown);

@@ -29,10 +29,8 @@ void refuse_all(const Image& image) {
 
 std::string left_out(const Image& image, const PartChoice& choice) {
     const std::string chosen =
-        image.part(size_t(choice.part))
-            .header()
-            .get_string_attribute("oiio:subimagename", std::to_string(choice.part));
-    return "\"" + image.name() + "\": beside subimage " + chosen +
+        choice.picture.empty() ? "subimage " + std::to_string(choice.part) : choice.picture;
+    return "\"" + image.name() + "\": beside " + chosen +
            ", pictures are not looked at: " + join(choice.left_out, ", ") +
            " (layer= chooses one, or --subimage)";
 }

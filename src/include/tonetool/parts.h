@@ -12,7 +12,8 @@ namespace tonetool {
 
 /// What `find_part` chose.
 struct PartChoice {
-    int part = 0; ///< its index
+    int part = 0;        ///< its index
+    std::string picture; ///< as layer= names it; empty where the layer was named
     /// Pictures of other parts, and of other views, that nobody looks at then; empty where the
     /// layer was named.
     std::vector<std::string> left_out;
