@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 import OpenImageIO as oiio
 import pytest
-from prestart import prestarted
+from prestart import run_text
 
 TESTIMAGES = Path(__file__).resolve().parents[2] / "testimages"
 
@@ -44,12 +44,8 @@ def call(program, words, cwd, timeout=120, **options):
     """Runs the program. A sanitizer makes it slower: `timeout` is the limit without one."""
     if os.environ.get("SANITIZER_RUNTIME"):
         timeout *= 5
-    # What is read from the environment may be read before main.
-    waiting = prestarted(program) if not options else None
-    if waiting:
-        done = waiting.run(words, cwd, timeout)
-        done.stdout, done.stderr = done.stdout.decode(), done.stderr.decode()
-        return Ran(done)
+    if not options:
+        return Ran(run_text(program, words, cwd, timeout))
     options.setdefault("stdout", subprocess.PIPE)
     done = subprocess.run([program, *map(str, words)], cwd=cwd, stderr=subprocess.PIPE,
                           text=True, check=False, timeout=timeout, **options)

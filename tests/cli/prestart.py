@@ -73,6 +73,17 @@ def prestarted(program):
         return WAITING[program]
 
 
+def run_text(program, words, cwd, timeout):
+    """subprocess.run() with text for output and an empty input, by a prestarted program if it can be."""
+    waiting = prestarted(program)
+    if not waiting:
+        return subprocess.run([program, *map(str, words)], cwd=cwd, capture_output=True, text=True,
+                              stdin=subprocess.DEVNULL, timeout=timeout, check=False)
+    done = waiting.run(words, cwd, timeout)
+    done.stdout, done.stderr = done.stdout.decode(), done.stderr.decode()
+    return done
+
+
 def number(connection):
     return struct.unpack("=i", connection.recv(4, socket.MSG_WAITALL))[0]
 

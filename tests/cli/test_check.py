@@ -12,7 +12,7 @@ import xml.etree.ElementTree as ElementTree
 
 import numpy as np
 import pytest
-from conftest import TESTIMAGES
+from conftest import TESTIMAGES, call
 
 ANIM = TESTIMAGES / "anim"
 FLIP = "--hdrflip:layer=ViewLayer.Combined:quantity=p99:fail=0.5:print=0"
@@ -307,9 +307,8 @@ def test_parts_merge_to_the_bytes_of_the_single_run(tonetool, anim, split, expos
         tonetool(*pair(flip("shot"), "--statistics", "range.json"), status=1)
         own = "range.json"
     for begin, end in SPLITS[split]:
-        subprocess.run([os.environ["TONETOOL"], "--frames", f"{begin}-{end}", *pair(flip(own)),
-                        "--jobs", "2", "--json", f"part{begin}.json"], cwd=anim, check=False,
-                       capture_output=True)
+        call(os.environ["TONETOOL"], ["--frames", f"{begin}-{end}", *pair(flip(own)), "--jobs",
+                                      "2", "--json", f"part{begin}.json"], anim)
     parts = [f"part{begin}.json" for begin, _ in SPLITS[split]]
     tonetool("--merge", *parts, "--json", "merged.json", "--csv", "merged.csv", status=1)
     assert (anim / "merged.json").read_bytes() == (anim / "whole.json").read_bytes()

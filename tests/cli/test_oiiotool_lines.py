@@ -2,11 +2,11 @@
 where --compat is a command and where it is an argument, what it drops, deep images."""
 
 import os
-import subprocess
 
 import numpy as np
 import OpenImageIO as oiio
 import pytest
+from prestart import run_text
 
 
 @pytest.fixture(scope="module")
@@ -29,8 +29,7 @@ def folder(tmp_path_factory):
 @pytest.fixture
 def run(folder, program):
     def call(*words):
-        return subprocess.run([program, *words], cwd=folder, capture_output=True, text=True,
-                              timeout=60, check=False)
+        return run_text(program, words, folder, 60)
     return call
 
 
