@@ -3,6 +3,7 @@
 #include <OpenImageIO/strutil.h>
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <map>
 #include <stdexcept>
 #include <tuple>
@@ -21,6 +22,7 @@ constexpr std::array<const char*, 9> status_names{"passed",     "measured",     
 constexpr std::array<const char*, 3> severity_names{"info", "warning", "error"};
 
 constexpr char nothing_measured[] = "nothing was measured";
+constexpr double worst_badness = 1e300;
 
 template <class Enum, size_t N>
 std::optional<Enum> named(const std::array<const char*, N>& names, const std::string& name) {
@@ -83,8 +85,11 @@ double excess(const Threshold& threshold) {
     }
     const double over = threshold.higher_is_better ? *limit : threshold.value;
     const double under = threshold.higher_is_better ? threshold.value : *limit;
-    // Also where both are 0: that holds. A NaN holds nothing.
-    return over <= 0 ? 0 : under > 0 ? over / under : 1e300;
+    if (std::isnan(threshold.value)) {
+        return worst_badness;
+    }
+    // Also where both are 0: that holds.
+    return over <= 0 ? 0 : under > 0 ? over / under : worst_badness;
 }
 
 bool has_problem(Status status) {
@@ -217,6 +222,11 @@ void judge(FrameResult& frame) {
     }
 }
 
+bool higher_is_better(const std::string& command, const std::string& quantity) {
+    return command == "tmqi" ||
+           (command == "errormap" && (quantity == "psnr" || quantity == "mpsnr"));
+}
+
 double badness(const FrameResult& frame) {
     double most = 0;
     for (const Measurement& measurement : frame.measurements) {
@@ -234,8 +244,11 @@ double badness(const FrameResult& frame) {
     if (most > 0 || all.empty() || all.front().quantities.empty()) {
         return most;
     }
-    const double value = all.front().quantities.front().second;
-    return value > 0 ? value : 0;
+    const auto& [quantity, value] = all.front().quantities.front();
+    if (std::isnan(value)) {
+        return worst_badness;
+    }
+    return higher_is_better(all.front().command, quantity) ? -value : std::max(value, 0.0);
 }
 
 void conclude(ShotResult& shot) {

@@ -133,8 +133,13 @@ bool is_unmeasured(const FrameResult& frame);
 /// twice.
 void conclude(ShotResult& shot);
 
-/// How bad a frame is beside another of the same status: the measured value in units of its
-/// threshold, or as it is where there is none.
+/// Whether more of a quantity of a command is better: of psnr and mpsnr of --errormap, and of all
+/// that --tmqi finds. Of anything else less is.
+bool higher_is_better(const std::string& command, const std::string& quantity);
+
+/// How bad a frame is beside another of the same status, more being worse: the measured value in
+/// units of its threshold, or as it is (below 0 where higher is better) where there is none. A value
+/// that is no number is worse than any other.
 double badness(const FrameResult& frame);
 
 } // namespace tonetool::sequence

@@ -147,6 +147,32 @@ TEST(Conclude, Where_all_passed_the_largest_error_is_named) {
     EXPECT_EQ(exit_status(result.verdict, true), 0);
 }
 
+TEST(Conclude, Where_higher_is_better_the_lowest_is_named) {
+    const auto of = [](const char* command, const char* quantity, std::vector<double> values) {
+        std::vector<FrameResult> frames;
+        for (const double value : values) {
+            FrameResult one = frame(int(frames.size()) + 1, 0.1, std::nullopt);
+            one.measurements[0].command = command;
+            one.measurements[0].quantities = {{quantity, value}, {"mean", 0.1}};
+            frames.push_back(one);
+        }
+        return shot(frames).worst;
+    };
+    EXPECT_THAT(of("errormap", "psnr", {HUGE_VAL, 20, 30}), ElementsAre(1));
+    EXPECT_THAT(of("errormap", "psnr", {3, -5, -1}), ElementsAre(1));
+    EXPECT_THAT(of("errormap", "mpsnr", {HUGE_VAL, 20, 30}), ElementsAre(1));
+    EXPECT_THAT(of("tmqi", "Q", {0.9, 0.8, 0.2}), ElementsAre(2));
+    EXPECT_THAT(of("errormap", "mse", {0.9, 20, 0.8}), ElementsAre(1));
+    EXPECT_THAT(of("hdrflip", "mean", {0.1, 0.2, 0.15}), ElementsAre(1));
+}
+
+TEST(Conclude, A_value_that_is_no_number_is_the_worst) {
+    EXPECT_THAT(shot({frame(1, 0.9), frame(2, std::nan("")), frame(3, 0.8)}).worst,
+                ElementsAre(1, 0, 2));
+    EXPECT_THAT(shot({frame(1, 0.9, std::nullopt), frame(2, std::nan(""), std::nullopt)}).worst,
+                ElementsAre(1));
+}
+
 TEST(Conclude, No_frame_is_an_error_and_one_twice_is_refused) {
     EXPECT_EQ(exit_status(shot({}).verdict, false), 1);
     EXPECT_THROW(shot({frame(1, 0.1), frame(1, 0.2)}), std::runtime_error);
