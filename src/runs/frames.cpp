@@ -6,6 +6,8 @@
 #include <cstdio>
 #include <iostream>
 #include <map>
+#include <optional>
+#include <set>
 #include <unistd.h>
 
 #include "chain/call.h"
@@ -13,6 +15,7 @@
 #include "sequence/pairing.h"
 #include "text/error.h"
 #include "text/printable.h"
+#include "text/token.h"
 
 namespace tonetool::runs {
 
@@ -30,6 +33,7 @@ struct Scan {
     FramePlan plan;
     std::string directory{};
     sequence::PatternOptions options;
+    std::optional<std::string> views; ///< of --views, as it was given
     std::vector<Pattern> patterns;
     bool for_images = false;
     std::vector<sequence::Item> tests; ///< of the second sequence, where they are others
@@ -48,6 +52,7 @@ bool take_setting(Scan& scan, const std::string& name, const std::string& argume
     } else if (name == "framepadding") {
         scan.options.padding = checked_integer("DIGITS", argument, {1, 9});
     } else if (name == "views") {
+        scan.views = argument;
         scan.options.views = split(argument, ',');
     } else if (name == "parallel-frames" || name == "jobs") {
         scan.plan.parallel = checked_integer("N", argument, {1, 1024});
@@ -132,26 +137,62 @@ std::vector<sequence::Side> sides_of(const Strings& words, const Scan& scan) {
         if (scan.plan.check.is_input(pattern.at)) {
             sides.push_back(
                 {words[pattern.at], sequence::list_files(words[pattern.at], scan.options)});
-            sequence::check_numbers(sides.back().pattern, sides.back().files);
+            sequence::check_numbers(sides.back().pattern, sides.back().files, scan.options);
         }
     }
     return sides;
+}
+
+// Whether a frame's images may be others than the next one's, though none that is read has a
+// wildcard. What is written or printed makes no difference.
+bool may_vary(const Strings& words, bool also_by_wildcard) {
+    const auto varies = [also_by_wildcard](const std::string& word) {
+        return word.find("FRAME_NUMBER") != std::string::npos ||
+               (also_by_wildcard && sequence::is_pattern(word));
+    };
+    for (const LeadWord& lead : lead_words(words)) {
+        const chain::Command* row = lead.row;
+        if (row &&
+            (row->writes() || row->group == chain::Group::Write || row->names.front() == "echo")) {
+            continue;
+        }
+        const auto is_written = [row](const std::string& key) {
+            return row && std::any_of(row->modifiers.begin(), row->modifiers.end(),
+                                      [&](const chain::Modifier& modifier) {
+                                          return modifier.key == key && modifier.writes();
+                                      });
+        };
+        for (const auto& [key, text] : parse_token(row ? words[lead.at] : "", true).modifiers) {
+            if (!is_written(key) && varies(text)) {
+                return true;
+            }
+        }
+        if ((!row && varies(words[lead.at])) ||
+            std::any_of(lead.arguments.begin(), lead.arguments.end(),
+                        [&](size_t at) { return varies(words[at]); })) {
+            return true;
+        }
+    }
+    return false;
 }
 
 // A range that no name takes would check the same files again and again, or others.
 void check_range_is_used(const Strings& words, const Scan& scan,
                          const std::vector<sequence::Side>& sides) {
     const std::vector<size_t>& inputs = scan.plan.check.inputs;
-    const auto evaluated = [](const std::string& word) {
-        return word.find('{') != std::string::npos;
-    };
-    if (scan.options.frames.empty() || inputs.empty()) {
+    if (scan.options.frames.empty()) {
         return;
     }
-    if (sides.empty() && std::none_of(words.begin(), words.end(), evaluated)) {
-        throw CommandError("--frames " + scan.options.frames + ": no image that is read has a " +
-                           "wildcard, so each frame would be the same as \"" +
-                           words[inputs.front()] + "\" (valid: # in the name, or no --frames)");
+    if (sides.empty() && !may_vary(words, inputs.empty())) {
+        throw CommandError(
+            "--frames " + scan.options.frames + ": " +
+            (inputs.empty()
+                 ? "nothing that makes an image depends on the frame, so all would be "
+                   "the same (valid: an image that is read with # in its name, "
+                   "{FRAME_NUMBER}, or no --frames)"
+                 : "no image that is read has a wildcard, so each frame would be the "
+                   "same as \"" +
+                       words[inputs.front()] + "\" (valid: # in the name, or no --frames)"));
     }
     const auto numbers = sequence::parse_frames(scan.options.frames, scan.options.lenient);
     for (const sequence::Side& side : sides) {
@@ -170,6 +211,45 @@ void check_range_is_used(const Strings& words, const Scan& scan,
     }
 }
 
+bool has_view(const sequence::Side& side) {
+    return sequence::NamePattern(sequence::without_range(side.pattern)).has_view();
+}
+
+// Two views of one file would be the same picture twice.
+void check_views_differ(const sequence::Side& side) {
+    std::map<std::pair<int, std::string>, std::string> views;
+    for (size_t i = 0; i < side.files.items.size(); ++i) {
+        const sequence::Item& item = side.files.items[i];
+        const std::string& name = side.files.names[i];
+        const auto first = views.emplace(std::pair(item.frame, name), item.view).first;
+        if (first->second != item.view) {
+            throw CommandError("\"" + name + "\" is the file of two views, " + first->second +
+                               " and " + item.view + " (valid: %V in \"" + side.pattern +
+                               "\", for their whole names)");
+        }
+    }
+}
+
+void check_view_names(const Scan& scan) {
+    const Strings& views = scan.options.views;
+    const std::set<std::string> names(views.begin(), views.end());
+    if (scan.views && (names.empty() || names.size() != views.size() || names.count("") > 0)) {
+        throw CommandError("--views " + *scan.views +
+                           ": a view has no name or is there twice (valid: different names with "
+                           "commas between them: left,right)");
+    }
+}
+
+// Views that no name takes would be checked nowhere.
+void check_views_are_used(const Scan& scan, const std::vector<sequence::Side>& sides) {
+    if (scan.views && std::none_of(sides.begin(), sides.end(), has_view)) {
+        throw CommandError("--views " + *scan.views +
+                           ": no image that is read has a view in its name (valid: %V or %v in the "
+                           "name, or no --views)");
+    }
+    std::for_each(sides.begin(), sides.end(), check_views_differ);
+}
+
 std::vector<sequence::Item> items_of(const Scan& scan) {
     std::vector<sequence::Item> items;
     for (int frame : sequence::parse_frames(scan.options.frames, scan.options.lenient)) {
@@ -178,15 +258,50 @@ std::vector<sequence::Item> items_of(const Scan& scan) {
     return items;
 }
 
+// What is nowhere on the disk is missing all the same: a view that %V stands for, and what is
+// between two numbers. Only three numbers or more make a step.
+void add_missing(sequence::Pairing& pairs, const std::vector<sequence::Side>& sides,
+                 const sequence::PatternOptions& options) {
+    if (pairs.items.empty() || std::any_of(sides.begin(), sides.end(), [](const auto& side) {
+            return !side.files.from_disk;
+        })) {
+        return;
+    }
+    sequence::Side all{"", {pairs.items, {}, true}};
+    const sequence::Item first = pairs.items.front(), last = pairs.items.back();
+    if (std::any_of(sides.begin(), sides.end(), has_view)) {
+        for (const std::string& view : options.views) {
+            all.files.items.push_back({first.frame, view});
+        }
+    }
+    if (first.frame != last.frame &&
+        std::all_of(pairs.items.begin(), pairs.items.end(), [&](const sequence::Item& item) {
+            return item.frame == first.frame || item.frame == last.frame;
+        })) {
+        all.files.items.push_back({first.frame + 1, first.view});
+    }
+    const std::vector<sequence::Item> items = sequence::paired({all});
+    if (items.size() == pairs.items.size()) {
+        return;
+    }
+    pairs.items = items;
+    for (size_t i = 0; i < sides.size(); ++i) {
+        pairs.names[i] = sequence::names_of(sides[i], options, items);
+    }
+}
+
 // What the frames of a check are, whatever is on the disk.
 void pair_frames(const Strings& words, Scan& scan, const Files& numbered,
                  std::vector<Files>& listings) {
     FramePlan& plan = scan.plan;
+    check_view_names(scan);
     const std::vector<sequence::Side> sides = sides_of(words, scan);
     check_range_is_used(words, scan, sides);
+    check_views_are_used(scan, sides);
     sequence::Pairing pairs{numbered.items, {}, {}};
     if (!sides.empty()) {
         pairs = sequence::pair_sides(sides, scan.options);
+        add_missing(pairs, sides, scan.options);
     } else if (pairs.items.empty() && !scan.options.frames.empty()) {
         pairs.items = items_of(scan); // for outputs alone
     }

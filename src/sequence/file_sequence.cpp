@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <map>
 #include <regex>
+#include <set>
 #include <stdexcept>
 
 namespace tonetool::sequence {
@@ -101,6 +102,39 @@ Files on_disk(const std::string& printf_style, const PatternOptions& options) {
     return listing;
 }
 
+using Key = std::pair<int, std::string>;
+
+void check_each_once(const std::string& pattern, const Files& files) {
+    std::map<Key, std::string> names;
+    for (size_t i = 0; i < files.items.size(); ++i) {
+        const Item& item = files.items[i];
+        const auto [known, is_new] = names.emplace(Key(item.frame, item.view), files.names[i]);
+        if (!is_new) {
+            throw std::runtime_error("\"" + known->second + "\" and \"" + files.names[i] +
+                                     "\" are both frame " + std::to_string(item.frame) + " of \"" +
+                                     pattern +
+                                     "\" (valid: one file for each number; more # or @ "
+                                     "for more digits)");
+        }
+    }
+}
+
+// Of the files on the disk those whose numbers are `meant`.
+Files with_numbers_of(const std::vector<Item>& meant, const Files& found) {
+    std::set<Key> keys;
+    for (const Item& item : meant) {
+        keys.emplace(item.frame, item.view);
+    }
+    Files files;
+    for (size_t i = 0; i < found.items.size(); ++i) {
+        if (keys.count({found.items[i].frame, found.items[i].view}) > 0) {
+            files.items.push_back(found.items[i]);
+            files.names.push_back(found.names[i]);
+        }
+    }
+    return files;
+}
+
 } // namespace
 
 bool is_pattern(const std::string& word) {
@@ -130,25 +164,18 @@ Files list_files(const std::string& pattern, const PatternOptions& options) {
     return listing;
 }
 
-void check_numbers(const std::string& pattern, const Files& files) {
+void check_numbers(const std::string& pattern, const Files& files, const PatternOptions& options) {
+    if (!files.from_disk) {
+        const Files found = on_disk(parse(pattern, options.padding).printf_style, options);
+        check_each_once(pattern, with_numbers_of(files.items, found));
+        return;
+    }
     if (!files.beyond.empty()) {
         throw std::runtime_error("the frame number of \"" + files.beyond.front() +
                                  "\" is beyond 2147483647, so \"" + pattern +
                                  "\" cannot tell frames apart (valid: the file's name itself)");
     }
-    std::map<std::pair<int, std::string>, std::string> names;
-    for (size_t i = 0; files.from_disk && i < files.items.size(); ++i) {
-        const Item& item = files.items[i];
-        const auto [known, is_new] =
-            names.emplace(std::pair(item.frame, item.view), files.names[i]);
-        if (!is_new) {
-            throw std::runtime_error("\"" + known->second + "\" and \"" + files.names[i] +
-                                     "\" are both frame " + std::to_string(item.frame) + " of \"" +
-                                     pattern +
-                                     "\" (valid: one file for each number; more # or @ "
-                                     "for more digits)");
-        }
-    }
+    check_each_once(pattern, files);
     if (!files.narrow.empty()) {
         throw std::runtime_error(
             "\"" + files.narrow.front() + "\" has fewer digits than \"" + pattern +

@@ -40,8 +40,10 @@ struct Files {
 Files list_files(const std::string& pattern, const PatternOptions& options);
 
 /// A runtime_error where it is not certain which file has which number: two have one number, a
-/// number is beyond an int, or there are files of the same name with fewer digits.
-void check_numbers(const std::string& pattern, const Files& files);
+/// number is beyond an int, or there are files of the same name with fewer digits. For the files of
+/// a range the disk is looked at for others that have one of its numbers.
+void check_numbers(const std::string& pattern, const Files& files,
+                   const PatternOptions& options = {});
 
 /// The pattern with the numbers and views of `items`.
 std::vector<std::string> file_names(const std::string& pattern, const PatternOptions& options,

@@ -251,6 +251,106 @@ def test_files_on_the_disk_are_names(tonetool, pair_of_shots, make_image):
     assert "v.7.exr\" has fewer digits" in tonetool("v.#.exr", "v.#.exr", "--diff", status=1).err
 
 
+@pytest.fixture
+def views(make_image, tmp_path):
+    """r.left.0001.exr and r.right.0001.exr, and as many tests, of which the right one is another."""
+    for view, seed in (("left", 1), ("right", 2)):
+        make_image(f"r.{view}.0001.exr", seed=seed)
+        make_image(f"t.{view}.0001.exr", seed=1)
+    return tmp_path
+
+
+@pytest.mark.usefixtures("views")
+@pytest.mark.parametrize("number", ["#", "0001"])
+@pytest.mark.parametrize("asked", ["left,rihgt", "rihgt,left"])
+def test_a_view_without_a_file_is_missing(tonetool, number, asked):
+    words = [f"r.%V.{number}.exr", f"t.%V.{number}.exr", FLIP]
+    ran = tonetool("--views", asked, *words, status=1)
+    assert "rihgt" in ran.err and "1 missing, 1 passed" in ran.out
+    assert "check: passed, 1 frame" in tonetool("--views", "left", *words).out
+    assert "1 failed, 1 passed" in tonetool(*words, status=3).out
+
+
+def test_a_view_that_all_lack_is_missing(tonetool, views):
+    for name in "rt":
+        (views / f"{name}.right.0001.exr").unlink()
+    ran = tonetool("r.%V.#.exr", "t.%V.#.exr", FLIP, status=1)
+    assert 'no file "r.right.0001.exr"' in ran.err
+
+
+@pytest.mark.usefixtures("views")
+@pytest.mark.parametrize("asked, words, text", [
+    ("left,right", ["r.left.#.exr", "t.left.#.exr"], "no image that is read has a view"),
+    ("left,right", ["r.left.0001.exr", "t.left.0001.exr"], "no image that is read has a view"),
+    ("left,left", ["r.%V.1#.exr", "t.%V.1#.exr"], "is there twice"),
+    ("left,", ["r.%V.#.exr", "t.%V.#.exr"], "a view has no name"),
+])
+def test_views_that_hold_for_nothing(tonetool, asked, words, text):
+    ran = tonetool("--views", asked, *words, FLIP, status=1)
+    assert f"--views {asked}: " in ran.err and text in ran.err and "check:" not in ran.out
+
+
+def test_two_views_of_one_file(tonetool, make_image):
+    for name in "rt":
+        make_image(f"{name}_l.0001.exr")
+    words = ["r_%v.#.exr", "t_%v.#.exr", FLIP]
+    ran = tonetool("--views", "left,lower", *words, status=1)
+    assert "is the file of two views, left and lower" in ran.err and "check:" not in ran.out
+    tonetool("--views", "left", *words)
+
+
+def test_two_numbers_are_no_step(tonetool, pair_of_shots, make_image):
+    for name in "rt":
+        (pair_of_shots / f"{name}.0002.exr").unlink()
+    ran = tonetool(*SHOTS, FLIP, status=1)
+    assert 'no file "r.0002.exr"' in ran.err and "1 missing, 2 passed" in ran.out
+    (pair_of_shots / "t.0003.exr").unlink()
+    assert "2 missing, 1 passed" in tonetool(*SHOTS, FLIP, status=1).out
+    tonetool("--frames", "1", *SHOTS, FLIP)
+    for name, frame in (("t", 3), ("r", 5), ("t", 5)):
+        make_image(f"{name}.{frame:04d}.exr", seed=frame)
+    assert "check: passed, 3 frames" in tonetool(*SHOTS, FLIP).out
+
+
+MADE = ["--create", "4x4", "3", "--create", "4x4", "3",
+        "--hdrflip:fail=0.1:print=0:startExposure=0:stopExposure=1"]
+
+
+@pytest.mark.parametrize("more", [[], ["-o", "map.#.exr"], ["-o", "map.{FRAME_NUMBER}.exr"],
+                                  ["--echo", "{FRAME_NUMBER}"], ["--json", "{FRAME_NUMBER}.json"]])
+def test_frames_of_which_nothing_depends_on_the_frame(tonetool, tmp_path, more):
+    ran = tonetool("--frames", "1-3", *MADE, *more, status=1)
+    assert "nothing that makes an image depends on the frame" in ran.err
+    assert "check:" not in ran.out and not list(tmp_path.iterdir())
+
+
+def test_frames_that_an_expression_makes(tonetool):
+    ran = tonetool("--frames", "1-3", *MADE[:3], "--addc", "{FRAME_NUMBER}", *MADE[3:6], "--addc",
+                   "{FRAME_NUMBER}", MADE[6])
+    assert "check: passed, 3 frames" in ran.out
+
+
+@pytest.mark.usefixtures("pair_of_shots")
+@pytest.mark.parametrize("more", [["-o", "map.{FRAME_NUMBER}.exr"], ["--echo", "{FRAME_NUMBER}"],
+                                  ["--if", "{1+1}", "--endif"]])
+def test_an_expression_that_makes_no_image_excuses_no_stills(tonetool, more):
+    ran = tonetool("--frames", "1-3", "r.0001.exr", "t.0001.exr", FLIP, *more, status=1)
+    assert "no image that is read has a wildcard" in ran.err and "check:" not in ran.out
+
+
+def test_two_files_of_one_number_are_seen_beside_a_range_too(tonetool, make_image):
+    for name in ("r.1", "r.2", "t.1", "t.2"):
+        make_image(f"{name}.exr")
+    words = ["r.@.exr", "t.@.exr", FLIP]
+    tonetool("--frames", "1-2", *words)
+    make_image("r.0001.exr", seed=9)
+    for numbers in (["--frames", "1-2"], []):
+        ran = tonetool(*numbers, *words, status=1)
+        assert "are both frame 1" in ran.err and "check:" not in ran.out
+    assert "are both frame 1" in tonetool("r.1-2@.exr", *words[1:], status=1).err
+    tonetool("--frames", "2", *words)
+
+
 def test_exposures_of_other_files_are_warned_of(tonetool, pair_of_shots, make_image):
     tonetool(*SHOTS, "--hdrflip:exposures=shot", "--statistics", "range.json")
     tonetool("--warnings-exit", "--frames", "1", *SHOTS, FLIP + ":exposures=range.json")

@@ -82,6 +82,25 @@ TEST_F(OnDisk, Names_that_do_not_tell_frames_apart_are_refused) {
     EXPECT_EQ(refusal_of(listed("s.%V.exr", {"s.left.exr", "s.right.exr"})), "");
 }
 
+TEST_F(OnDisk, A_range_hides_no_second_file_of_its_numbers) {
+    listed("d.@.exr", {"d.0001.exr", "d.1.exr", "d.2.exr", "n.0003.exr", "n.3.exr"});
+    const auto refusal = [&](const std::string& name, const std::string& frames) {
+        PatternOptions options;
+        options.frames = frames;
+        const std::string pattern = (m_folder / name).string();
+        try {
+            check_numbers(pattern, list_files(pattern, options), options);
+        } catch (const std::runtime_error& problem) {
+            return std::string(problem.what());
+        }
+        return std::string();
+    };
+    EXPECT_THAT(refusal("d.@.exr", "1-2"), HasSubstr("are both frame 1"));
+    EXPECT_THAT(refusal("d.1-2@.exr", ""), HasSubstr("are both frame 1"));
+    EXPECT_EQ(refusal("d.@.exr", "2-9"), "");
+    EXPECT_EQ(refusal("n.#.exr", "3"), ""); // four digits are meant
+}
+
 TEST_F(OnDisk, Nothing_where_nothing_is) {
     EXPECT_THAT(listed("a.#.exr", {}).names, IsEmpty());
     EXPECT_THAT(listed("none/a.#.exr", {}).names, IsEmpty());
