@@ -1,18 +1,106 @@
 #include "runs/check_end.h"
 
 #include <OpenImageIO/filesystem.h>
+#include <filesystem>
 #include <ostream>
 
 #include "runs/loop.h"
 #include "sequence/check_files.h"
+#include "sequence/file_stamp.h"
 #include "sequence/merge.h"
 #include "sequence/qc.h"
 #include "sequence/report_files.h"
 #include "sequence/shot_exposures.h"
 #include "text/error.h"
 #include "text/printable.h"
+#include "text/token.h"
 
 namespace tonetool::runs {
+
+namespace {
+
+std::string normal(const std::string& file) {
+    return std::filesystem::path(file).lexically_normal().string();
+}
+
+// A file that is written at the end, and what is in its place before.
+struct EndFile {
+    std::string command, file; // "json", and its argument
+    std::string path;
+    sequence::Stamp stamp;
+
+    bool is(const std::string& other) const {
+        if (path == normal(other)) {
+            return true;
+        }
+        const sequence::Stamp found = sequence::stamp_of(stamp.inode == 0 ? "" : other);
+        return found.inode != 0 && found.inode == stamp.inode && found.device == stamp.device;
+    }
+    [[noreturn]] void refuse(const std::string& other, const std::string& why) const {
+        throw CommandError("--" + command + ": \"" + file + "\" " +
+                           (file == other ? "" : "is the file \"" + other + "\", which ") + why +
+                           " (valid: a file of its own)");
+    }
+};
+
+std::vector<EndFile> places_of(const CheckPlan& check) {
+    std::vector<EndFile> places;
+    for (const auto& [command, file] : check.written()) {
+        const bool is_file = command != "merge" && command != "state" && command != "pictures";
+        if (is_file && file != "-") {
+            places.push_back({command, file, normal(file), sequence::stamp_of(file)});
+        }
+    }
+    return places;
+}
+
+// The names of files that are read, images and others.
+Strings files_read(const CheckPlan& check, const Strings& words) {
+    Strings files = words_at(words, check.inputs);
+    for (const LeadWord& lead : lead_words(words)) {
+        if (!lead.row) {
+            continue;
+        }
+        const Token token = parse_token(words[lead.at], true);
+        for (size_t i = 0; i < lead.arguments.size() && !lead.row->writes(); ++i) {
+            if (chain::names_file(lead.row->args[token.value.size() + i])) {
+                files.push_back(words[lead.arguments[i]]);
+            }
+        }
+        for (const auto& [key, text] : token.modifiers) {
+            for (const chain::Modifier& modifier : lead.row->modifiers) {
+                if (modifier.key == key && chain::names_file(modifier.hint)) {
+                    files.push_back(text);
+                }
+            }
+        }
+    }
+    return files;
+}
+
+} // namespace
+
+void refuse_to_write_over(const CheckPlan& check, const Strings& words) {
+    const std::vector<EndFile> places = places_of(check);
+    if (places.empty()) {
+        return;
+    }
+    const Strings read = files_read(check, words), outputs = words_at(words, check.outputs);
+    for (const EndFile& place : places) {
+        for (const std::string& file : read) {
+            // The JSON of a check has the exposures that were read of it.
+            const bool keeps = place.command == "json" && file == check.exposures;
+            if (!keeps && place.is(file)) {
+                place.refuse(file, "is read, and would be written over");
+            }
+        }
+        for (const std::string& file : outputs) {
+            if (place.is(file)) {
+                place.refuse(file, "is written as an image, too");
+            }
+        }
+    }
+}
 
 Strings words_at(const Strings& words, const std::vector<size_t>& places) {
     Strings found;
@@ -23,22 +111,32 @@ Strings words_at(const Strings& words, const std::vector<size_t>& places) {
 }
 
 bool draws(const CheckPlan& check) {
-    return check.has("report") || check.has("contactsheet") || check.has("pictures");
+    return !check.dry_run &&
+           (check.has("report") || check.has("contactsheet") || check.has("pictures"));
 }
 
 std::string picture_folder(const CheckPlan& check) {
-    return check.has("pictures")                ? check.argument("pictures")
+    return check.dry_run                        ? ""
+           : check.has("pictures")              ? check.argument("pictures")
            : check.has("state") && draws(check) ? check.argument("state") + "/pictures"
                                                 : "";
+}
+
+void write_statistics(const CheckPlan& check, const std::string& text) {
+    const sequence::CheckFiles files = check.written();
+    const auto file = files.find("statistics");
+    if (file != files.end()) {
+        sequence::write_text(text, file->second);
+    }
 }
 
 int conclude_check(const sequence::ShotResult& shot, const FramePlan& plan,
                    const sequence::PictureStore& pictures, std::ostream& out, std::ostream& err) {
     out << sequence::faults_text(shot);
     out << "check: " << status_name(shot.verdict) << ", " << printable(shot.sentence) << std::endl;
-    Strings errors = sequence::write_results(shot, plan.check.words);
-    for (const std::string& complaint :
-         sequence::write_reports(shot, pictures, plan.check.words, errors)) {
+    const sequence::CheckFiles files = plan.check.written();
+    Strings errors = sequence::write_results(shot, files);
+    for (const std::string& complaint : sequence::write_reports(shot, pictures, files, errors)) {
         err << "tonetool WARNING: " << printable(complaint) << '\n';
     }
     for (const std::string& error : errors) {
@@ -57,8 +155,9 @@ int merge_parts(const Strings& words, const FramePlan& plan, std::ostream& out, 
                            "--csv and the like)");
     }
     sequence::check_places(check.words);
+    refuse_to_write_over(check, words);
     if (check.has("statistics")) {
-        sequence::write_text(sequence::merged_exposures(parts), check.argument("statistics"));
+        write_statistics(check, sequence::merged_exposures(parts));
         return 0;
     }
     Strings complaints;

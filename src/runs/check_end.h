@@ -18,10 +18,17 @@ bool draws(const CheckPlan& check);
 /// Where they are kept; empty: in memory.
 std::string picture_folder(const CheckPlan& check);
 
-/// Prints the verdict of a check, then writes its files, those that can be written. The exit
-/// status.
+/// A CommandError where a file that is written at the end is one that the line, with the words of
+/// this run, reads or writes itself, by whatever name.
+void refuse_to_write_over(const CheckPlan& check, const Strings& words);
+
+/// Prints the verdict of a check, then writes its files, those that can be written: none with
+/// -n. The exit status.
 int conclude_check(const sequence::ShotResult& shot, const FramePlan& plan,
                    const sequence::PictureStore& pictures, std::ostream& out, std::ostream& err);
+
+/// The measured exposures as the file of --statistics, which -n does not write.
+void write_statistics(const CheckPlan& check, const std::string& text);
 
 /// --merge: the results of parts of a shot as one.
 int merge_parts(const Strings& words, const FramePlan& plan, std::ostream& out, std::ostream& err);

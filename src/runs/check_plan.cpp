@@ -42,8 +42,10 @@ private:
         const Command& row = *lead.row;
         const size_t at = lead.at;
         const std::string& name = row.names.front();
-        const bool check = row.group == Group::Check, manner = check || row.manner;
+        const bool check = row.group == Group::Check;
+        const bool manner = check || row.manner || name == "n";
         note_blocks(name);
+        m_plan.dry_run |= name == "n";
         note_what_is_judged(row, at);
         if (!manner) {
             keep(at, with_shot_exposures(m_words[at]));
@@ -91,6 +93,11 @@ private:
         const std::string argument = lead.arguments.empty() ? "" : m_words[lead.arguments.front()];
         if (!arguments.empty() && (lead.arguments.empty() || is_known_command(argument))) {
             throw CommandError("--" + name + ": missing argument " + arguments.front());
+        }
+        if (!arguments.empty() && argument.empty()) {
+            throw CommandError("--" + name + ": " + arguments.front() +
+                               " is empty (valid: a name, --" + name + " " + arguments.front() +
+                               ")");
         }
         if (!m_plan.words.emplace(name, argument).second) {
             throw CommandError("--" + name + " is given twice");
@@ -177,6 +184,16 @@ private:
 };
 
 } // namespace
+
+std::map<std::string, std::string> CheckPlan::written() const {
+    std::map<std::string, std::string> files;
+    for (const auto& [command, file] : words) {
+        if (!dry_run || file == "-") {
+            files.emplace(command, file);
+        }
+    }
+    return files;
+}
 
 bool CheckPlan::is_input(size_t at) const {
     return std::find(inputs.begin(), inputs.end(), at) != inputs.end();

@@ -22,6 +22,7 @@ struct CheckPlan {
     std::vector<size_t> always_written;       ///< and of those that write one in every frame
     bool compares = false;                    ///< a command compares images
     bool has_limits = false;                  ///< one has fail= or warn=, or is --diff
+    bool dry_run = false;                     ///< -n: no file is written
     /// The words without those that say which frames, where to and how fast; and where they are.
     Strings essence;
     std::vector<size_t> essence_at;
@@ -29,6 +30,8 @@ struct CheckPlan {
 
     bool has(const std::string& word) const { return words.count(word) > 0; }
     std::string argument(const std::string& word) const { return has(word) ? words.at(word) : ""; }
+    /// The words that are followed: with -n those that print to the standard output.
+    std::map<std::string, std::string> written() const;
     /// Frames are paired by number, and what is wrong with one is a result.
     bool is_check() const { return !words.empty() && !has("statistics") && !has("merge"); }
     /// Something is passed or not: what was not compared must not be passed.

@@ -83,7 +83,10 @@ int PlanRun::check() {
 void PlanRun::prepare() {
     const CheckPlan& check = m_plan.check;
     sequence::check_places(check.words);
-    if (check.has("state")) {
+    for (const FrameRun& run : m_plan.runs) {
+        refuse_to_write_over(check, run.words);
+    }
+    if (check.has("state") && !check.dry_run) {
         m_state.emplace(check.argument("state"), "frame");
         m_sample_state.emplace(check.argument("state"), "exposures");
     }
@@ -135,7 +138,7 @@ int PlanRun::find_exposures() {
     const int status = loop(alone ? m_err : nowhere, frames, true);
     const sequence::ExposureSamples samples = frames.samples();
     if (alone) {
-        sequence::write_text(sequence::to_json(samples), m_plan.check.argument("statistics"));
+        write_statistics(m_plan.check, sequence::to_json(samples));
         return status;
     }
     if (samples.empty() && !frames.first_error().empty()) {

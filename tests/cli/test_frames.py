@@ -351,6 +351,62 @@ def test_two_files_of_one_number_are_seen_beside_a_range_too(tonetool, make_imag
     tonetool("--frames", "2", *words)
 
 
+@pytest.mark.parametrize("command", ["json", "csv", "junit", "report", "contactsheet",
+                                     "statistics"])
+@pytest.mark.parametrize("file", ["t.0001.exr", "./t.0001.exr", "link.exr", "hard.exr"])
+def test_what_is_written_at_the_end_is_no_input(tonetool, pair_of_shots, command, file):
+    (pair_of_shots / "link.exr").symlink_to("t.0001.exr")
+    os.link(pair_of_shots / "t.0001.exr", pair_of_shots / "hard.exr")
+    before = (pair_of_shots / "t.0001.exr").read_bytes()
+    for words in (SHOTS, ["r.0001.exr", "t.0001.exr"]):
+        ran = tonetool(*words, FLIP + ":exposures=shot", f"--{command}", file, status=1)
+        assert f'--{command}: "{file}" is ' in ran.err and "written over" in ran.err
+        assert "check:" not in ran.out and (pair_of_shots / "t.0001.exr").read_bytes() == before
+
+
+@pytest.mark.usefixtures("pair_of_shots")
+def test_what_is_written_at_the_end_is_no_output_and_no_other_file_that_is_read(tonetool, tmp_path):
+    pair = ["--frames", "1", *SHOTS, FLIP]
+    assert "is written as an image, too" in tonetool(*pair, "-o", "map.1.exr", "--contactsheet",
+                                                     "map.1.exr", status=1).err
+    tonetool(*pair, "--json", "a.json")
+    assert "is read, and" in tonetool("--merge", "a.json", "--json", "./a.json", status=1).err
+    shot = ["--frames", "1", *SHOTS, FLIP + ":exposures=a.json"]
+    tonetool("--frames", "1", *SHOTS, FLIP + ":exposures=shot", "--json", "a.json")
+    assert "is read, and" in tonetool(*shot, "--csv", "a.json", status=1).err
+    tonetool(*shot, "--json", "a.json")
+    (tmp_path / "a.tone").write_text("no recipe", encoding="ascii")
+    assert "is read, and" in tonetool(*pair, "--colorconfig", "a.tone", "--csv", "a.tone",
+                                      status=1).err
+
+
+@pytest.mark.usefixtures("pair_of_shots")
+def test_a_dry_run_writes_nothing_and_has_the_verdict(tonetool, tmp_path):
+    before = sorted(tmp_path.rglob("*"))
+    files = ["--json", "c.json", "--csv", "c.csv", "--junit", "c.xml", "--report", "c.html",
+             "--contactsheet", "c.png", "--pictures", "p", "--state", "s"]
+    for words in (["-n", *SHOTS, FLIP, *files, "-o", "map.#.exr"], [*SHOTS, FLIP, *files, "-n"]):
+        ran = tonetool(*words, status=3)
+        assert "check: failed, 3 frames: 1 failed, 2 passed" in ran.out
+        assert sorted(tmp_path.rglob("*")) == before
+    tonetool("-n", *SHOTS, FLIP + ":exposures=shot", "--statistics", "range.json")
+    assert sorted(tmp_path.rglob("*")) == before
+    assert json.loads(tonetool("-n", *SHOTS, FLIP, "--json", "-", status=3).out)["frames"]
+    tonetool(*SHOTS, FLIP, "--json", "part.json", status=3)
+    tonetool("-n", "--merge", "part.json", "--json", "whole.json", status=3)
+    assert not (tmp_path / "whole.json").exists()
+
+
+@pytest.mark.usefixtures("pair_of_shots")
+@pytest.mark.parametrize("command", ["json", "csv", "junit", "report", "contactsheet", "pictures",
+                                     "state", "statistics"])
+def test_a_file_without_a_name_is_refused_before_the_work(tonetool, command):
+    for words in ([f"--{command}="], [f"--{command}", ""]):
+        ran = tonetool(*SHOTS, FLIP + ":exposures=shot", *words, status=1)
+        assert f"--{command}: " in ran.err and "is empty (valid: a name" in ran.err
+        assert "check:" not in ran.out
+
+
 def test_exposures_of_other_files_are_warned_of(tonetool, pair_of_shots, make_image):
     tonetool(*SHOTS, "--hdrflip:exposures=shot", "--statistics", "range.json")
     tonetool("--warnings-exit", "--frames", "1", *SHOTS, FLIP + ":exposures=range.json")
