@@ -85,6 +85,14 @@ void inspect_if_asked(Session& session, const Image& image) {
     }
 }
 
+// A recipe's run has no other place to say it; an image that was made of one says it no more.
+void warn_as_the_recipe_did(Session& session, const Image& image) {
+    const std::string said = image.part().header().get_string_attribute("tone:warnings");
+    if (!said.empty() && image.file_format() == "tone") {
+        session.warning("read", "\"" + image.name() + "\": " + said);
+    }
+}
+
 } // namespace
 
 void push_file(Session& session, const std::string& filename) {
@@ -99,6 +107,7 @@ void push_file(Session& session, const std::string& filename) {
     }
     session.push(image);
     if (real) {
+        warn_as_the_recipe_did(session, *image);
         inspect_if_asked(session, *image);
     }
     if (session.autoorient) {

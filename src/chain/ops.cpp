@@ -116,11 +116,15 @@ Floats Op::per_value(const std::string& what, const std::string& words, float re
         values.resize(count, values.size() == 1 ? values.front() : rest);
         return values;
     }
-    const Strings given = split(words, ',');
-    if (given.size() > count && given.size() > 1) {
-        throw CommandError(what + " \"" + words + "\" has " + std::to_string(given.size()) +
-                           " numbers (valid: one, or up to " + std::to_string(count) +
-                           " for the channels of this image)");
+    Strings given = split(words, ',');
+    if (given.size() > count && given.size() > 1) { // a colour of a mask, as oiiotool takes it
+        session.warning(call.row().label(),
+                        what + " \"" + words + "\" has " + std::to_string(given.size()) +
+                            " numbers, of which the image's channels use " + std::to_string(count));
+        for (const std::string& word : given) {
+            (void)list(what, OIIO::Strutil::strip(word).empty() ? "0" : word);
+        }
+        given.resize(std::max<size_t>(count, 1));
     }
     if (given.size() == 1) {
         return Floats(count, list(what, words).front());

@@ -62,7 +62,7 @@ void add_assigned(Selection& selection, const OIIO::ImageSpec& spec, const std::
 int channel_index(const OIIO::ImageSpec& spec, const std::string& name) {
     int index = spec.channelindex(name);
     for (int c = 0; index < 0 && c < spec.nchannels; ++c) {
-        if (OIIO::Strutil::iequals(spec.channelnames[static_cast<size_t>(c)], name)) {
+        if (OIIO::Strutil::iequals(std::string(spec.channel_name(c)), name)) {
             index = c;
         }
     }

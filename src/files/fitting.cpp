@@ -43,7 +43,7 @@ bool tells_channels_apart(const OIIO::ImageOutput& writer) {
 }
 
 bool is_alpha(const OIIO::ImageSpec& spec, int channel) {
-    const std::string name = spec.channelnames[size_t(channel)];
+    const std::string name = std::string(spec.channel_name(channel));
     const std::string last = name.substr(name.rfind('.') + 1); // npos + 1 is 0
     return channel == spec.alpha_channel || OIIO::Strutil::iequals(last, "a") ||
            OIIO::Strutil::iequals(last, "alpha");
@@ -132,7 +132,7 @@ void fit_channels(Outgoing& image, const OIIO::ImageOutput& writer, const Writer
                 : picture_channels(spec, oiio::format_supports(writer, "alpha") ? 4 : 3, mapped);
     Strings names;
     for (int index : chosen) {
-        names.push_back(spec.channelnames[static_cast<size_t>(index)]);
+        names.push_back(std::string(spec.channel_name(index)));
     }
     // What was tone mapped is what is to be seen.
     if (!mapped) {

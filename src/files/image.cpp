@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "imagebuf/allocation.h"
+#include "imagebuf/cut_file.h"
 #include "imagebuf/oiio_compat.h"
 #include "include/tonetool/color_tags.h"
 #include "text/error.h"
@@ -52,6 +53,15 @@ std::unique_ptr<OIIO::ImageInput> open_input(const std::string& filename, const 
         throw CommandError(why.empty() ? "cannot read \"" + filename + "\""
                            : named     ? why
                                        : "\"" + filename + "\": " + why);
+    }
+    return input;
+}
+
+// To read its pixels.
+std::unique_ptr<OIIO::ImageInput> open_whole(const std::string& filename, const ReadOptions& how) {
+    auto input = open_input(filename, how);
+    if (const std::string why = bytes_missing(*input, filename); !why.empty()) {
+        throw ReadError(filename, why);
     }
     return input;
 }
@@ -160,7 +170,7 @@ void Part::check_unchanged() const {
 
 void Part::read(int level) {
     check_unchanged();
-    auto input = open_input(m_file, m_how);
+    auto input = open_whole(m_file, m_how);
     OIIO::ImageSpec spec = header(level);
     const OIIO::ImageSpec now = input->spec(m_subimage, level);
     if (now.roi() != spec.roi() || now.deep != spec.deep) {
@@ -208,10 +218,11 @@ OIIO::ImageBuf Part::color_view(int begin, int end) {
         return color_view();
     }
     check_unchanged();
-    auto input = open_input(m_file, m_how);
+    auto input = open_whole(m_file, m_how);
     OIIO::ImageSpec spec = header();
     spec.set_format(OIIO::TypeFloat);
     spec.nchannels = end - begin;
+    spec.channelnames.resize(size_t(header().nchannels)); // some readers name fewer
     spec.channelnames = {spec.channelnames.begin() + begin, spec.channelnames.begin() + end};
     spec.alpha_channel = spec.z_channel = -1;
     tag_encoding(spec);
@@ -228,7 +239,9 @@ OIIO::ImageBuf Part::color_source() {
         return color_view();
     }
     check_unchanged();
-    m_cache = oiio::make_header_cache();
+    if (!m_cache) { // what was given away before still asks it
+        m_cache = oiio::make_header_cache();
+    }
     OIIO::ImageBuf buffer = oiio::unread_file(m_file, m_subimage, m_cache);
     return buffer.has_error() || buffer.spec().roi() != header().roi() ? color_view()
                                                                        : std::move(buffer);

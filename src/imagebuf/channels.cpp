@@ -99,16 +99,16 @@ bool is_alpha(const std::string& channel) {
 
 // The alpha beside a channel of this layer, -1 if there is none.
 int alpha_beside(const OIIO::ImageSpec& spec, int channel) {
-    const std::string prefix = prefix_of(spec.channelnames[size_t(channel)]);
+    const std::string prefix = prefix_of(std::string(spec.channel_name(channel)));
     for (int i = 0; i < spec.nchannels; ++i)
-        if (i != channel && is_alpha(spec.channelnames[size_t(i)]) &&
-            prefix_of(spec.channelnames[size_t(i)]) == prefix)
+        if (i != channel && is_alpha(std::string(spec.channel_name(i))) &&
+            prefix_of(std::string(spec.channel_name(i))) == prefix)
             return i;
     return -1;
 }
 
 Layer grey_layer(const OIIO::ImageSpec& spec, int channel) {
-    const std::string& name = spec.channelnames[size_t(channel)];
+    const std::string name(spec.channel_name(channel));
     const std::string prefix = prefix_of(name), last = last_part(name);
     const bool plain = prefix.empty() && (last == "y" || component(last) >= 0);
     Layer layer{plain ? "" : prefix.empty() ? name : prefix, part_of(spec), {}, false};
@@ -123,16 +123,18 @@ Layer grey_layer(const OIIO::ImageSpec& spec, int channel) {
 std::vector<Layer> grey_picture(const OIIO::ImageSpec& spec) {
     std::vector<int> channels;
     for (int i = 0; i < spec.nchannels; ++i)
-        if (spec.nchannels == 1 || !is_alpha(spec.channelnames[size_t(i)]))
+        if (spec.nchannels == 1 || !is_alpha(std::string(spec.channel_name(i))))
             channels.push_back(i);
     const auto plain = [&](const char* name) {
-        return std::find_if(channels.begin(), channels.end(),
-                            [&](int i) { return lower(spec.channelnames[size_t(i)]) == name; });
+        return std::find_if(channels.begin(), channels.end(), [&](int i) {
+            return lower(std::string(spec.channel_name(i))) == name;
+        });
     };
     if (channels.size() > 1) {
         const auto none = channels.end();
+        // FITS readers name one channel of several.
         const bool grey = plain("y") != none && plain("x") == none && plain("u") == none &&
-                          plain("ry") == none && plain("by") == none;
+                          plain("ry") == none && plain("by") == none && plain("") == none;
         channels = grey ? std::vector<int>{*plain("y")} : std::vector<int>{};
     }
     return channels.empty() ? std::vector<Layer>{}
@@ -141,7 +143,7 @@ std::vector<Layer> grey_picture(const OIIO::ImageSpec& spec) {
 
 // Whether a picture of one channel holds light by its names: "Z" and "uv.u" do not.
 bool is_grey_picture(const OIIO::ImageSpec& spec, const Layer& layer) {
-    const std::string last = last_part(spec.channelnames[size_t(layer.channel[0])]);
+    const std::string last = last_part(std::string(spec.channel_name(layer.channel[0])));
     static const std::vector<std::string> data = {"z", "x", "u", "v", "w", "t", "i", "id"};
     return is_picture(layer) && std::find(data.begin(), data.end(), last) == data.end() &&
            kind_of_layer(last) == AovKind::Light;
@@ -193,7 +195,7 @@ std::vector<Layer> named_grey(const OIIO::ImageSpec& spec, const std::string& na
     std::map<std::string, std::vector<int>> channels; // of each layer, but alpha
     std::vector<Layer> exact, any_case;
     for (int i = 0; i < spec.nchannels; ++i) {
-        const std::string& full = spec.channelnames[size_t(i)];
+        const std::string& full = std::string(spec.channel_name(i));
         if (!is_alpha(full) || full == name)
             channels[prefix_of(full)].push_back(i);
         if (lower(full) == lower(name))
@@ -227,7 +229,7 @@ std::string asked_as(const Layer& layer) {
 }
 
 std::string data_text(const OIIO::ImageSpec& spec, const Layer& layer) {
-    const std::string channel = spec.channelnames[size_t(layer.channel[0])];
+    const std::string channel = std::string(spec.channel_name(layer.channel[0]));
     const bool grey = layer.channel[0] == layer.channel[1];
     AovKind kind = layer.kind();
     if (kind == AovKind::Light)

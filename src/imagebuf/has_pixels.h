@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "imagebuf/allocation.h"
+#include "imagebuf/cut_file.h"
 #include "imagebuf/oiio_compat.h"
 
 namespace tonetool {
@@ -42,6 +43,8 @@ inline bool read_whole(const OIIO::ImageBuf& image, OIIO::TypeDesc type, OIIO::I
     const auto in = OIIO::ImageInput::open(std::string(image.name()));
     if (!in)
         return fail(OIIO::geterror());
+    if (const std::string why = bytes_missing(*in, std::string(image.name())); !why.empty())
+        return fail(why);
     OIIO::ImageSpec spec = image.spec();
     const OIIO::ImageSpec now = in->spec(image.subimage(), image.miplevel());
     if (now.roi() != spec.roi() || now.deep || spec.deep)

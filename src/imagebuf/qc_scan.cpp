@@ -113,7 +113,7 @@ void QcScan::list_layers() {
 }
 
 QcScan::Layer QcScan::lone_layer(int channel) const {
-    const std::string& name = m_spec.channelnames[size_t(channel)];
+    const std::string name(m_spec.channel_name(channel));
     OIIO::ImageSpec one(1, 1, 1, OIIO::TypeFloat);
     one.channelnames = {name};
     const Place place = place_of(channel);

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "imagebuf/allocation.h"
+#include "imagebuf/cut_file.h"
 #include "imagebuf/has_pixels.h"
 #include "imagebuf/oiio_compat.h"
 #include "imagebuf/rows_together.h"
@@ -74,6 +75,9 @@ bool RowSource::open_file(std::string& error) {
         error = OIIO::geterror();
         return false;
     }
+    error = bytes_missing(*m_input, name);
+    if (!error.empty())
+        return false;
     m_spec = m_input->spec(m_image->subimage(), m_image->miplevel());
     m_format = m_input->format_name();
     if (!same_pixels(m_spec, m_image->spec())) {

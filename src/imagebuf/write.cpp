@@ -83,6 +83,18 @@ size_t count_subimages(const std::vector<OutputImage>& images) {
                                 [](const OutputImage& image) { return !image.mip_level; }));
 }
 
+// The WebP writer (OpenImageIO 2.4) frees memory that it never had when it refuses an image.
+bool takes_image(const OIIO::ImageOutput& out, const OIIO::ImageSpec& spec, std::string& error) {
+    constexpr int most = 16383; // of the format
+    const bool webp = std::strcmp(out.format_name(), "webp") == 0;
+    if (webp && (spec.nchannels < 3 || spec.nchannels > 4))
+        error = format("webp files have 3 or 4 channels, the image has {}", spec.nchannels);
+    else if (webp && (spec.width > most || spec.height > most))
+        error = format("webp files have at most {} x {} pixels, the image has {} x {}", most, most,
+                       spec.width, spec.height);
+    return error.empty();
+}
+
 bool check_images(const std::vector<OutputImage>& images, const OIIO::ImageOutput& out,
                   std::string& error) {
     if (images.empty()) {
@@ -103,6 +115,10 @@ bool check_images(const std::vector<OutputImage>& images, const OIIO::ImageOutpu
             error = "the spec to write does not have the image's size and channels";
             return false;
         }
+    error.clear();
+    for (const OutputImage& image : images)
+        if (!takes_image(out, image.spec, error))
+            return false;
     if (count_subimages(images) > 1 && !out.supports("multiimage")) {
         error = format("{} files hold one image, there are {}", out.format_name(), images.size());
         return false;

@@ -3,10 +3,13 @@
 // windows, channels or parts differ, and parts that it does not look at.
 #include <OpenImageIO/imagebufalgo.h>
 #include <OpenImageIO/strutil.h>
+#include <algorithm>
+#include <cmath>
 #include <limits>
 #include <ostream>
 
 #include "files/unlike.h"
+#include "include/tonetool/color_tags.h"
 #include "measure/check_part.h"
 #include "measure/color_input.h"
 #include "measure/commands.h"
@@ -143,6 +146,37 @@ void add(Results& found, const files::Unlike& unlike) {
     found.maxc = unlike.channel;
 }
 
+// Pixels that differ by more than `limit` where the perceptual comparison does not look: in the
+// channels behind its three, and beside a NaN or Inf.
+OIIO::imagesize_t unseen_differences(const OIIO::ImageBuf& a, const OIIO::ImageBuf& b,
+                                     float limit) {
+    constexpr int looked_at = 3;
+    const OIIO::ROI all = a.roi();
+    const size_t channels = size_t(a.nchannels());
+    std::vector<float> values_of_a(size_t(all.width()) * channels), values_of_b(values_of_a.size());
+    OIIO::imagesize_t pixels = 0;
+    for (int y = all.ybegin; y < all.yend; ++y) {
+        OIIO::ROI row = all;
+        row.ybegin = y;
+        row.yend = y + 1;
+        a.get_pixels(row, OIIO::TypeFloat, values_of_a.data());
+        b.get_pixels(row, OIIO::TypeFloat, values_of_b.data());
+        for (size_t at = 0; at < values_of_a.size(); at += channels) {
+            const float *one = &values_of_a[at], *other = &values_of_b[at];
+            const auto finite = [](float value) { return std::isfinite(value); };
+            const size_t colors = std::min<size_t>(channels, looked_at);
+            const bool seen = std::all_of(one, one + colors, finite) &&
+                              std::all_of(other, other + colors, finite);
+            bool differs = false;
+            for (size_t c = seen ? colors : 0; c < channels; ++c) {
+                differs = differs || std::abs(one[c] - other[c]) > limit;
+            }
+            pixels += differs ? 1 : 0;
+        }
+    }
+    return pixels;
+}
+
 // Once something differs, all that follows is reported.
 void compare_pixels(Session& session, const OIIO::ImageBuf& a, const OIIO::ImageBuf& b,
                     bool perceptual, const std::string& heading, Verdict& worst) {
@@ -156,7 +190,13 @@ void compare_pixels(Session& session, const OIIO::ImageBuf& a, const OIIO::Image
         add(found, unlike);
         verdict = judge(found, session.diff, pixels);
     }
-    record(session, found, pixels, verdict);
+    const auto unseen = perceptual && !session.compat && !a.deep() && !b.deep()
+                            ? unseen_differences(a, b, session.diff.fail)
+                            : 0;
+    Results all = found;
+    all.nfail = std::max(found.nfail, unseen);
+    verdict = unseen > 0 ? Verdict::Failure : verdict;
+    record(session, all, pixels, verdict);
     worst = std::max(worst, verdict);
     if (worst != Verdict::Pass || session.verbose) {
         session.out << heading;
@@ -166,11 +206,25 @@ void compare_pixels(Session& session, const OIIO::ImageBuf& a, const OIIO::Image
                 format("  {} pixel(s) are NaN, Inf or -Inf in one image and not in the other",
                        unlike.pixels));
         }
+        if (unseen > 0) {
+            session.print(format("  {} pixel(s) differ where --pdiff does not look: in channels "
+                                 "behind the first three, or beside a NaN or Inf",
+                                 unseen));
+        }
     }
 }
 
 std::string window_text(const OIIO::ROI& window) {
     return format("{}x{}{:+}{:+}", window.width(), window.height(), window.xbegin, window.ybegin);
+}
+
+// Of one of several parts: that of a file's only one is not what its picture is known by.
+std::string name_of_part(const OIIO::ImageSpec& spec) {
+    const std::string view = spec.get_string_attribute("view");
+    return spec.get_int_attribute("oiio:subimages") < 2
+               ? ""
+               : std::string(spec.get_string_attribute("oiio:subimagename")) +
+                     (view.empty() ? "" : " of view " + view);
 }
 
 // What makes two headers ones of different pictures, as a sentence; empty where nothing does.
@@ -195,6 +249,10 @@ std::string difference(const OIIO::ImageSpec& a, const OIIO::ImageSpec& b) {
     if (a.channelnames != b.channelnames) {
         return "Images differ in their channels (" + join(a.channelnames, ",") + " vs " +
                join(b.channelnames, ",") + ")";
+    }
+    if (name_of_part(a) != name_of_part(b)) {
+        return "Images differ in the names of their parts (" + name_of_part(a) + " vs " +
+               name_of_part(b) + ")";
     }
     if (turned(a) != turned(b)) {
         return format("Images differ in Orientation ({} vs {})", turned(a), turned(b));
@@ -272,6 +330,38 @@ Outcome compare_images(Session& session, const Image& a, const Image& b, bool pe
     return outcome;
 }
 
+// The numbers of the files are compared, whatever their headers say that these mean.
+void warn_of_unapplied(Session& session, const Call& call, const Image& image_a,
+                       const Image& image_b) {
+    const OIIO::ImageSpec &a = image_a.part().header(), &b = image_b.part().header();
+    const auto gamma = [](const OIIO::ImageSpec& spec) {
+        const double stated = stated_gamma(spec);
+        return stated > 0 ? format_number(stated) : std::string("none");
+    };
+    const auto exposure = [](const OIIO::ImageSpec& spec) {
+        return format_number(stated_exposure(spec));
+    };
+    const auto profile = [](const OIIO::ImageSpec& spec) {
+        return unapplied_profile(spec).value_or("none");
+    };
+    const auto told = [&](const char* what, const std::string& one, const std::string& other) {
+        if (one != other) {
+            session.warning(call.row().label(), std::string(what) + " is " + one +
+                                                    " in the one and " + other +
+                                                    " in the other, and is not applied");
+        }
+    };
+    const auto space = [](const OIIO::ImageSpec& spec) {
+        return spec.get_string_attribute("oiio:ColorSpace", "none");
+    };
+    told("gamma", gamma(a), gamma(b));
+    told("EXPOSURE", exposure(a), exposure(b));
+    told("the ICC profile", profile(a), profile(b));
+    if (image_a.file_format() == image_b.file_format()) { // formats have their own
+        told("the colour space", space(a), space(b));
+    }
+}
+
 // Limits that no number of pixels can exceed.
 void check_limits(const DiffLimits& limits) {
     constexpr float all = 100, unlimited = 1e30f;
@@ -295,6 +385,7 @@ void run_diff(Session& session, const Call& call) {
             session.warning(call.row().label(),
                             "\"" + a.name() + "\" and \"" + b.name() + "\" are the same file");
         }
+        warn_of_unapplied(session, call, a, b);
     }
     const Outcome outcome = compare_images(session, a, b, perceptual);
     const Verdict verdict = outcome.worst;

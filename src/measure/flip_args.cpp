@@ -120,6 +120,15 @@ private:
         return quantity.compare(0, above.size(), above) == 0 ? Scale() : m_measures.scale(quantity);
     }
 
+    // Of above=E, or of a quantity above0.2: an error that some pixel can be above.
+    void check_error_above(const std::string& text, double error) const {
+        const Scale scale = m_measures.scale("max");
+        if (error >= scale.high) {
+            throw CommandError(above + "=" + text + ": no error is above it (valid: 0 to below " +
+                               format_number(scale.high) + ")");
+        }
+    }
+
     // The name that the summary has for it.
     std::string resolved(const std::string& name) {
         const auto& names = m_measures.names;
@@ -132,6 +141,10 @@ private:
         if (!known) {
             throw CommandError("unknown quantity \"" + name + "\"" + meant(name, m_measures.names) +
                                " (valid: " + join(listed(), ", ") + ")");
+        }
+        if (known->compare(0, above.size(), above) == 0) {
+            const std::string error = known->substr(above.size());
+            check_error_above(error, parse_number(error).value());
         }
         m_pooled.push_back(*known);
         return *known;
@@ -154,10 +167,7 @@ private:
         }
         const Scale scale = m_measures.scale("max");
         const double error = checked_number("above", *text, {0, scale.high});
-        if (error == scale.high) {
-            throw CommandError("above=" + *text + ": no error is above it (valid: 0 to below " +
-                               format_number(scale.high) + ")");
-        }
+        check_error_above(*text, error);
         return ToneAlgo::flip_quantity_name(above + format_apart(error, 0))
             .value()
             .substr(above.size());

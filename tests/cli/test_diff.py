@@ -5,6 +5,7 @@ import itertools
 import json
 
 import numpy as np
+import OpenImageIO as oiio
 import pytest
 
 NUMBERS = np.random.default_rng(1).random((12, 16, 3))
@@ -78,3 +79,60 @@ def test_limits_before_a_diff_that_waits_for_its_images(tonetool, kinds):
     tonetool("--fail", "0.1", "--diff", kinds["numbers"], kinds["numbers"])
     tonetool(kinds["numbers"], kinds["numbers"], "--fail", "0.1", "--pdiff", "--fail", "0.2",
              "--diff")
+
+
+def changed(channel, value, row=5):
+    pixels = np.dstack([NUMBERS, NUMBERS])
+    pixels[row, 3, channel] = value
+    return pixels
+
+
+@pytest.mark.parametrize("channel", [3, 5])
+def test_a_perceptual_diff_passes_no_channel_that_it_does_not_look_at(tonetool, make_image, channel):
+    names = ("R", "G", "B", "A", "Z", "id")
+    a = make_image("a.exr", channels=names, pixels=np.dstack([NUMBERS, NUMBERS]))
+    b = make_image("b.exr", channels=names, pixels=changed(channel, 0.9))
+    ran = tonetool(a, b, "--pdiff", status=1)
+    assert "1 pixel(s) differ where --pdiff does not look" in ran.out and "PASS" not in ran.out
+    assert "PASS" in tonetool(a, b, "--compat", "--pdiff").out
+    tonetool(a, "--ch", "R,G,B", b, "--ch", "R,G,B", "--pdiff")
+
+
+def test_a_perceptual_diff_looks_beside_a_nan(tonetool, make_image):
+    images = []
+    for name, green in (("a.exr", 0.2), ("b.exr", 0.9)):
+        pixels = NUMBERS.copy()
+        pixels[5, 3] = np.nan, green, 0.2
+        images.append(make_image(name, pixels=pixels))
+    ran = tonetool(*images, "--pdiff", status=1)
+    assert "1 pixel(s) differ where --pdiff does not look" in ran.out
+    tonetool(images[0], images[0], "--pdiff")
+
+
+@pytest.mark.parametrize("command", ["--diff", "--pdiff"])
+@pytest.mark.parametrize("attribute", ["oiio:subimagename", "view"])
+def test_parts_of_other_names_are_other_pictures(tonetool, tmp_path, command, attribute):
+    for file, names in (("a.exr", ("left", "right")), ("b.exr", ("right", "left"))):
+        specs = []
+        for part, name in zip("01", names):
+            spec = oiio.ImageSpec(16, 12, 3, "float")
+            spec.attribute("oiio:subimagename", part)
+            spec.attribute(attribute, name)
+            specs.append(spec)
+        out = oiio.ImageOutput.create(str(tmp_path / file))
+        assert out.open(str(tmp_path / file), tuple(specs))
+        out.write_image(NUMBERS.astype(np.float32))
+        assert out.open(str(tmp_path / file), specs[1], "AppendSubimage")
+        out.write_image(NUMBERS.astype(np.float32))
+        out.close()
+    ran = tonetool("a.exr", "b.exr", command, status=1)
+    assert "differ in the names of their parts" in ran.out and "FAILURE" in ran.out
+    tonetool("a.exr", "a.exr", command)
+
+
+def test_what_headers_say_and_nobody_applies_is_said(tonetool, make_image, tmp_path):
+    a = make_image("a.hdr")
+    text = (tmp_path / a).read_bytes()
+    (tmp_path / "b.hdr").write_bytes(text.replace(b"FORMAT=", b"EXPOSURE=2\nFORMAT=", 1))
+    ran = tonetool(a, "b.hdr", "--diff", "--warnings-exit", status=2)
+    assert "EXPOSURE is 1 in the one and 2 in the other, and is not applied" in ran.err

@@ -148,6 +148,32 @@ def test_compressed_strips_of_planar_files(tonetool, make_image, tmp_path, rows)
     assert "max 0 " in tonetool("--memory", "130M", plain, "planar.tif", "--hdrflip", "-o", "map.exr").out
 
 
+@pytest.mark.parametrize("command", ["--luminancestats", "--calibrate", "--ldrflip", "--tonemap"])
+def test_a_reader_that_names_fewer_channels_than_there_are(tonetool, make_image, command):
+    cube = make_image("a.fits", 32, 24)
+    ran = tonetool(cube, cube, command, "-o", "x.exr", status=1)
+    assert '"a.fits": needs R,G,B' in ran.err
+
+
+@pytest.mark.parametrize("bits", ["uint8", "uint10", "uint12", "uint16"])
+@pytest.mark.parametrize("share", [0.5, 0.95])
+def test_cut_dpx_files(tonetool, make_image, tmp_path, bits, share):
+    tonetool(make_image("a.exr", 96, 80), "-d", bits, "-o", "a.dpx")
+    tonetool("a.dpx", "-o", "whole.exr")
+    whole = (tmp_path / "a.dpx").read_bytes()
+    (tmp_path / "cut.dpx").write_bytes(whole[:int(len(whole) * share)])
+    for words in (["cut.dpx", "-o", "x.exr"], ["cut.dpx", "--qc"], ["cut.dpx", "--tonemap"],
+                  ["a.dpx", "cut.dpx", "--ldrflip:fail=0.9"]):
+        ran = tonetool(*words, status=1)
+        assert "cut.dpx" in ran.err and "PASS" not in ran.out
+
+
+def test_a_webp_file_has_colours(tonetool, make_image):
+    grey = make_image("a.exr", channels=("Y", "A"))
+    ran = tonetool(grey, "--tonemap", "-o", "x.webp", status=1)
+    assert "webp files have 3 or 4 channels, the image has 2" in ran.err
+
+
 def test_nothing_done_is_an_error(tonetool, make_image):
     tonetool(status=1)
     assert "no output" in tonetool(make_image("a.exr"), status=1).err

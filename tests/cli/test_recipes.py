@@ -150,6 +150,17 @@ def test_metadata_tells_the_chain_its_inputs_and_what_was_measured(host):
     assert 'oiio:subimagename: "error"' in shown and "2 subimages" in shown
 
 
+def test_what_a_recipe_warns_of_is_said_where_it_is_read(tonetool, recipe, make_image):
+    image = make_image("a.exr")
+    name = recipe("w.tone", "--missingfile black gone.exr --resize 16x12 --ch R,G,B")
+    ran = tonetool(image, name, "--hdrflip:fail=0.999", "--warnings-exit", status=2)
+    assert f'"{name}": read : File does not exist: "gone.exr", black instead' in ran.err
+    outer = recipe("o.tone", f"{name} --mulc 2")
+    assert "gone.exr" in tonetool(image, outer, "--hdrflip:fail=0.999").err
+    tonetool(name, "-o", "made.exr", "--warnings-exit", status=2)
+    tonetool(image, "made.exr", "--hdrflip:fail=0.999", "--warnings-exit")
+
+
 def test_subimages_are_the_stack_from_the_top_down(host, recipe, tmp_path):
     name = recipe("stack.tone", "--pattern constant:color=1 8x8 1 --pattern constant:color=2 8x8 1 "
                                 "--siappend --pattern constant:color=3 8x8 1 --swap")

@@ -290,6 +290,9 @@ def test_several_limits_of_one_measurement(tonetool, pair, tmp_path):
     ("hdrflip:fail=above0.1=1", "above0.1 is never above 1"),
     ("hdrflip:fail=above=0.1", "needs above=E"),
     ("hdrflip:above=1", "no error is above it"),
+    ("hdrflip:fail=above1=0", "no error is above it"),
+    ("hdrflip:fail=mean=0.5,above1.5=0.1", "no error is above it"),
+    ("errormap:metric=smape:fail=above1=0", "no error is above it"),
     ("errormap:metric=smape:fail=1", "smape is never above 1"),
     ("errormap:metric=mpsnr:fail=0", "mpsnr is never below 0"),
     ("tmqi:fail=0", "Q is never below 0"),
@@ -312,3 +315,11 @@ def test_percentages_that_mean_nothing(tonetool, pair):
     tonetool("--failpercent", "100", "--hardfail", "0.1", *pair, "--diff", status=1)
     tonetool("--failpercent", "100", "--hardfail", "100", *pair, "--diff")
     tonetool("--compat", "--failpercent", "100", *pair, "--diff")
+
+
+@pytest.mark.parametrize("again", [["--dup"], ["--label", "x", "x"]])
+@pytest.mark.parametrize("command", ["hdrflip", "ldrflip", "errormap:metric=mse", "diff"])
+def test_an_image_against_itself(tonetool, make_image, again, command):
+    a = make_image("a.exr", 64, 48, kind="half")
+    ran = tonetool(a, *again, f"--{command}", "--warnings-exit", status=2)
+    assert "are the same file" in ran.err
