@@ -53,6 +53,12 @@ std::string beginning(const FrameResult& frame) {
 PictureStore::PictureStore(std::string folder, size_t full_frames)
     : m_folder(std::move(folder)),
       m_full_frames(full_frames) {
+    std::error_code none;
+    if (std::filesystem::is_symlink(std::filesystem::symlink_status(m_folder, none))) {
+        throw std::runtime_error(format("\"{}\" is a symbolic link, which is not followed here "
+                                        "(valid: a folder, or a link that ends with a /)",
+                                        m_folder));
+    }
     std::string why;
     if (!m_folder.empty() && !OIIO::Filesystem::is_directory(m_folder) &&
         !OIIO::Filesystem::create_directory(m_folder, why)) {

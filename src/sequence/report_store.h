@@ -26,7 +26,9 @@ struct PictureTexts {
 /// a merge of what several machines checked, finds them again. Safe to call from several threads.
 class PictureStore {
 public:
-    /// `folder` is made where it is missing; empty: memory.
+    /// `folder` is made where it is missing; empty: memory. A runtime_error if that fails, or if it
+    /// is a symbolic link, unless a / behind its name says that the link is meant: in a folder of
+    /// --state others may have planted it. Links in place of the files are not followed either.
     explicit PictureStore(std::string folder = "", size_t full_frames = most_full_frames);
 
     /// Whether a frame like this, by its status and measurements so far, would be kept in full.

@@ -105,6 +105,27 @@ def test_pictures_of_files_that_changed_are_drawn_anew(tonetool, anim):
     assert new["small-1"]["test"] != old["small-1"]["test"]
 
 
+def test_links_in_the_folder_of_a_state_are_not_followed(tonetool, anim):
+    line = [*frames(4, 5), "--hdrflip", "--state", "state", "--report", "page.html"]
+    (anim / "state").mkdir()
+    (anim / "out").mkdir()
+    (anim / "state" / "pictures").symlink_to(anim / "out")
+    ran = tonetool(*line, status=1)
+    assert '"state/pictures" is a symbolic link, which is not followed here' in ran.err
+    assert not list((anim / "out").iterdir()) and not (anim / "page.html").exists()
+    (anim / "state" / "pictures").unlink()
+    (anim / "state" / "pictures").mkdir()
+    planted = anim / "state" / "pictures" / "0004.small.json"
+    planted.symlink_to(anim / "out" / "target")
+    ran = tonetool(*line, status=1)
+    assert '0004.small.json": is a symbolic link' in ran.err
+    assert not list((anim / "out").iterdir())
+    # The user's own folder may be a link where its name says so.
+    (anim / "kept").symlink_to(anim / "out")
+    tonetool(*frames(4, 5), "--hdrflip", "--pictures", "kept/", "--json", "a.json")
+    assert list((anim / "out").iterdir())
+
+
 def test_a_merge_without_pictures_is_a_page_without_pictures(tonetool, anim):
     tonetool(*frames(5, 5), "--hdrflip", "--json", "a.json")
     tonetool("--merge", "a.json", "--report", "page.html")

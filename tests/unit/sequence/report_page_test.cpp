@@ -1,6 +1,7 @@
 #include "sequence/report_page.h"
 
 #include <OpenImageIO/filesystem.h>
+#include <filesystem>
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
@@ -117,6 +118,13 @@ TEST_F(Folder, Pictures_of_what_has_changed_since_are_not_shown) {
     EXPECT_FALSE(store.full(faulty).empty()); // drawn before the shot was judged
     store.forget(missing);
     EXPECT_TRUE(files().empty());
+}
+
+TEST_F(Folder, A_link_in_its_place_is_not_followed) {
+    std::filesystem::create_directory_symlink(name, name + "-link");
+    EXPECT_THROW(PictureStore(name + "-link"), std::runtime_error);
+    EXPECT_NO_THROW(PictureStore(name + "-link/")); // that one is meant
+    std::filesystem::remove(name + "-link");
 }
 
 TEST_F(Folder, A_view_does_not_lead_out_of_it) {
