@@ -16,7 +16,8 @@ inline constexpr int results_version = 1;
 /// "exposures", "worst", "frames"}, with "worst" as frame numbers. Ends with a line break.
 std::string to_json(const ShotResult& shot);
 /// A runtime_error that says what is wrong where, for text that is no such file, of another
-/// version, or whose frames are not whole. The verdict is drawn anew from the frames.
+/// version, or whose frames are not whole, or not those that the file's own counts, verdict and
+/// sentence are of. The verdict is drawn anew from the frames.
 ShotResult shot_from_json(const std::string& text);
 
 /// One frame, as --state and --merge keep it.

@@ -11,8 +11,10 @@ namespace tonetool::sequence {
 /// those of the check that was run.
 void judge_from_numbers(FrameResult& frame);
 
-/// A runtime_error unless every measurement of a command that the check gives a limit has a
-/// threshold, of the quantity's own value and, where the word has one plain number, of that limit.
+/// A runtime_error unless every measurement is one that a word of the check asks for: of its
+/// command, held to its limits in the direction of the quantity, and of numbers that do not
+/// contradict each other. What an expression says is not known here. A frame that was checked has a
+/// measurement of every word, unless the check has --if, --while or --for.
 void check_limits(const ShotResult& shot);
 
 } // namespace tonetool::sequence

@@ -360,6 +360,52 @@ def test_parts_that_do_not_fit(tonetool, anim, words, text):
     assert not (anim / "c.json").exists()
 
 
+def forge(file, change):
+    """Frame 5, the bad one, is called good; so is it in what the file says of all frames."""
+    part = load(file)
+    bad = next(frame for frame in part["frames"] if frame["frame"] == 5)
+    measured = bad["measurements"][0]
+    part["counts"].update(passed=len(part["frames"]), failed=0)
+    change(part, measured, measured["thresholds"][0])
+    bad.pop("message", None)
+    bad["status"] = measured["status"] = part["verdict"] = "passed"
+    (file.parent / "forged.json").write_text(json.dumps(part))
+
+
+def zero(part, measured, threshold):
+    measured["quantities"][threshold["quantity"]] = threshold["value"] = 0.0
+
+
+DIFFERS = {"quantity": "differing-pixels", "value": 0.0, "higher_is_better": False, "fail": 0.0}
+
+
+@pytest.mark.parametrize("words, change, text", [
+    (["--hdrflip:fail=0.1"], lambda p, m, t: t.update(higher_is_better=True), "lower is"),
+    (["--hdrflip:fail=0.1"], zero, "has a mean of 0"),
+    (["--hdrflip:fail=0.1"], lambda p, m, t: m.update(command="diff", thresholds=[DIFFERS]),
+     "which the check does not have"),
+    (["--hdrflip:fail=0.1"], lambda p, m, t: p["frames"].pop(0), "counts/"),
+    (["--errormap:metric=psnr:fail=60"], lambda p, m, t: t.update(higher_is_better=False),
+     "higher is"),
+    (["--diff"], lambda p, m, t: t.update(value=0.0), "above a limit of the check"),
+    (["--diff"], lambda p, m, t: t.update(fail=1e9), "but the check's limit is 0"),
+])
+def test_a_part_that_contradicts_itself_or_its_check(tonetool, anim, words, change, text):
+    call(os.environ["TONETOOL"], ["--frames", "4-5", *pair(*words, "--json", "a.json")], anim)
+    forge(anim / "a.json", change)
+    ran = tonetool("--merge", "forged.json", "--json", "c.json", status=1)
+    assert '"forged.json": ' in ran.err and text in ran.err
+    assert not (anim / "c.json").exists()
+
+
+def test_without_a_limit_the_worst_frame_is_the_lowest_where_higher_is_better(tonetool, anim):
+    for metric in ("psnr", "mpsnr"):
+        tonetool("--frames", "4-6", *pair(f"--errormap:metric={metric}", "--json", "c.json"))
+        found = load(anim / "c.json")
+        value = {f["frame"]: f["measurements"][0]["quantities"][metric] for f in found["frames"]}
+        assert found["worst"] == [{"frame": min(value, key=lambda one: float(value[one]))}]
+
+
 # ---- state
 
 def test_a_state_gives_the_same_bytes_and_what_has_changed_is_checked_anew(tonetool, anim):

@@ -20,7 +20,13 @@ Measurement measured(double value, std::optional<double> fail) {
     one.test = "test.exr";
     one.thresholds = {Threshold{"p99", value, false, fail, {}}};
     one.quantities = {{"mean", value / 3}, {"p99", value}};
-    one.histogram = {1, 2, 3};
+    one.histogram.assign(100, 0); // five pixels of which the sum is that of the sixth
+    if (std::isfinite(value)) {
+        one.histogram[size_t(value / 5 * 100)] = 5;
+        one.histogram[size_t(value * 100)] += 1;
+    } else {
+        one.histogram[0] = 6;
+    }
     one.worst = Position{4, -5};
     one.pixels = 6;
     one.exposures = {-1.25, 1.0 / 3};
@@ -50,7 +56,7 @@ FrameResult missing(int number) {
 
 ShotResult shot(std::vector<FrameResult> frames) {
     ShotResult result;
-    result.check = {"a.#.exr", "--hdrflip"};
+    result.check = {"a.#.exr", "--hdrflip:fail=p99=0.5"};
     result.frames = std::move(frames);
     conclude(result);
     return result;
@@ -196,7 +202,9 @@ TEST(Json, Comes_back_to_the_byte) {
     second.faults = {{"odd", Severity::Warning, "NaN.", "R", Position{1, 2}, -HUGE_VAL, 1e-310}};
     second.qc = qc_text();
     judge(second);
-    ShotResult result = shot({frame(1, std::nan("")), second, missing(7)});
+    FrameResult first = frame(1, 0.75);
+    first.measurements[0].parameters = {{"ppd", std::nan("")}, {"peak", HUGE_VAL}};
+    ShotResult result = shot({first, second, missing(7)});
     result.exposures = ShotExposures{1.0 / 3, 0.1, 8};
     const std::string text = to_json(result);
     EXPECT_EQ(to_json(shot_from_json(text)), text);
