@@ -7,6 +7,7 @@
 #include "chain/io.h"
 #include "chain/ops.h"
 #include "chain/runner.h"
+#include "imagebuf/oiio_compat.h"
 #include "text/error.h"
 
 namespace tonetool::chain {
@@ -99,6 +100,15 @@ std::string space_of_format(const std::string& filename) {
     return known == spaces.end() ? "" : known->second;
 }
 
+// Where a format has no alpha the colours are written as they are, over black, and are converted
+// so.
+bool keeps_alpha(const std::string& filename, const OutputSettings& settings) {
+    const auto writer =
+        OIIO::ImageOutput::create(settings.format_name.empty() ? filename : settings.format_name);
+    (void)OIIO::geterror();
+    return !writer || oiio::format_supports(*writer, "alpha");
+}
+
 // To the colour space that the file's name tells, or else its format.
 void convert_output(Session& session, const Call& call, const std::string& filename,
                     OutputSettings& settings) {
@@ -112,8 +122,10 @@ void convert_output(Session& session, const Call& call, const std::string& filen
         space = space_of_format(filename);
     }
     if (!space.empty()) {
-        convert_current(session, part.header().get_string_attribute("oiio:ColorSpace", linear),
-                        space, call.flag("unpremult", session.autocc_unpremult), true);
+        convert_current(
+            session, part.header().get_string_attribute("oiio:ColorSpace", linear), space,
+            call.flag("unpremult", session.autocc_unpremult) && keeps_alpha(filename, settings),
+            true);
     }
 }
 
@@ -121,6 +133,7 @@ bool keeps_old(Session& session, const Call& call, const std::string& filename) 
     if (session.no_clobber && OIIO::Filesystem::exists(filename)) {
         session.warning("-" + call.row().names.front(),
                         filename + " already exists, not overwriting.");
+        session.produced |= !session.compat; // what was asked for is there
         return true;
     }
     return session.update && !session.compat && OIIO::Filesystem::exists(filename) &&
@@ -157,7 +170,8 @@ void write_one(Session& session, const Call& call, const ImagePtr& image,
 
 void save_image(Session& session, const Call& call, const Image& image, const std::string& filename,
                 const OutputSettings& settings) {
-    files::write_output(image, filename, settings, session.writer(call.row().label()),
+    files::write_output(image, filename, settings,
+                        session.writer(session.compat ? call.text() : call.row().label()),
                         [&] { session.keep_pixels_of(filename); });
 }
 

@@ -136,3 +136,24 @@ def test_hashes_are_of_what_the_file_holds(run, folder):
     sums = [run("--hash", name).stdout.split("SHA-1: ")[1] for name in ("a.exr", "mixed.exr",
                                                                        "same.exr")]
     assert sums[0] != sums[1] and sums[0] == sums[2]
+
+
+def test_a_line_that_clobbers_nothing_can_be_run_again(run, folder):
+    for word in ("--noclobber", "--no-clobber"):
+        for _ in range(2):
+            done = run("a.exr", word, "-o", f"once{word}.exr")
+            assert done.returncode == 0, done.stderr
+    assert "already exists, not overwriting" in done.stderr
+
+
+@pytest.mark.parametrize("words", [
+    ["--pattern", "constant:color=1,1,1,1", "8x8", "1"], ["grey.exr", "--mulc", "2,3,4"],
+    ["grey.exr", "--box:color=1,1,1,1:fill=1", "1,1,3,3"],
+    ["grey.exr", "--clamp:min=0,0,0:max=1,1,1"]])
+def test_numbers_beyond_the_channels_are_not_used(run, folder, words):
+    oiio.ImageBuf(oiio.ImageSpec(8, 8, 1, "float")).write(str(folder / "grey.exr"))
+    done = run(*words, "-o", "own.exr")
+    assert done.returncode == 0 and "of which the image's channels use" in done.stderr
+    assert run("--compat", *words, "-o", "theirs.exr").returncode == 0
+    own, theirs = (oiio.ImageBuf(str(folder / name)).get_pixels() for name in ("own.exr", "theirs.exr"))
+    assert np.array_equal(own, theirs)

@@ -53,6 +53,8 @@ small-types: in/rgb3.exr -d uint1 -o a.tif -d uint2 -o b.tif -d uint4 -o c.tif -
 autocc-jpeg: --autocc in/rgb.exr -d uint8 -o a.jpeg -o b.JPG -o c.webp -o d.gif
 autocc-rec709: --autocc in/rgb.exr -d uint8 -o a.ppm -o b.pnm -o c.pgm -o d.PPM
 autocc-none: --autocc in/rgb.exr -d uint8 -o a.png -o b.tif -d half -o c.exr
+autocc-unpremult: --autocc:unpremult=1 in/rgba.exr -o a.ppm -o b.png -o c.webp -o d.bmp
+    -o:autocc=1:unpremult=1 e.ppm
 autocc-parts: -a --autocc in/parts.exr -o a.jpg
 otex-type: in/rgb.exr -otex:type=uint8 a.tx -otex:datatype=half b.exr
 otex-all: in/rgb.exr in/rgb2.exr -otex:all=1 out%d.tx
