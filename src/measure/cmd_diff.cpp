@@ -195,7 +195,7 @@ void compare_pixels(Session& session, const OIIO::ImageBuf& a, const OIIO::Image
                             : 0;
     Results all = found;
     all.nfail = std::max(found.nfail, unseen);
-    verdict = unseen > 0 ? Verdict::Failure : verdict;
+    verdict = unseen > 0 ? judge(all, session.diff, pixels) : verdict;
     record(session, all, pixels, verdict);
     worst = std::max(worst, verdict);
     if (worst != Verdict::Pass || session.verbose) {

@@ -95,6 +95,8 @@ def test_a_perceptual_diff_passes_no_channel_that_it_does_not_look_at(tonetool, 
     ran = tonetool(a, b, "--pdiff", status=1)
     assert "1 pixel(s) differ where --pdiff does not look" in ran.out and "PASS" not in ran.out
     assert "PASS" in tonetool(a, b, "--compat", "--pdiff").out
+    tonetool("--failpercent", "1", a, b, "--pdiff")
+    assert "1 failed" in tonetool(a, b, "--pdiff", "--json", "x.json", status=1).out
     tonetool(a, "--ch", "R,G,B", b, "--ch", "R,G,B", "--pdiff")
 
 
