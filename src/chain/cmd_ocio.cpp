@@ -97,7 +97,9 @@ void read_profile(OIIO::ImageSpec& spec, const Call& call, Session&) {
 
 void write_profile(Session& session, const Call& call) {
     session.push(call.images.front());
-    files::write_icc_profile(call.images.front()->part().header(), call.argument(0));
+    if (session.compat || !session.dry_run) {
+        files::write_icc_profile(call.images.front()->part().header(), call.argument(0));
+    }
     session.produced = true;
 }
 

@@ -46,6 +46,9 @@ OIIO::ImageBuf colored(const OIIO::ImageBuf& pixels, const std::string& map) {
     if (!done) {
         throw CommandError(result.geterror());
     }
+    if (const int turned = pixels.spec().get_int_attribute("Orientation", 1); turned != 1) {
+        result.specmod().attribute("Orientation", turned);
+    }
     return result;
 }
 

@@ -155,22 +155,6 @@ void mark_alpha(OIIO::ImageSpec& spec) {
     }
 }
 
-void turn_upright(Outgoing& image, const OIIO::ImageOutput& writer) {
-    static const Strings keep = {"openexr", "tiff", "jpeg", "dpx", "fits", "null"};
-    const OIIO::ImageSpec& spec = image.pixels->spec();
-    const bool kept = std::find(keep.begin(), keep.end(), writer.format_name()) != keep.end();
-    if (kept || spec.deep || spec.get_int_attribute("Orientation", 1) == 1) {
-        return;
-    }
-    OIIO::ImageBuf turned = OIIO::ImageBufAlgo::reorient(*image.pixels);
-    if (turned.has_error()) {
-        throw CommandError(turned.geterror());
-    }
-    turned.specmod().attribute("Orientation", 1);
-    image.owned = std::move(turned);
-    image.pixels = &image.owned;
-}
-
 void warn_of_unseen(const Warn& warn, const OIIO::ImageBuf& pixels, const OIIO::ImageSpec& written,
                     const OIIO::ImageOutput& writer) {
     constexpr double share = 0.01; // of the lit pixels: fewer are glints on an edge

@@ -28,9 +28,6 @@ void fit_channels(Outgoing& image, const OIIO::ImageOutput& writer, const Writer
 /// colour.
 void mark_alpha(OIIO::ImageSpec& spec);
 
-/// Turns the picture as its `Orientation` says where the format cannot say it.
-void turn_upright(Outgoing& image, const OIIO::ImageOutput& writer);
-
 /// A warning where alpha hides pixels of a picture that is written as integers. In files of floats
 /// light of alpha 0 adds up.
 void warn_of_unseen(const Warn& warn, const OIIO::ImageBuf& pixels, const OIIO::ImageSpec& written,

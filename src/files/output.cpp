@@ -289,12 +289,9 @@ void prepare_part(const Image& image, Part& part, const std::string& filename,
             fit_windows(next, writer);
         }
         fit_channels(next, writer, from);
-        if (!from.lenient) {
-            turn_upright(next, writer);
-        }
         choose_format(next.format, next.pixels->spec(), settings, from);
         ready.push_back({next.pixels, output_spec(next, from, settings, filename, writer),
-                         level > 0, settings.format_name});
+                         level > 0, settings.format_name, !from.lenient});
         if (levels == 1) { // OpenEXR would wait for more
             ready.back().spec.erase_attribute("textureformat");
         }

@@ -2,9 +2,11 @@
 #include "include/tonetool/write.h"
 
 #include <OpenImageIO/deepdata.h>
+#include <OpenImageIO/imagebufalgo.h>
 #include <OpenImageIO/strutil.h>
 #include <algorithm>
 #include <cstring>
+#include <deque>
 #include <memory>
 
 #include "imagebuf/allocation.h"
@@ -197,7 +199,46 @@ int64_t most_bytes(const std::vector<OutputImage>& images) {
     return int64_t(bytes);
 }
 
-bool write_checked(const std::vector<OutputImage>& images, const std::string& filename,
+bool says_how_it_is_turned(const OIIO::ImageOutput& out) {
+    static const std::vector<std::string> formats = {"openexr", "tiff", "jpeg",
+                                                     "dpx",     "fits", "null"};
+    return std::find(formats.begin(), formats.end(), out.format_name()) != formats.end();
+}
+
+// Images whose Orientation their format cannot say are turned as it says. `turned` holds what the
+// images then point to.
+bool turn_upright(std::vector<OutputImage>& images, std::deque<OIIO::ImageBuf>& turned,
+                  std::string& error) {
+    for (OutputImage& image : images) {
+        OIIO::ImageSpec& spec = image.spec;
+        if (!image.upright || spec.deep || spec.depth > 1 ||
+            spec.get_int_attribute("Orientation", 1) == 1)
+            continue;
+        OIIO::ImageBuf whole;
+        if (is_file_to_read(*image.pixels) &&
+            !read_whole(*image.pixels, image.pixels->spec().format, whole, error))
+            return false;
+        OIIO::ImageBuf source = whole.initialized() ? whole : image.pixels->copy(OIIO::TypeUnknown);
+        source.specmod().attribute("Orientation", spec.get_int_attribute("Orientation", 1));
+        OIIO::ImageBuf upright = OIIO::ImageBufAlgo::reorient(source);
+        if (upright.has_error()) {
+            error = upright.geterror();
+            return false;
+        }
+        turned.push_back(std::move(upright));
+        image.pixels = &turned.back();
+        const OIIO::ImageSpec& now = turned.back().spec();
+        spec.x = now.x;
+        spec.y = now.y;
+        spec.width = now.width;
+        spec.height = now.height;
+        spec.set_roi_full(now.roi_full());
+        spec.attribute("Orientation", 1);
+    }
+    return true;
+}
+
+bool write_checked(std::vector<OutputImage> images, const std::string& filename,
                    std::string& error) {
     const std::string kind = images.empty() ? "" : images.front().format_name;
     auto out = OIIO::ImageOutput::create(kind.empty() ? filename : kind);
@@ -206,6 +247,9 @@ bool write_checked(const std::vector<OutputImage>& images, const std::string& fi
         return false;
     }
     if (!check_images(images, *out, error))
+        return false;
+    std::deque<OIIO::ImageBuf> turned;
+    if (!says_how_it_is_turned(*out) && !turn_upright(images, turned, error))
         return false;
     OutputTarget target(filename);
     if (!target.open(error))

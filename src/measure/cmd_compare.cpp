@@ -120,7 +120,12 @@ bool judge_flip(Session& session, const Call& call, const Limits& limits, const 
     return judge(session, call, limits, measure, sequence::Position{pool.max_x, pool.max_y}, test);
 }
 
+// The map lies as its pictures do.
 void push_map(Session& session, const Call& call, OIIO::ImageBuf map) {
+    const OIIO::ImageSpec& of_reference = call.images.front()->part().header();
+    if (const int turned = of_reference.get_int_attribute("Orientation", 1); turned != 1) {
+        map.specmod().attribute("Orientation", turned);
+    }
     session.push(Image::computed("--" + call.row().label(), std::move(map)));
 }
 
@@ -140,6 +145,9 @@ int hdrflip_pushes(const Call& call) {
 
 void save(Session& session, const OIIO::ImageBuf& image, const std::string& filename) {
     session.claim(filename);
+    if (session.dry_run) {
+        return;
+    }
     session.keep_pixels_of(filename);
     std::string why;
     if (!write_image(image, filename, why)) {

@@ -153,7 +153,12 @@ LutOptions lut_options(const Session& session, const Call& call) {
 void run_exportlut(Session& session, const Call& call) {
     LutSummary made;
     std::string why;
-    if (!ToneAlgo::export_lut(call.argument(0), lut_options(session, call), &made, why)) {
+    const auto options = lut_options(session, call);
+    session.produced = true;
+    if (session.dry_run) {
+        return;
+    }
+    if (!ToneAlgo::export_lut(call.argument(0), options, &made, why)) {
         throw CommandError(why);
     }
     Lines lines(call.row().label());
@@ -164,7 +169,6 @@ void run_exportlut(Session& session, const Call& call) {
               format_number(made.max_error) + " mean " + format_number(made.mean_error));
     lines.add("grey-error max", made.grey_max_error);
     session.report(lines.text);
-    session.produced = true;
 }
 
 std::vector<Modifier> exportlut_modifiers() {

@@ -258,27 +258,20 @@ std::vector<sequence::Item> items_of(const Scan& scan) {
     return items;
 }
 
-// What is nowhere on the disk is missing all the same: a view that %V stands for, and what is
-// between two numbers. Only three numbers or more make a step.
-void add_missing(sequence::Pairing& pairs, const std::vector<sequence::Side>& sides,
-                 const sequence::PatternOptions& options) {
+// A view that %V stands for is missing though no file of it is on the disk.
+void add_missing_views(sequence::Pairing& pairs, const std::vector<sequence::Side>& sides,
+                       const sequence::PatternOptions& options) {
     if (pairs.items.empty() || std::any_of(sides.begin(), sides.end(), [](const auto& side) {
             return !side.files.from_disk;
         })) {
         return;
     }
-    sequence::Side all{"", {pairs.items, {}, true}};
-    const sequence::Item first = pairs.items.front(), last = pairs.items.back();
-    if (std::any_of(sides.begin(), sides.end(), has_view)) {
-        for (const std::string& view : options.views) {
-            all.files.items.push_back({first.frame, view});
-        }
+    if (std::none_of(sides.begin(), sides.end(), has_view)) {
+        return;
     }
-    if (first.frame != last.frame &&
-        std::all_of(pairs.items.begin(), pairs.items.end(), [&](const sequence::Item& item) {
-            return item.frame == first.frame || item.frame == last.frame;
-        })) {
-        all.files.items.push_back({first.frame + 1, first.view});
+    sequence::Side all{"", {pairs.items, {}, true}};
+    for (const std::string& view : options.views) {
+        all.files.items.push_back({pairs.items.front().frame, view});
     }
     const std::vector<sequence::Item> items = sequence::paired({all});
     if (items.size() == pairs.items.size()) {
@@ -301,7 +294,7 @@ void pair_frames(const Strings& words, Scan& scan, const Files& numbered,
     sequence::Pairing pairs{numbered.items, {}, {}};
     if (!sides.empty()) {
         pairs = sequence::pair_sides(sides, scan.options);
-        add_missing(pairs, sides, scan.options);
+        add_missing_views(pairs, sides, scan.options);
     } else if (pairs.items.empty() && !scan.options.frames.empty()) {
         pairs.items = items_of(scan); // for outputs alone
     }

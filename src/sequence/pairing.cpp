@@ -32,6 +32,7 @@ void fill_holes(std::set<Key>& keys) {
         step = std::gcd(step, number - before);
         before = number;
     }
+    step = numbers.size() == 2 ? 1 : step; // two alone are no evidence of a step
     const long long first = *numbers.begin(), last = *numbers.rbegin();
     if (step > 0 && (last - first) / step >= most_frames) {
         throw std::runtime_error("frames " + std::to_string(first) + " to " + std::to_string(last) +

@@ -24,8 +24,9 @@ struct Pairing {
 };
 
 /// The union of the sides' numbers and views. Where all come from the disk, numbers in between that
-/// are nowhere are there too, in steps of the greatest common divisor of all distances: a frame
-/// that both lack is missing as well. A runtime_error beyond a million frames.
+/// are nowhere are there too, in steps of the greatest common divisor of all distances (of two
+/// numbers alone: one): a frame that both lack is missing as well. A runtime_error beyond a million
+/// frames.
 std::vector<Item> paired(const std::vector<Side>& sides);
 
 /// The frames of a check. Sides with ranges of their own that are of equal length are paired by

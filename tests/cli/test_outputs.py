@@ -236,3 +236,11 @@ def test_output_over_the_input(tonetool, make_image, read):
     before = read(a)[0]
     tonetool(a, "--exposure", "1", "-o", a)
     assert np.array_equal(read(a)[0], before * 2)
+
+
+@pytest.mark.parametrize("words", [
+    ["--hdrflip:numExposures=2:saveexposures=s"], ["--exportlut", "l.cube"], ["-o", "x.exr"],
+    ["-otex", "x.tx"], ["--hdrflip:fail=0.999", "--json", "x.json", "--state", "s"]])
+def test_a_dry_run_writes_nothing(tonetool, pair, tmp_path, words):
+    tonetool("-n", *pair, *words)
+    assert not list(tmp_path.iterdir())

@@ -69,6 +69,19 @@ def test_pictures_are_upright(tonetool, make_image, read):
         assert np.abs(got - pixels).max() < 0.003 and spec["Orientation"] == orientation
 
 
+@pytest.mark.parametrize("words", [["--ldrflip"], ["--ldrflip", "--colormap", "magma"],
+                                   ["--errormap:metric=mse"], ["--pop", "--colormap", "viridis"]])
+def test_maps_lie_as_their_pictures(tonetool, make_image, read, words):
+    a, b = (make_image(f"{seed}.exr", seed=seed, attributes={"Orientation": 6}) for seed in (1, 2))
+    tonetool(a, b, *words, "-o", "map.exr", "-o", "map.png")
+    stored, spec = read("map.exr")
+    assert stored.shape[:2] == (12, 16) and spec["Orientation"] == 6
+    shown, spec = read("map.png")
+    assert shown.shape[:2] == (16, 12) and spec.getattribute("Orientation") in (None, 1)
+    order = [np.argsort(one[..., 0].ravel()) for one in (np.rot90(stored, -1), shown)]
+    assert np.corrcoef(*(np.argsort(one) for one in order))[0, 1] > 0.9  # turned alike
+
+
 def test_alpha_that_hides_the_picture_is_said(tonetool, make_image):
     pixels = np.random.default_rng(4).random((12, 16, 4)).astype(np.float32) + 0.1
     pixels[..., 3] = 0

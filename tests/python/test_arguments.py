@@ -321,3 +321,18 @@ def test_reprs(noise):
     assert max(map(len, text.splitlines())) < 140
     with pytest.raises(AttributeError):
         found.summary.ppd = 3
+
+
+@pytest.mark.parametrize("write", [tonetool.write_image,
+                                   lambda image, path: tonetool.write_images([image], path)])
+def test_pictures_for_a_screen_are_upright(tmp_path, write):
+    pixels = np.random.default_rng(1).random((12, 16, 3)).astype(np.float32)
+    image = oiio.ImageBuf(oiio.ImageSpec(16, 12, 3, "float"))
+    image.set_pixels(oiio.ROI(), pixels)
+    image.specmod().attribute("Orientation", 6)
+    for name, wanted, turned in (("a.png", np.rot90(pixels, -1), 1), ("a.exr", pixels, 6)):
+        write(image, str(tmp_path / name))
+        read = oiio.ImageBuf(str(tmp_path / name))
+        assert read.spec().get_int_attribute("Orientation", 1) == turned
+        assert np.abs(read.get_pixels() - wanted).max() < 0.003
+    assert image.spec().get_int_attribute("Orientation") == 6

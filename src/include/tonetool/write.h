@@ -17,6 +17,7 @@ struct OutputImage {
     OIIO::ImageSpec spec;
     bool mip_level = false;    ///< the next smaller level of the image before it
     std::string format_name{}; ///< instead of the one that the extension tells
+    bool upright = true;       ///< turned where its Orientation is one that the format cannot say
 };
 
 /// Write images (one: a plain file; several: subimages) to `filename`.
@@ -24,8 +25,9 @@ struct OutputImage {
 /// The bytes go to a temporary file beside the target, are flushed to the disk and renamed into
 /// place, so that the target is either the old file or the whole new one. Every byte's write is
 /// checked: a full disk is an error. A symbolic link is followed; a device or pipe is written
-/// directly. The format follows the extension.
-/// Returns false and explains in `error`; then nothing has changed on disk.
+/// directly. The format follows the extension. An image whose `Orientation` (of its spec) the
+/// format cannot say is written upright: all but EXR, TIFF, JPEG, DPX and FITS. Returns false and
+/// explains in `error`; then nothing has changed on disk.
 TONETOOL_API bool write_images(const std::vector<OutputImage>& images, const std::string& filename,
                                std::string& error);
 

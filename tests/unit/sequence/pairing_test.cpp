@@ -33,7 +33,7 @@ TEST(Paired, The_union_by_number) {
 TEST(Paired, Holes_of_what_is_on_the_disk_are_frames) {
     EXPECT_THAT(numbers({side("a.#", {1, 2, 5}), side("b.#", {1, 2, 5})}),
                 ElementsAre(1, 2, 3, 4, 5));
-    EXPECT_THAT(numbers({side("a.#", {-2, 1})}), ElementsAre(-2, 1)); // a step of three
+    EXPECT_THAT(numbers({side("a.#", {-2, 1})}), ElementsAre(-2, -1, 0, 1)); // two make no step
 }
 
 TEST(Paired, Steps_and_ranges_have_no_holes) {
