@@ -138,8 +138,8 @@ void conclude(ShotResult& shot);
 bool higher_is_better(const std::string& command, const std::string& quantity);
 
 /// How bad a frame is beside another of the same status, more being worse: the measured value in
-/// units of its threshold, or as it is (below 0 where higher is better) where there is none. A value
-/// that is no number is worse than any other.
+/// units of its threshold, or as it is (below 0 where higher is better) where there is none. A
+/// value that is no number is worse than any other.
 double badness(const FrameResult& frame);
 
 } // namespace tonetool::sequence

@@ -18,8 +18,9 @@ pixels="beauty" is pixels={"layer": "beauty"}, calibration="mean" is calibration
 Errors: TypeError for an argument of a wrong type and for an unknown keyword, ValueError for an array
 of a wrong shape and for an unknown name; tonetool.Error, a RuntimeError, for what the library refuses,
 with the message that the program prints (CheckFailed: a threshold in chain() was exceeded). A file that
-cannot be read whole is refused by every function, and the message names it. Names in files may have
-bytes that are no UTF-8; here these are U+FFFD. Other Python threads run while a function computes.
+cannot be read whole (with roi=: the rows that it needs) is refused by every function, and the message
+names it. Names in files may have bytes that are no UTF-8; here these are U+FFFD. Other Python threads
+run while a function computes.
 
     >>> import OpenImageIO, tonetool
     >>> found = tonetool.hdr_flip(OpenImageIO.ImageBuf("ref.exr"), OpenImageIO.ImageBuf("test.exr"))
