@@ -146,6 +146,7 @@ FLIP = "--hdrflip:fail=0.05:print=0"
     (["r.0001.exr", "r.0002.exr", "--swap", "t.0002.exr", "--diff"], "was never compared"),
     (["r.0001.exr", "r.0001.exr", "--exposure", "1", "r.0001.exr", "r.0001.exr", FLIP],
      "was never compared"),
+    (["r.0001.exr", "--printstats", "r.0002.exr", "t.0002.exr", FLIP], "was never compared"),
     (["r.0001.exr", "r.0002.exr", "--qc"], '"r.0001.exr" was never compared'),
     (["--frames", "1-3", "r.0001.exr", "r.0001.exr", FLIP], "no image that is read has a wildcard"),
     (["--frames", "1-3", "r.#.exr", "r.0001.exr", FLIP], "--wildcardoff r.0001.exr --wildcardon"),
