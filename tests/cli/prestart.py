@@ -73,13 +73,18 @@ def prestarted(program):
         return WAITING[program]
 
 
-def run_text(program, words, cwd, timeout):
-    """subprocess.run() with text for output and an empty input, by a prestarted program if it can be."""
+def run_bytes(program, words, cwd, timeout, env=None):
+    """subprocess.run() with an empty input, of a prestarted program where there can be one."""
     waiting = prestarted(program)
-    if not waiting:
-        return subprocess.run([program, *map(str, words)], cwd=cwd, capture_output=True, text=True,
-                              stdin=subprocess.DEVNULL, timeout=timeout, check=False)
-    done = waiting.run(words, cwd, timeout)
+    if waiting:
+        return waiting.run(words, cwd, timeout, env)
+    return subprocess.run([program, *map(str, words)], cwd=cwd, env=env, capture_output=True,
+                          stdin=subprocess.DEVNULL, timeout=timeout, check=False)
+
+
+def run_text(program, words, cwd, timeout):
+    """The same with text for output."""
+    done = run_bytes(program, words, cwd, timeout)
     done.stdout, done.stderr = done.stdout.decode(), done.stderr.decode()
     return done
 

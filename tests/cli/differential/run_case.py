@@ -5,13 +5,12 @@ import json
 import os
 import re
 import shutil
-import subprocess
 import threading
 from dataclasses import dataclass
 from pathlib import Path
 
 from image_differences import image_differences
-from prestart import prestarted
+from prestart import run_bytes
 
 READ_LOCK = threading.Lock()
 PRIVATE = ("OCIO", "OPENIMAGEIO_", "OIIO_", "EXR_", "TONETOOL")
@@ -40,11 +39,7 @@ def run_case(case, program, options, inputs, folder):
         environment["ASAN_OPTIONS"] += ":fast_unwind_on_malloc=0"
     status, out, err = 0, "", ""
     for words in case.command_lines():
-        waiting = prestarted(program)
-        done = (waiting.run([*options, *words], folder, 120, environment) if waiting else
-                subprocess.run([program, *options, *words], cwd=folder, env=environment,
-                               stdin=subprocess.DEVNULL, capture_output=True, timeout=120,
-                               check=False))
+        done = run_bytes(program, [*options, *words], folder, 120, environment)
         status = done.returncode
         out += done.stdout.decode(errors="replace").replace(str(folder), "FOLDER")
         err += done.stderr.decode(errors="replace").replace(str(folder), "FOLDER")
