@@ -43,7 +43,7 @@ bool tells_channels_apart(const OIIO::ImageOutput& writer) {
 }
 
 bool is_alpha(const OIIO::ImageSpec& spec, int channel) {
-    const std::string name = std::string(spec.channel_name(channel));
+    const std::string name(spec.channel_name(channel));
     const std::string last = name.substr(name.rfind('.') + 1); // npos + 1 is 0
     return channel == spec.alpha_channel || OIIO::Strutil::iequals(last, "a") ||
            OIIO::Strutil::iequals(last, "alpha");

@@ -195,7 +195,7 @@ std::vector<Layer> named_grey(const OIIO::ImageSpec& spec, const std::string& na
     std::map<std::string, std::vector<int>> channels; // of each layer, but alpha
     std::vector<Layer> exact, any_case;
     for (int i = 0; i < spec.nchannels; ++i) {
-        const std::string& full = std::string(spec.channel_name(i));
+        const std::string full(spec.channel_name(i));
         if (!is_alpha(full) || full == name)
             channels[prefix_of(full)].push_back(i);
         if (lower(full) == lower(name))
@@ -229,7 +229,7 @@ std::string asked_as(const Layer& layer) {
 }
 
 std::string data_text(const OIIO::ImageSpec& spec, const Layer& layer) {
-    const std::string channel = std::string(spec.channel_name(layer.channel[0]));
+    const std::string channel(spec.channel_name(layer.channel[0]));
     const bool grey = layer.channel[0] == layer.channel[1];
     AovKind kind = layer.kind();
     if (kind == AovKind::Light)

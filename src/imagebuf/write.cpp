@@ -215,12 +215,17 @@ bool turn_upright(std::vector<OutputImage>& images, std::deque<OIIO::ImageBuf>& 
             spec.get_int_attribute("Orientation", 1) == 1)
             continue;
         OIIO::ImageBuf whole;
-        if (is_file_to_read(*image.pixels) &&
-            !read_whole(*image.pixels, image.pixels->spec().format, whole, error))
+        const bool on_disk = is_file_to_read(*image.pixels);
+        if (on_disk && !read_whole(*image.pixels, image.pixels->spec().format, whole, error))
             return false;
-        OIIO::ImageBuf source = whole.initialized() ? whole : image.pixels->copy(OIIO::TypeUnknown);
-        source.specmod().attribute("Orientation", spec.get_int_attribute("Orientation", 1));
-        OIIO::ImageBuf upright = OIIO::ImageBufAlgo::reorient(source);
+        const int turn = spec.get_int_attribute("Orientation", 1);
+        if (image.pixels->orientation() != turn) {
+            if (!on_disk)
+                whole = image.pixels->copy(OIIO::TypeUnknown);
+            whole.specmod().attribute("Orientation", turn);
+        }
+        OIIO::ImageBuf upright =
+            OIIO::ImageBufAlgo::reorient(whole.initialized() ? whole : *image.pixels);
         if (upright.has_error()) {
             error = upright.geterror();
             return false;

@@ -78,13 +78,8 @@ Strings files_read(const CheckPlan& check, const Strings& words) {
     return files;
 }
 
-} // namespace
-
-void refuse_to_write_over(const CheckPlan& check, const Strings& words) {
-    const std::vector<EndFile> places = places_of(check);
-    if (places.empty()) {
-        return;
-    }
+void refuse_in_run(const CheckPlan& check, const std::vector<EndFile>& places,
+                   const Strings& words) {
     const Strings read = files_read(check, words), outputs = words_at(words, check.outputs);
     for (const EndFile& place : places) {
         for (const std::string& file : read) {
@@ -99,6 +94,15 @@ void refuse_to_write_over(const CheckPlan& check, const Strings& words) {
                 place.refuse(file, "is written as an image, too");
             }
         }
+    }
+}
+
+} // namespace
+
+void refuse_to_write_over(const CheckPlan& check, const std::vector<FrameRun>& runs) {
+    const std::vector<EndFile> places = places_of(check);
+    for (size_t i = 0; i < runs.size() && !places.empty(); ++i) {
+        refuse_in_run(check, places, runs[i].words);
     }
 }
 
@@ -155,7 +159,7 @@ int merge_parts(const Strings& words, const FramePlan& plan, std::ostream& out, 
                            "--csv and the like)");
     }
     sequence::check_places(check.words);
-    refuse_to_write_over(check, words);
+    refuse_to_write_over(check, {{words, {}}});
     if (check.has("statistics")) {
         write_statistics(check, sequence::merged_exposures(parts));
         return 0;

@@ -19,8 +19,8 @@ bool draws(const CheckPlan& check);
 std::string picture_folder(const CheckPlan& check);
 
 /// A CommandError where a file that is written at the end is one that the line, with the words of
-/// this run, reads or writes itself, by whatever name.
-void refuse_to_write_over(const CheckPlan& check, const Strings& words);
+/// one of its runs, reads or writes itself, by whatever name.
+void refuse_to_write_over(const CheckPlan& check, const std::vector<FrameRun>& runs);
 
 /// Prints the verdict of a check, then writes its files, those that can be written: none with
 /// -n. The exit status.

@@ -83,9 +83,7 @@ int PlanRun::check() {
 void PlanRun::prepare() {
     const CheckPlan& check = m_plan.check;
     sequence::check_places(check.words);
-    for (const FrameRun& run : m_plan.runs) {
-        refuse_to_write_over(check, run.words);
-    }
+    refuse_to_write_over(check, m_plan.runs);
     if (check.has("state") && !check.dry_run) {
         m_state.emplace(check.argument("state"), "frame");
         m_sample_state.emplace(check.argument("state"), "exposures");
