@@ -142,6 +142,7 @@ bool keeps_old(Session& session, const Call& call, const std::string& filename) 
 
 void write_one(Session& session, const Call& call, const ImagePtr& image,
                const std::string& filename, const Save& save) {
+    session.claim(filename);
     if (keeps_old(session, call, filename)) {
         return;
     }
@@ -149,7 +150,6 @@ void write_one(Session& session, const Call& call, const ImagePtr& image,
         session.out << (session.debug ? "Output: " + filename + "\n" : "");
         session.print("Writing " + filename);
     }
-    session.claim(filename);
     session.wrote = image->written = true;
     if (session.dry_run) {
         return;

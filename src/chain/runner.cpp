@@ -41,6 +41,24 @@ void refuse_deep(const Session& session, const Call& call) {
     }
 }
 
+// What the images above `first` are made of, where that is files alone.
+void note_lineage(const Session& session, const Call& call, size_t first) {
+    std::string of_popped;
+    for (const ImagePtr& image : call.images) {
+        if (image->lineage == 0) {
+            return;
+        }
+        of_popped += std::to_string(image->lineage) + ' ';
+    }
+    for (size_t i = first; i < session.stack.size() && !of_popped.empty(); ++i) {
+        Image& made = *session.stack[i];
+        if (made.lineage == 0) {
+            made.lineage = std::hash<std::string>()(of_popped + call.quoted_words() + ' ' +
+                                                    std::to_string(i - first));
+        }
+    }
+}
+
 void execute(Session& session, Call& call) {
     std::vector<ImagePtr>& stack = session.stack;
     auto first = stack.end() - call.pops();
@@ -54,8 +72,10 @@ void execute(Session& session, Call& call) {
         }
     }
     refuse_deep(session, call);
-    size_t expected = stack.size() + static_cast<size_t>(call.pushes());
+    const size_t below = stack.size();
+    const size_t expected = below + static_cast<size_t>(call.pushes());
     call.row().run(session, call);
+    note_lineage(session, call, below);
     if (call.pushes() != any_number && stack.size() != expected) {
         throw CommandError("internal error: wrong number of images on the stack");
     }

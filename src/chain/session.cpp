@@ -37,10 +37,10 @@ void Session::error(const std::string& where, const std::string& what, bool ends
         first_error = (where.empty() ? "" : where + " : ") + what;
     }
     out.flush();
-    complaints() << (what.empty()
-                ? "tonetool ERROR: " + where + " (unknown error)"
-                : prefix("ERROR", where, compat) + indented(what, compat) + of_frame(*this))
-        << "\nFull command line was:\n> " << command_line << std::endl;
+    complaints() << (what.empty() ? "tonetool ERROR: " + where + " (unknown error)"
+                                  : prefix("ERROR", where, compat) + indented(what, compat) +
+                                        of_frame(*this))
+                 << "\nFull command line was:\n> " << command_line << std::endl;
 }
 
 void Session::warning(const std::string& where, const std::string& what) {
@@ -48,7 +48,7 @@ void Session::warning(const std::string& where, const std::string& what) {
     warning_texts.push_back((where.empty() ? "" : where + " : ") + what);
     out.flush();
     complaints() << prefix("WARNING", where, compat) << indented(what, compat) << of_frame(*this)
-        << std::endl;
+                 << std::endl;
 }
 
 void Session::warn_of_other_parts(const std::string& where, const Image& image) {
@@ -110,19 +110,26 @@ void Session::keep_pixels_of(const std::string& filename) {
     }
 }
 
-void Session::claim(const std::string& filename) const {
-    if (!written || compat || dry_run) {
-        return;
-    }
-    std::lock_guard<std::mutex> lock(written->mutex);
+void WrittenFiles::claim(const std::string& filename, int number, const std::string& view) {
+    std::lock_guard<std::mutex> lock(m_mutex);
+    const std::pair<int, std::string> frame(number, view);
     const auto [first, is_new] =
-        written->frame_of.emplace(std::filesystem::path(filename).lexically_normal().string(),
-                                  std::pair(frame.number, frame.view));
-    if (!is_new && first->second != std::pair(frame.number, frame.view)) {
+        m_frame_of.emplace(std::filesystem::path(filename).lexically_normal().string(), frame);
+    if (!is_new && first->second != frame) {
         throw CommandError("\"" + filename + "\" was written by frame " +
                            std::to_string(first->second.first) +
                            " (valid: a name with # or {FRAME_NUMBER}, another for each frame)");
     }
+}
+
+void Session::claim(const std::string& filename) {
+    if (dry_run) {
+        return;
+    }
+    if (written && !compat) {
+        written->claim(filename, frame.number, frame.view);
+    }
+    claimed.push_back(filename);
 }
 
 OIIO::ColorConfig& color_config(Session& session) {

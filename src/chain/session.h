@@ -46,9 +46,14 @@ struct Frame {
 };
 
 /// The frames of a command line, which may run at the same time, must not write one file.
-struct WrittenFiles {
-    std::mutex mutex;
-    std::map<std::string, std::pair<int, std::string>> frame_of; ///< number and view
+class WrittenFiles {
+public:
+    /// A CommandError if a frame of another number or view has written the file.
+    void claim(const std::string& filename, int number, const std::string& view);
+
+private:
+    std::mutex m_mutex;
+    std::map<std::string, std::pair<int, std::string>> m_frame_of; ///< number and view
 };
 
 /// What --diff lets pass.
@@ -139,10 +144,12 @@ struct Session {
 
     /// What was not compared must not be passed: an image that no command used is an error.
     bool judges = false;
-    /// Which frame has written which file, of all frames of the command line.
+    /// Which frame has written which file, of all frames of the command line in this process.
     std::shared_ptr<WrittenFiles> written;
-    /// A CommandError if another frame has written that file.
-    void claim(const std::string& filename) const;
+    Strings claimed; ///< by this frame
+    /// Says that this frame writes that file; a CommandError if another one has, which --compat
+    /// lets pass as oiiotool does.
+    void claim(const std::string& filename);
 
     /// Where a file is that the chain names.
     std::string file(const std::string& name);

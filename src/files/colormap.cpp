@@ -3,6 +3,7 @@
 #include <OpenImageIO/imagebufalgo.h>
 #include <OpenImageIO/strutil.h>
 
+#include "imagebuf/upright.h"
 #include "include/tonetool/display.h"
 #include "text/error.h"
 #include "text/values.h"
@@ -46,9 +47,7 @@ OIIO::ImageBuf colored(const OIIO::ImageBuf& pixels, const std::string& map) {
     if (!done) {
         throw CommandError(result.geterror());
     }
-    if (const int turned = pixels.spec().get_int_attribute("Orientation", 1); turned != 1) {
-        result.specmod().attribute("Orientation", turned);
-    }
+    lie_as(pixels.spec(), result);
     return result;
 }
 

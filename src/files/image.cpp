@@ -4,6 +4,10 @@
 #include <OpenImageIO/imagebufalgo.h>
 #include <OpenImageIO/imageio.h>
 #include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include "imagebuf/allocation.h"
 #include "imagebuf/cut_file.h"
@@ -48,7 +52,10 @@ std::unique_ptr<OIIO::ImageInput> open_input(const std::string& filename, const 
     }
     auto input = OIIO::ImageInput::open(filename, &how.config);
     if (!input) {
-        const std::string why = OIIO::geterror();
+        std::string why = OIIO::geterror();
+        if (::access(filename.c_str(), R_OK) != 0 && errno == EACCES) { // readers guess at it
+            why = std::strerror(EACCES);
+        }
         const bool named = why.find(filename) != std::string::npos;
         throw CommandError(why.empty() ? "cannot read \"" + filename + "\""
                            : named     ? why
@@ -75,6 +82,14 @@ std::vector<OIIO::ImageSpec> level_headers(OIIO::ImageInput& input, const std::s
     }
     (void)input.geterror();
     return levels;
+}
+
+// By its inode, so that links to it are the same file.
+uint64_t lineage_of_file(const std::string& filename) {
+    struct stat info {};
+    const bool found = ::stat(filename.c_str(), &info) == 0;
+    return std::hash<std::string>()(
+        found ? std::to_string(info.st_dev) + ' ' + std::to_string(info.st_ino) : filename);
 }
 
 OIIO::ImageBuf black_image(const OIIO::ImageSpec& spec, const std::string& file) {
@@ -260,6 +275,7 @@ ImagePtr Image::open(const std::string& filename, const ReadOptions& how) {
     }
     auto image = std::make_shared<Image>(filename, std::move(parts));
     image->m_file_format = input->format_name();
+    image->lineage = lineage_of_file(filename);
     return image;
 }
 

@@ -126,6 +126,9 @@ public:
     bool worked_on = false;
     /// It is made of files that are the same in every frame, and of nothing else.
     bool same_in_all_frames = false;
+    /// The same for images that must have the same pixels: those of one file (by whatever name),
+    /// and what the same commands make of them. 0: nothing is known of it.
+    uint64_t lineage = 0;
     bool noted = false; ///< its data type has gone into Session::read_format
 
     void rename(std::string name) { m_name = std::move(name); }

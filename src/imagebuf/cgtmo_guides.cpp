@@ -247,6 +247,7 @@ bool LocalGuides::find_footprint(tonemap::LocalOperator& what, CgTmoSummary& sum
     if (!one_of("footprint", m_options.footprint, {"pixel", "global", "camera", "a number"}, error))
         return false;
     m_footprints.resize(size_t(m_region.width()) * size_t(m_region.height()));
+    m_footprints.expect_all_written();
     if (m_options.footprint == "camera") {
         if (!camera_footprints(error))
             return false;

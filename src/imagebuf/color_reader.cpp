@@ -54,6 +54,18 @@ uint64_t finite_ones(const double (&v)[3]) {
     return count < 3 ? packed : digest(size_t(packed), {v[0], v[1], v[2]});
 }
 
+// Finite and not negative.
+bool is_light(const float (&v)[3]) {
+    return v[0] >= 0 && v[1] >= 0 && v[2] >= 0 && v[0] <= FLT_MAX && v[1] <= FLT_MAX &&
+           v[2] <= FLT_MAX;
+}
+
+// Whether linear Rec.709 is what is stored.
+bool keeps_values(const ColorSpace& space) {
+    return space.is_rec709 && !space.encoded() && !space.straight && space.scale == 1 &&
+           !space.convert;
+}
+
 void to_rec709(const ColorSpace& space, double alpha, double (&v)[3]) {
     if (space.encoded() || space.straight || space.scale != 1)
         for (double& x : v)
@@ -126,14 +138,17 @@ bool ColorReader::read(int begin, int end, ColorPlanes& planes, std::string& err
     const auto move_rows = [&](auto& array) {
         array.keep(drop, kept);
         array.resize(n);
+        array.expect_all_written();
     };
     for (auto& p : planes.plane)
         move_rows(p);
     move_rows(planes.nonfinite);
-    if (planes.counts.nonfinite > 0)
-        move_rows(planes.beside);
-    else
+    if (planes.counts.nonfinite > 0) {
+        planes.beside.keep(drop, kept);
+        planes.beside.resize(n);
+    } else {
         (planes.beside = {}).resize(n);
+    }
     if (m_alpha)
         move_rows(planes.alpha);
     planes.begin = begin;
@@ -248,37 +263,52 @@ void ColorReader::clean(const Row& row, size_t from, size_t to, int y, const Sta
                             size_t(m_place[2].stride)};
     const float* alpha = m_place[3].stride > 0 ? staged(stage, y, 3) : nullptr;
     const std::vector<float> converted = convert(in, step, to - from);
+    const bool as_stored = keeps_values(m_space) && !row.alpha;
     for (size_t x = from; x < to; ++x) {
-        double v[3];
         const float a = alpha ? alpha[(x - from) * size_t(m_place[3].stride)] : 1.0f;
-        for (size_t p = 0; p < 3; ++p)
-            v[p] = in[p][(x - from) * step[p]];
-        unsigned kinds = kind(v[0]) | kind(v[1]) << 2 | kind(v[2]) << 4;
-        if (row.alpha) {
-            row.alpha[x] = a;
-            kinds |= kind(row.alpha[x]) << 6;
-            if (!std::isfinite(row.alpha[x]))
-                row.alpha[x] = 0;
-        } else if (alpha && m_watch) {
-            counts.alpha_digest += alpha_digest(row.place + x, a);
+        const float stored[3] = {in[0][(x - from) * step[0]], in[1][(x - from) * step[1]],
+                                 in[2][(x - from) * step[2]]};
+        if (as_stored && a == 1 && is_light(stored)) {
+            row.nonfinite[x] = 0;
+            for (size_t p = 0; p < 3; ++p) {
+                row.plane[p][x] = stored[p];
+                counts.largest = std::max(counts.largest, stored[p]);
+            }
+        } else {
+            clean_pixel(row, x, stored, alpha ? &a : nullptr,
+                        converted.empty() ? nullptr : converted.data() + 3 * (x - from), counts);
         }
-        const bool finite = kinds == 0;
-        row.nonfinite[x] = uint8_t(kinds);
-        counts.nonfinite += !finite;
-        if (!finite)
-            row.beside[x] = finite_ones(v);
-        if (finite && !converted.empty())
-            std::copy_n(converted.data() + 3 * (x - from), 3, v);
-        if (finite)
-            to_rec709(m_space, double(a), v);
-        if (finite && (v[0] < 0 || v[1] < 0 || v[2] < 0)) {
-            ++counts.negative;
-            counts.negative_digest += digest(row.place + x, v);
-        }
-        for (size_t p = 0; p < 3; ++p) {
-            row.plane[p][x] = finite ? float(std::clamp(v[p], 0.0, double(FLT_MAX))) : 0.0f;
-            counts.largest = std::max(counts.largest, row.plane[p][x]);
-        }
+    }
+}
+
+void ColorReader::clean_pixel(const Row& row, size_t x, const float (&stored)[3],
+                              const float* alpha, const float* converted,
+                              ColorCounts& counts) const {
+    const float a = alpha ? *alpha : 1.0f;
+    double v[3] = {stored[0], stored[1], stored[2]};
+    unsigned kinds = kind(v[0]) | kind(v[1]) << 2 | kind(v[2]) << 4;
+    if (row.alpha) {
+        kinds |= kind(a) << 6;
+        row.alpha[x] = std::isfinite(a) ? a : 0;
+    } else if (alpha && m_watch) {
+        counts.alpha_digest += alpha_digest(row.place + x, a);
+    }
+    const bool finite = kinds == 0;
+    row.nonfinite[x] = uint8_t(kinds);
+    counts.nonfinite += !finite;
+    if (!finite)
+        row.beside[x] = finite_ones(v);
+    if (finite && converted)
+        std::copy_n(converted, 3, v);
+    if (finite)
+        to_rec709(m_space, double(a), v);
+    if (finite && (v[0] < 0 || v[1] < 0 || v[2] < 0)) {
+        ++counts.negative;
+        counts.negative_digest += digest(row.place + x, v);
+    }
+    for (size_t p = 0; p < 3; ++p) {
+        row.plane[p][x] = finite ? float(std::clamp(v[p], 0.0, double(FLT_MAX))) : 0.0f;
+        counts.largest = std::max(counts.largest, row.plane[p][x]);
     }
 }
 

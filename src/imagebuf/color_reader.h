@@ -62,6 +62,8 @@ private:
     void clean_row(int y, const Stage& stage, ColorPlanes& planes, ColorCounts& counts) const;
     void clean(const Row& row, size_t from, size_t to, int y, const Stage& stage,
                ColorCounts& counts) const;
+    void clean_pixel(const Row& row, size_t x, const float (&stored)[3], const float* alpha,
+                     const float* converted, ColorCounts& counts) const;
     std::vector<float> convert(const float* const (&in)[3], const size_t (&step)[3],
                                size_t count) const;
     const float* staged(const Stage& stage, int y, size_t which) const;

@@ -8,6 +8,7 @@
 
 #include "imagebuf/guard.h"
 #include "imagebuf/oiio_compat.h"
+#include "imagebuf/upright.h"
 #include "include/tonetool/display.h"
 #include "include/tonetool/flip.h"
 
@@ -100,9 +101,9 @@ private:
     std::string m_font;
 };
 
-// The display window of an image alone, at the origin, `width` x `height`.
-ImageBuf thumbnail(const ImageBuf& image, int width, int height, int nthreads) {
-    ImageBuf shown = IBA::crop(image, image.roi_full(), nthreads);
+// The display window of an image alone, upright, at the origin, `width` x `height`.
+ImageBuf thumbnail(const ImageBuf& image, int orientation, int width, int height, int nthreads) {
+    ImageBuf shown = upright(IBA::crop(image, image.roi_full(), nthreads), orientation);
     shown.set_origin(0, 0);
     ROI full = shown.roi();
     shown.set_roi_full(full);
@@ -143,6 +144,7 @@ public:
           m_test(test),
           m_options(options),
           m_look(look),
+          m_orientation(orientation_of(reference.spec())),
           m_nthreads(nthreads) {
         m_options.want_exposure_map = true;
         m_options.want_exposures = false;
@@ -160,8 +162,9 @@ public:
                                                            "\": the filmstrip has no labels");
         const auto shown = choose(result.summary.exposures);
         const ROI full = m_reference.roi_full();
+        const double aspect = double(full.width()) / full.height();
         const Layout layout(int(shown.size()), m_look.thumb_width,
-                            double(full.width()) / full.height());
+                            lies_on_its_side(m_orientation) ? 1 / aspect : aspect);
         if (double(layout.width()) * layout.height() > kMostPixels)
             throw std::runtime_error(format("the picture would have {}x{} pixels; pass a smaller "
                                             "width",
@@ -207,7 +210,7 @@ private:
             throw std::runtime_error(map.geterror());
         const FlipExposure& pictures = result.exposures[0];
         const auto show = [&](const ImageBuf& image) {
-            return thumbnail(image, layout.thumb_w, layout.thumb_h, m_nthreads);
+            return thumbnail(image, m_orientation, layout.thumb_w, layout.thumb_h, m_nthreads);
         };
         const int x = layout.column_x(i);
         canvas.write(x + layout.thumb_w / 2, layout.margin, format("{:+.1f}", stops), layout.text,
@@ -234,7 +237,8 @@ private:
         const int x = l.wide_x(), y = l.wide_y(i), bar = y + l.wide_h + l.margin;
         const int bar_w = std::max(l.wide_w - l.text * 9, l.text * 3), bar_x = x + l.text * 3;
         canvas.write(x, y - l.row_gap(), title, l.text);
-        canvas.paste(colored(thumbnail(map, l.wide_w, l.wide_h, m_nthreads), colors, scale), x, y);
+        const ImageBuf shown = thumbnail(map, m_orientation, l.wide_w, l.wide_h, m_nthreads);
+        canvas.paste(colored(shown, colors, scale), x, y);
         canvas.write(bar_x - l.text / 2, bar, low, l.text, IBA::TextAlignX::Right);
         canvas.paste(legend(colors, bar_w, l.text), bar_x, bar);
         canvas.write(bar_x + bar_w + l.text / 2, bar, high, l.text);
@@ -244,6 +248,7 @@ private:
     const ImageBuf& m_test;
     HdrFlipOptions m_options;
     FilmstripOptions m_look;
+    int m_orientation;
     int m_nthreads;
 };
 

@@ -37,6 +37,7 @@ bool read_luminance(ColorReader& reader, ColorPlanes& planes, int nthreads,
     const OIIO::ROI& region = planes.region;
     const auto parallel = make_parallel(nthreads);
     plane.resize(luminance_bytes(region) / sizeof(float));
+    plane.expect_all_written();
     const auto measure = [&](int begin, int end) {
         parallel(end - begin, [&](int64_t row) {
             const int y = begin + int(row);

@@ -11,6 +11,7 @@
 #include "imagebuf/allocation.h"
 #include "imagebuf/bands.h"
 #include "imagebuf/oiio_compat.h"
+#include "imagebuf/upright.h"
 
 namespace tonetool {
 namespace {
@@ -43,12 +44,6 @@ std::vector<std::string> differing_tags(const OIIO::ImageSpec& reference,
         return {};
     return {OIIO::Strutil::fmt::format(
         "{} is {} in the reference and {} in the test: compared as stored", tag, r, t)};
-}
-
-// 1 where the tag is absent, or none that is defined.
-int orientation_of(const ImageBuf& image) {
-    const int tag = image.spec().get_int_attribute("Orientation", 1);
-    return tag >= 1 && tag <= 8 ? tag : 1;
 }
 
 // The planes as an image of R, G, B (and A): linear Rec.709, NaN where they are not finite.
@@ -154,7 +149,7 @@ bool same_window(const ROI& a, const ROI& b) {
 }
 
 bool check_orientation(const ImageBuf& reference, const ImageBuf& test, std::string& error) {
-    const int r = orientation_of(reference), t = orientation_of(test);
+    const int r = orientation_of(reference.spec()), t = orientation_of(test.spec());
     if (r == t)
         return true;
     error = OIIO::Strutil::fmt::format(

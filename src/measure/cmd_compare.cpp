@@ -2,6 +2,7 @@
 #include <functional>
 
 #include "files/colormap.h"
+#include "imagebuf/upright.h"
 #include "measure/color_input.h"
 #include "measure/commands.h"
 #include "measure/flip_args.h"
@@ -122,10 +123,7 @@ bool judge_flip(Session& session, const Call& call, const Limits& limits, const 
 
 // The map lies as its pictures do.
 void push_map(Session& session, const Call& call, OIIO::ImageBuf map) {
-    const OIIO::ImageSpec& of_reference = call.images.front()->part().header();
-    if (const int turned = of_reference.get_int_attribute("Orientation", 1); turned != 1) {
-        map.specmod().attribute("Orientation", turned);
-    }
+    lie_as(call.images.front()->part().header(), map);
     session.push(Image::computed("--" + call.row().label(), std::move(map)));
 }
 
@@ -263,7 +261,7 @@ void run_filmstrip(Session& session, const Call& call) {
     report(session, call, result.summary);
     judge_flip(session, call, limits, result.summary.pool);
     maps[0].specmod().attribute("oiio:ColorSpace", "sRGB");
-    push_map(session, call, std::move(maps[0]));
+    session.push(Image::computed("--" + call.row().label(), std::move(maps[0]))); // is upright
 }
 
 // Errors that have no bound may have any limit.

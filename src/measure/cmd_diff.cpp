@@ -9,6 +9,7 @@
 #include <ostream>
 
 #include "files/unlike.h"
+#include "imagebuf/upright.h"
 #include "include/tonetool/color_tags.h"
 #include "measure/check_part.h"
 #include "measure/color_input.h"
@@ -232,9 +233,6 @@ std::string difference(const OIIO::ImageSpec& a, const OIIO::ImageSpec& b) {
     const auto windows = [](const OIIO::ROI& r, const OIIO::ROI& t) {
         return window_text(r) + " vs " + window_text(t);
     };
-    const auto turned = [](const OIIO::ImageSpec& spec) {
-        return spec.get_int_attribute("Orientation", 1);
-    };
     const auto same = [](const OIIO::ROI& r, const OIIO::ROI& t) {
         return r.xbegin == t.xbegin && r.xend == t.xend && r.ybegin == t.ybegin &&
                r.yend == t.yend && r.zbegin == t.zbegin && r.zend == t.zend;
@@ -254,8 +252,9 @@ std::string difference(const OIIO::ImageSpec& a, const OIIO::ImageSpec& b) {
         return "Images differ in the names of their parts (" + name_of_part(a) + " vs " +
                name_of_part(b) + ")";
     }
-    if (turned(a) != turned(b)) {
-        return format("Images differ in Orientation ({} vs {})", turned(a), turned(b));
+    if (orientation_of(a) != orientation_of(b)) {
+        return format("Images differ in Orientation ({} vs {})", orientation_of(a),
+                      orientation_of(b));
     }
     return "";
 }

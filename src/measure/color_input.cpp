@@ -47,9 +47,10 @@ std::vector<OIIO::ImageSpec> headers_of(const Image& image) {
 
 bool same_file(const Image& a, size_t part_of_a, const Image& b, size_t part_of_b) {
     std::error_code ignored;
-    return a.part(part_of_a).from_file() && b.part(part_of_b).from_file() &&
-           part_of_a == part_of_b &&
-           (a.name() == b.name() || std::filesystem::equivalent(a.name(), b.name(), ignored));
+    const bool files = a.part(part_of_a).from_file() && b.part(part_of_b).from_file();
+    const bool one =
+        a.name() == b.name() || std::filesystem::equivalent(a.name(), b.name(), ignored);
+    return part_of_a == part_of_b && ((files && one) || (a.lineage != 0 && a.lineage == b.lineage));
 }
 
 void tell_encoding(Session& session, const Call& call, const Image& image,

@@ -12,6 +12,7 @@
 #include "runs/packed.h"
 #include "sequence/probe.h"
 #include "sequence/results_json.h"
+#include "text/error.h"
 
 namespace tonetool::runs {
 
@@ -129,7 +130,7 @@ ExposureFrames::Measured ExposureFrames::measure(size_t index, std::ostream& err
     const FrameRun& run = m_context.plan.runs[index];
     const CheckPlan& check = m_context.plan.check;
     const sequence::Item item = m_context.item(index);
-    const sequence::Origin origin{words_at(run.words, check.essence_at), "exposures", {}};
+    const sequence::Origin origin{words_at(run.words, check.essence_at), "exposures"};
     if (m_state) {
         if (const auto kept = m_state->find(item, origin)) {
             return {sequence::samples_from_json(kept->result).at(0), ""};
@@ -149,7 +150,7 @@ ExposureFrames::Measured ExposureFrames::measure(size_t index, std::ostream& err
     Measured measured{found, ""};
     if (m_state) {
         measured.error =
-            keep_in(*m_state, item, origin, session.files, {sequence::to_json({found}), "", "", 0});
+            keep_in(*m_state, item, origin, session.files, {sequence::to_json({found}), "", ""});
         if (!measured.error.empty()) {
             m_context.print_error(index, measured.error, err);
         }
@@ -247,6 +248,7 @@ CheckedFrames::Checked CheckedFrames::check(size_t index) const {
     checked.out = out.str();
     checked.err = err.str();
     checked.files = session.files;
+    checked.written = session.claimed;
     return checked;
 }
 
@@ -258,20 +260,23 @@ CheckedFrames::Checked CheckedFrames::check_or_find(size_t index) const {
     const Strings& words = plan.runs[index].words;
     const sequence::Item item = m_context.item(index);
     const sequence::Origin origin{words_at(words, plan.check.essence_at),
-                                  m_context.shot ? sequence::exposures_text(*m_context.shot) : "",
-                                  words_at(words, plan.check.outputs)};
+                                  m_context.shot ? sequence::exposures_text(*m_context.shot) : ""};
     if (auto kept = m_state->find(item, origin)) {
         FrameResult found = sequence::frame_from_json(kept->result);
         if (!draws(plan.check) || m_pictures.restore(found)) {
-            return {std::move(found), std::move(kept->out), std::move(kept->err), kept->status,
-                    true};
+            return {std::move(found),
+                    std::move(kept->out),
+                    std::move(kept->err),
+                    kept->status,
+                    true,
+                    std::move(kept->written)};
         }
     }
     Checked made = check(index);
     if (made.result.status <= Status::SizeMismatch) {
-        const std::string error =
-            keep_in(*m_state, item, origin, made.files,
-                    {sequence::to_json(made.result), made.out, made.err, made.status});
+        const std::string error = keep_in(
+            *m_state, item, origin, made.files,
+            {sequence::to_json(made.result), made.out, made.err, made.status, made.written});
         if (!error.empty()) {
             made.result.status = Status::Error;
             made.result.message = error;
@@ -288,7 +293,8 @@ Ran CheckedFrames::run(size_t index, std::ostream& out, std::ostream& err) {
     const auto& pictures = checked.pictures;
     return {checked.status, in_words(checked.result), false,
             packed({sequence::to_json(checked.result), checked.known ? "known" : "",
-                    pictures ? pictures->full : "", pictures ? pictures->small : ""})};
+                    pictures ? pictures->full : "", pictures ? pictures->small : "",
+                    packed(checked.written)})};
 }
 
 Ran CheckedFrames::failed(size_t index, Status status, const std::string& why, std::ostream& err) {
@@ -296,13 +302,27 @@ Ran CheckedFrames::failed(size_t index, Status status, const std::string& why, s
     result.status = status;
     result.message = status == Status::Crashed ? crashed(why) : why;
     m_context.print_error(index, result.message, err);
-    return {1, in_words(result), false, packed({sequence::to_json(result), "", "", ""})};
+    return {1, in_words(result), false, packed({sequence::to_json(result), "", "", "", ""})};
+}
+
+void CheckedFrames::claim(const Strings& written, FrameResult& result, Ran& ran) const {
+    try {
+        for (const std::string& file : m_context.plan.compat ? Strings() : written) {
+            m_context.written->claim(file, result.frame, result.view);
+        }
+    } catch (const CommandError& problem) {
+        result.status = Status::Error;
+        result.message = problem.what();
+        ran.status = 1;
+        ran.words = in_words(result);
+    }
 }
 
 void CheckedFrames::take(size_t index, Ran& ran) {
-    Strings texts = unpacked(ran.found, 4);
+    Strings texts = unpacked(ran.found, 5);
     FrameResult& result = m_results[index];
     result = sequence::frame_from_json(texts[0]);
+    claim(unpacked(texts[4]), result, ran);
     if (result.status == Status::Crashed) {
         // What the process had begun to write.
         remove_abandoned_outputs(

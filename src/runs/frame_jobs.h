@@ -88,6 +88,7 @@ private:
         std::string out, err;
         int status = 0;
         bool known = false; ///< from an earlier run
+        Strings written{};  ///< files, by its commands
         std::optional<sequence::PictureTexts> pictures{};
         sequence::FileLog files{}; ///< that its run has opened
     };
@@ -95,6 +96,8 @@ private:
     sequence::FrameResult unchecked(size_t index) const;
     Checked check(size_t index) const;
     Checked check_or_find(size_t index) const;
+    // Frames of several processes must not write one file either.
+    void claim(const Strings& written, sequence::FrameResult& result, Ran& ran) const;
 
     const FrameContext& m_context;
     const std::optional<sequence::State>& m_state;

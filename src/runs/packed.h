@@ -20,24 +20,32 @@ inline std::string packed(const Strings& texts) {
     return bytes;
 }
 
-/// What `packed` has made of `count` texts; a runtime_error for anything else.
-inline Strings unpacked(const std::string& bytes, size_t count) {
+/// What `packed` has made of texts; a runtime_error for anything else.
+inline Strings unpacked(const std::string& bytes) {
+    constexpr const char* other = "a worker process has sent something else than a result";
     Strings texts;
     for (size_t at = 0; at < bytes.size();) {
         uint64_t size = 0;
         if (bytes.size() - at < sizeof size) {
-            break;
+            throw std::runtime_error(other);
         }
         std::memcpy(&size, bytes.data() + at, sizeof size);
         at += sizeof size;
         if (size > bytes.size() - at) {
-            break;
+            throw std::runtime_error(other);
         }
         texts.push_back(bytes.substr(at, size));
         at += size;
     }
+    return texts;
+}
+
+/// The same of as many texts as there must be.
+inline Strings unpacked(const std::string& bytes, size_t count) {
+    Strings texts = unpacked(bytes);
     if (texts.size() != count) {
-        throw std::runtime_error("a worker process has sent something else than a result");
+        throw std::runtime_error("a worker process has sent " + std::to_string(texts.size()) +
+                                 " texts instead of " + std::to_string(count));
     }
     return texts;
 }

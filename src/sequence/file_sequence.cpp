@@ -84,6 +84,13 @@ void look_into_folder(const std::string& printf_style, const std::string& view, 
         }
         found.push_back({{number->value, view}, place + file});
     }
+    // Half a folder would be checked for the whole of it.
+    const bool absent =
+        problem == std::errc::no_such_file_or_directory || problem == std::errc::not_a_directory;
+    if (problem && !absent) {
+        throw std::runtime_error("cannot list the folder \"" + place + "\" of \"" + printf_style +
+                                 "\": " + problem.message());
+    }
 }
 
 Files on_disk(const std::string& printf_style, const PatternOptions& options) {

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
+#include "imagebuf/upright.h"
 #include "sequence/bytes.h"
 #include "sequence/encoded.h"
 #include "sequence/json_text.h"
@@ -41,7 +42,8 @@ public:
         : m_request(request),
           m_nthreads(nthreads),
           m_look(request.look),
-          m_whole(request.error ? request.error->roi() : request.test->roi_full()) {
+          m_whole(request.error ? request.error->roi() : request.test->roi_full()),
+          m_orientation(orientation_of(request.test->spec())) {
         m_look.pixels.layer.clear();
         if (!says_space_again(m_look.pixels)) {
             m_look.pixels.from.clear();
@@ -127,6 +129,10 @@ private:
                 srgb_bytes(result.exposures.at(0).test)};
     }
 
+    std::string uri(const ImageBuf& picture, Encoding encoding, int quality) const {
+        return data_uri(upright(picture, m_orientation), encoding, quality);
+    }
+
     ImageBuf displayed(const ImageBuf& linear) const {
         TonemapOptions options;
         options.curve.name = "linear";
@@ -141,11 +147,11 @@ private:
     void draw_small(FramePictures& pictures, const Linear& linear, double stops,
                     const Side& side) const {
         const Shown shown = show(linear, stops);
-        pictures.small_test = data_uri(resized(shown.test, side), Encoding::Jpeg, small_quality);
+        pictures.small_test = uri(resized(shown.test, side), Encoding::Jpeg, small_quality);
         if (m_request.error) {
             const ImageBuf error = reduced_maps(*m_request.error, nullptr, side).error;
             pictures.small_error =
-                data_uri(colored_bytes(error, "magma"), Encoding::JpegMap, small_quality);
+                uri(colored_bytes(error, "magma"), Encoding::JpegMap, small_quality);
         }
     }
 
@@ -154,13 +160,16 @@ private:
         const Side side = fitted(m_whole, picture_side);
         pictures.width = side.width;
         pictures.height = side.height;
+        if (lies_on_its_side(m_orientation)) {
+            std::swap(pictures.width, pictures.height);
+        }
         for (double stops : exposures) {
             const Shown shown = show(linear, stops);
-            const auto uri = [&](const ImageBuf& image) {
-                return data_uri(image, Encoding::Jpeg, large_quality);
+            const auto large = [&](const ImageBuf& image) {
+                return uri(image, Encoding::Jpeg, large_quality);
             };
             pictures.exposures.push_back(
-                {stops, m_request.reference ? uri(shown.reference) : "", uri(shown.test)});
+                {stops, m_request.reference ? large(shown.reference) : "", large(shown.test)});
         }
         if (m_request.error) {
             draw_maps(pictures, side);
@@ -169,14 +178,13 @@ private:
 
     void draw_maps(FramePictures& pictures, const Side& side) const {
         const ReducedMaps maps = reduced_maps(*m_request.error, m_request.stops, side);
-        pictures.error =
-            data_uri(colored_bytes(maps.error, "magma"), Encoding::JpegMap, map_quality);
+        pictures.error = uri(colored_bytes(maps.error, "magma"), Encoding::JpegMap, map_quality);
         if (m_request.stops && !m_request.exposures.empty()) {
             pictures.first_stop = m_request.exposures.front();
             pictures.last_stop = m_request.exposures.back();
-            pictures.stops = data_uri(
-                colored_bytes(maps.stops, "viridis", pictures.first_stop, pictures.last_stop),
-                Encoding::Jpeg, map_quality);
+            pictures.stops =
+                uri(colored_bytes(maps.stops, "viridis", pictures.first_stop, pictures.last_stop),
+                    Encoding::Jpeg, map_quality);
         }
     }
 
@@ -205,14 +213,14 @@ private:
         SpotPictures result;
         result.at = at;
         mark_nonfinite(shown.test, *m_request.test, m_request.look.pixels, near);
-        result.test = data_uri(shown.test, Encoding::Png);
+        result.test = uri(shown.test, Encoding::Png, 0);
         if (m_request.reference) {
             mark_nonfinite(shown.reference, *m_request.reference, m_request.look.pixels, near);
-            result.reference = data_uri(shown.reference, Encoding::Png);
+            result.reference = uri(shown.reference, Encoding::Png, 0);
         }
         if (m_request.error) {
             const ImageBuf error = OIIO::ImageBufAlgo::cut(*m_request.error, near);
-            result.error = data_uri(colored_bytes(error, "magma"), Encoding::Png);
+            result.error = uri(colored_bytes(error, "magma"), Encoding::Png, 0);
         }
         return result;
     }
@@ -221,6 +229,7 @@ private:
     int m_nthreads;
     HdrFlipOptions m_look;
     ROI m_whole;
+    int m_orientation; ///< of both pictures
 };
 
 ordered_json json_of(const std::vector<SpotPictures>& spots) {

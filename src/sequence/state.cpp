@@ -132,8 +132,12 @@ std::optional<Kept> State::find(const Item& item, const Origin& origin) const {
                 !are_current(from.at("inputs")) || !are_current(from.at("outputs"))) {
                 return std::nullopt;
             }
-            return Kept{from.at("result").get<std::string>(), from.at("out").get<std::string>(),
-                        from.at("err").get<std::string>(), from.at("status").get<int>()};
+            Kept kept{from.at("result").get<std::string>(), from.at("out").get<std::string>(),
+                      from.at("err").get<std::string>(), from.at("status").get<int>()};
+            for (const ordered_json& output : from.at("outputs")) {
+                kept.written.push_back(stamp_from(output).file);
+            }
+            return kept;
         });
     } catch (const std::runtime_error&) {
         return std::nullopt; // of another version, or damaged: made anew
@@ -154,7 +158,7 @@ void State::keep(const Item& item, const Origin& origin, const FileLog& inputs,
     Stamps all = log.stamps();
     all.insert(all.end(), behind.begin(), behind.end());
     Stamps outputs;
-    for (const std::string& output : origin.outputs) {
+    for (const std::string& output : kept.written) {
         outputs.push_back(stamp_of(output));
     }
     const std::string text = dumped({{"format", state_format},

@@ -15,13 +15,13 @@ struct Kept {
     std::string result;   ///< a JSON text: a FrameResult or an exposure sample
     std::string out, err; ///< what it printed
     int status = 0;
+    std::vector<std::string> written{}; ///< files
 };
 
 /// What the result of one frame follows from. It is computed anew when any of it has changed.
 struct Origin {
-    std::vector<std::string> words;   ///< of the command line, with this frame's names
-    std::string rest;                 ///< anything else, the shot's exposures
-    std::vector<std::string> outputs; ///< files that the run has written
+    std::vector<std::string> words; ///< of the command line, with this frame's names
+    std::string rest;               ///< anything else, the shot's exposures
 };
 
 /// A folder of one file per frame, each written beside its place and renamed. A symbolic link in

@@ -2,9 +2,14 @@
 
 import json
 import os
+import shutil
+import subprocess
+import tempfile
+from pathlib import Path
 
 import numpy as np
 import pytest
+from conftest import call
 
 
 @pytest.fixture
@@ -162,6 +167,49 @@ FLIP = "--hdrflip:fail=0.05:print=0"
 def test_not_compared_or_written_over(tonetool, words, text):
     ran = tonetool(*words, status=1)
     assert text in ran.err and "check: passed" not in ran.out
+
+
+@pytest.mark.usefixtures("pair_of_shots")
+@pytest.mark.parametrize("jobs", ["1", "2"])
+def test_frames_of_several_processes_that_write_one_file(tonetool, jobs):
+    words = ["--jobs", jobs, "--frames", "1,3", *SHOTS, FLIP, "-o", "same.{FRAME_NUMBER//9}.exr",
+             "--state", "s"]
+    for _ in range(2):  # also where both are known from the run before
+        ran = tonetool(*words, status=1)
+        assert "was written by frame" in ran.err + ran.out and "check: passed" not in ran.out
+    ran = tonetool("--jobs", jobs, "--frames", "1,3", *SHOTS, FLIP, "-o",
+                   "same.{FRAME_NUMBER//2}.exr", "--state", "s2")
+    assert "check: passed" in ran.out
+
+
+@pytest.fixture
+def run_without_rights(program, tmp_path):
+    """Runs the program as somebody who may not read everything, unlike root, on a copy of the
+    files."""
+    user = {"user": 65534} if os.geteuid() == 0 else {}
+    folder = Path(tempfile.mkdtemp())
+    shutil.copytree(tmp_path, folder, dirs_exist_ok=True)
+    folder.chmod(0o755)
+    if subprocess.run(["test", "-x", program], check=False, **user).returncode != 0:
+        pytest.skip("the program lies where nobody else may run it")
+
+    def run(*words):
+        return call(program, words, folder, stdout=subprocess.PIPE, **user)
+
+    yield folder, run
+    shutil.rmtree(folder)
+
+
+@pytest.mark.usefixtures("pair_of_shots")
+def test_what_may_not_be_read_is_said(run_without_rights):
+    folder, run = run_without_rights
+    (folder / "closed").mkdir(0)
+    (folder / "r.0003.exr").chmod(0)
+    ran = run("closed/r.#.exr", "t.#.exr", FLIP)
+    assert ran.status == 1 and 'cannot list the folder "closed/"' in ran.err, ran.err
+    assert "Permission denied" in ran.err
+    ran = run("r.0003.exr", "t.0003.exr", FLIP)
+    assert ran.status == 1 and '"r.0003.exr": Permission denied' in ran.err, ran.err
 
 
 @pytest.mark.usefixtures("pair_of_shots")

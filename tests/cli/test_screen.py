@@ -1,5 +1,8 @@
 """What is written for a screen, and what the headers of files say about their colour."""
 
+import base64
+import json
+import re
 import struct
 import zlib
 
@@ -80,6 +83,42 @@ def test_maps_lie_as_their_pictures(tonetool, make_image, read, words):
     assert shown.shape[:2] == (16, 12) and spec.getattribute("Orientation") in (None, 1)
     order = [np.argsort(one[..., 0].ravel()) for one in (np.rot90(stored, -1), shown)]
     assert np.corrcoef(*(np.argsort(one) for one in order))[0, 1] > 0.9  # turned alike
+
+
+def picture_of(uri, folder):
+    (folder / "decoded.jpg").write_bytes(base64.b64decode(uri.split(",")[1]))
+    return oiio.ImageBuf(str(folder / "decoded.jpg")).get_pixels("float")
+
+
+@pytest.mark.parametrize("orientation", [2, 3, 6, 8])
+def test_filmstrips_and_reports_are_upright(tonetool, make_image, read, tmp_path, orientation):
+    """They are those of the same pictures that were turned before."""
+    lying = orientation < 5
+    size = (64, 48) if lying else (48, 64)
+    across, down = np.meshgrid(np.linspace(0, 1, size[0]), np.linspace(0, 1, size[1]))
+    meant = np.stack([across, down, across * down], -1)
+    stored = {2: meant[:, ::-1], 3: meant[::-1, ::-1], 6: np.rot90(meant, 1),
+              8: np.rot90(meant, -1)}[orientation]
+    flip = "startExposure=0:stopExposure=1:numExposures=2"
+    for kind, pixels, turn in (("upright", meant, 1), ("turned", stored, orientation)):
+        for name, factor in (("r", 1), ("t", 0.7)):
+            make_image(f"{name}.{kind}.0001.exr", pixels.shape[1], pixels.shape[0],
+                       pixels=pixels * factor, attributes={"Orientation": turn})
+        tonetool(f"r.{kind}.0001.exr", f"t.{kind}.0001.exr", f"--filmstrip:{flip}:width=120",
+                 "-o", f"{kind}.png")
+        tonetool(f"r.{kind}.#.exr", f"t.{kind}.#.exr", f"--hdrflip:{flip}", "--report",
+                 f"{kind}.html", "--contactsheet", f"sheet.{kind}.png")
+    for name in ("{}.png", "sheet.{}.png"):
+        one, other = (read(name.format(kind))[0] for kind in ("upright", "turned"))
+        assert one.shape == other.shape and np.abs(one - other).mean() < 0.01
+    pages = [json.loads(re.search(r'id="full-0">(.*?)</script>', (tmp_path / f"{kind}.html")
+                                  .read_text(encoding="utf-8"), re.S)[1])
+             for kind in ("upright", "turned")]
+    assert [(page["width"], page["height"]) for page in pages] == [size, size]
+    for find in (lambda page: page["exposures"][0]["test"], lambda page: page["error"],
+                 lambda page: page["exposures"][1]["reference"], lambda page: page["stops"]):
+        one, other = (picture_of(find(page), tmp_path) for page in pages)
+        assert one.shape == other.shape and np.abs(one - other).mean() < 0.02
 
 
 def test_alpha_that_hides_the_picture_is_said(tonetool, make_image):

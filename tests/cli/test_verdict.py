@@ -179,6 +179,15 @@ def test_a_file_against_itself(tonetool, put, pair, tmp_path, aovs):
     put("copy.exr", GOOD)
     assert not tonetool("good.exr", "copy.exr", "--hdrflip:fail=0", "--warnings-exit").err
     assert not tonetool("good.exr", "good.exr", "--mulc", "1", "--hdrflip:fail=0").err
+    # The same commands make the same of one file.
+    for same in (["--mulc", "1"], ["--ch", "R,G,B"], ["--resize", "50%", "--exposure", "1"]):
+        for command in ("--hdrflip:fail=0", "--diff"):
+            ran = tonetool("good.exr", *same, "hard.exr", *same, command, "--warnings-exit",
+                           status=2)
+            assert "are the same file" in ran.err
+        assert not tonetool("good.exr", *same, "copy.exr", *same, "--hdrflip:fail=0").err
+    assert not tonetool("good.exr", "--mulc", "1", "good.exr", "--mulc", "1.0001",
+                        "--hdrflip:fail=0.5").err
     for name in ("ref.0001.exr", "ref.0002.exr"):
         put(name, GOOD)
     ran = tonetool("ref.#.exr", "ref.#.exr", "--hdrflip:fail=0.01:print=0", "--json", "s.json")

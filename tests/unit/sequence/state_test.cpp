@@ -34,8 +34,7 @@ protected:
     Origin origin() const {
         return {{path("in.exr"), "--hdrflip:exposures='" + path("range.json") + "'", "-o",
                  path("out.exr")},
-                "",
-                {path("out.exr")}};
+                ""};
     }
     FileLog opened(const std::string& name) const {
         FileLog log;
@@ -46,7 +45,7 @@ protected:
 
     fs::path m_folder;
     Item m_item{7, ""};
-    Kept m_kept{"{}", "printed\n", "", 3};
+    Kept m_kept{"{}", "printed\n", "", 3, {path("out.exr")}};
 };
 
 TEST_F(StateTest, What_was_kept_is_found) {
@@ -58,6 +57,7 @@ TEST_F(StateTest, What_was_kept_is_found) {
     ASSERT_TRUE(found);
     EXPECT_EQ(found->out, "printed\n");
     EXPECT_EQ(found->status, 3);
+    EXPECT_EQ(found->written, m_kept.written);
     EXPECT_FALSE(state.find({8, ""}, origin()));
     Origin other = origin();
     other.words.emplace_back("--pop");
