@@ -130,7 +130,9 @@ void save_texture(Session& session, const Call& call, const Image& image,
                       : label == "obump" ? IBA::MakeTxBumpWithSlopes
                                          : IBA::MakeTxTexture;
     std::string why;
-    const OIIO::ImageBuf& pixels = image.part().pixels();
+    OIIO::ImageBuf cropped;
+    const OIIO::ImageBuf& pixels =
+        files::texture_pixels(image.part().pixels(), filename, settings, session.compat, cropped);
     session.keep_pixels_of(filename);
     if (!write_texture(mode, pixels, filename, texture_config(session, call, image, settings),
                        why)) {

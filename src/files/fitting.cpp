@@ -95,28 +95,49 @@ bool holds_floats(const OIIO::ImageOutput& writer) {
 
 } // namespace
 
-void fit_windows(Outgoing& image, const OIIO::ImageOutput& writer) {
-    OIIO::ROI wanted = image.pixels->roi_full();
-    bool windows = oiio::format_supports(writer, "displaywindow");
-    bool negative = oiio::format_supports(writer, "negativeorigin");
-    const OIIO::ImageSpec& spec = image.pixels->spec();
-    bool below_zero = std::min({spec.x, spec.y, spec.full_x, spec.full_y}) < 0;
-    if (wanted == image.pixels->roi() || spec.deep || (windows && (negative || !below_zero))) {
-        return;
+namespace {
+
+// What is left at the right of and below 0: one pixel where that is nothing.
+OIIO::ROI not_negative(OIIO::ROI window) {
+    window.xbegin = std::max(window.xbegin, 0);
+    window.ybegin = std::max(window.ybegin, 0);
+    window.xend = std::max(window.xend, window.xbegin + 1);
+    window.yend = std::max(window.yend, window.ybegin + 1);
+    return window;
+}
+
+} // namespace
+
+bool fit_windows(const OIIO::ImageBuf& image, const OIIO::ImageOutput& writer, bool lenient,
+                 OIIO::ImageBuf& fitted) {
+    const bool windows = oiio::format_supports(writer, "displaywindow");
+    const bool origins = oiio::format_supports(writer, "negativeorigin");
+    const OIIO::ROI data = image.roi();
+    OIIO::ROI display = image.roi_full();
+    display.chend = image.nchannels();
+    const bool below_zero =
+        std::min({data.xbegin, data.ybegin, display.xbegin, display.ybegin}) < 0;
+    OIIO::ROI wanted = windows ? data : display;
+    bool moves = false;
+    if (below_zero && !origins && lenient) {
+        wanted = not_negative(wanted);
+    } else if (below_zero && !origins) {
+        wanted = display;
+        moves = std::min(display.xbegin, display.ybegin) < 0;
     }
-    wanted.chbegin = 0;
-    wanted.chend = spec.nchannels;
-    if (windows) {
-        wanted.xbegin = std::max(wanted.xbegin, 0);
-        wanted.ybegin = std::max(wanted.ybegin, 0);
+    if (image.deep() || (wanted == data && !moves)) {
+        return false;
     }
-    OIIO::ImageBuf fitted = windows ? OIIO::ImageBufAlgo::crop(*image.pixels, wanted)
-                                    : OIIO::ImageBufAlgo::cut(*image.pixels, wanted);
+    fitted = OIIO::ImageBufAlgo::crop(image, wanted);
     if (fitted.has_error()) {
         throw CommandError(fitted.geterror());
     }
-    image.owned = std::move(fitted);
-    image.pixels = &image.owned;
+    if (moves) {
+        fitted.set_origin(0, 0);
+        OIIO::ROI whole = fitted.roi();
+        fitted.set_roi_full(whole);
+    }
+    return true;
 }
 
 void fit_channels(Outgoing& image, const OIIO::ImageOutput& writer, const Writer& from) {

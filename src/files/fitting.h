@@ -16,9 +16,11 @@ struct Outgoing {
     DataFormat format;
 };
 
-/// Formats without a data window get the display window; those without a negative origin get the
-/// part of it that they can hold.
-void fit_windows(Outgoing& image, const OIIO::ImageOutput& writer);
+/// Formats that cannot hold both windows get the display window, with its corner at 0 where they
+/// cannot hold its negative origin either. If lenient, as oiiotool: without what is left of or
+/// above 0. False where the image is fine as it is.
+bool fit_windows(const OIIO::ImageBuf& image, const OIIO::ImageOutput& writer, bool lenient,
+                 OIIO::ImageBuf& fitted);
 
 /// Where the format holds fewer channels, or would take the one behind the colours for its alpha:
 /// the picture, with its alpha where it has one. oiiotool's choice if the writer is lenient.

@@ -285,11 +285,14 @@ void prepare_part(const Image& image, Part& part, const std::string& filename,
         Outgoing& next = outgoing.emplace_back();
         next.pixels = &part.pixels(level);
         next.format = from.types->of(part, from.lenient);
-        if (settings.autocrop) {
-            fit_windows(next, writer);
+        if (settings.autocrop && fit_windows(*next.pixels, writer, from.lenient, next.owned)) {
+            next.pixels = &next.owned;
         }
         fit_channels(next, writer, from);
         choose_format(next.format, next.pixels->spec(), settings, from);
+        if (next.format.type == OIIO::TypeHalf && writer.format_name() == std::string("fits")) {
+            next.format = DataFormat{}; // its writer calls half float, and writes half the pixels
+        }
         ready.push_back({next.pixels, output_spec(next, from, settings, filename, writer),
                          level > 0, settings.format_name, !from.lenient});
         if (levels == 1) { // OpenEXR would wait for more
@@ -318,6 +321,15 @@ void adjust_time(const OIIO::ImageSpec& spec, const std::string& filename) {
 }
 
 } // namespace
+
+const OIIO::ImageBuf& texture_pixels(const OIIO::ImageBuf& image, const std::string& filename,
+                                     const OutputSettings& settings, bool lenient,
+                                     OIIO::ImageBuf& owned) {
+    const bool fitted =
+        settings.autocrop &&
+        fit_windows(image, *find_writer(filename, settings.format_name), lenient, owned);
+    return fitted ? owned : image;
+}
 
 void write_output(const Image& image, const std::string& filename, const OutputSettings& settings,
                   const Writer& from, const std::function<void()>& before) {

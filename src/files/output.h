@@ -70,6 +70,12 @@ void check_compression(const std::string& compression);
 /// The data type that a subimage would be written with, where the file format has it.
 OIIO::TypeDesc output_type(const Part& part, const OutputSettings& settings, const Writer& writer);
 
+/// What a texture is made of, unless --noautocrop: windows that its format can hold. `owned` holds
+/// the pixels where that changes them.
+const OIIO::ImageBuf& texture_pixels(const OIIO::ImageBuf& image, const std::string& filename,
+                                     const OutputSettings& settings, bool lenient,
+                                     OIIO::ImageBuf& owned);
+
 /// Write an image with these settings; a CommandError if that fails, and then the file that was
 /// there is untouched. `before` is called before anything is replaced.
 void write_output(const Image& image, const std::string& filename, const OutputSettings& settings,

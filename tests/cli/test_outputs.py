@@ -112,6 +112,26 @@ def test_unknown_colormap(tonetool, make_image, name):
     assert "valid:" in ran.err
 
 
+def test_half_in_a_fits_file(tonetool, make_image, read):
+    name = make_image("a.exr", kind="half")
+    tonetool(name, "-o", "a.fits", "-d", "half", "-o", "b.fits")
+    for written in ("a.fits", "b.fits"):
+        assert np.abs(read(written)[0] - read(name)[0]).max() < 1e-6
+
+
+@pytest.mark.parametrize("kind", ["png", "tif", "dpx", "tga"])
+def test_no_pixel_of_the_display_window_is_lost(tonetool, make_image, read, kind):
+    """Few formats can hold an origin below 0: oiiotool leaves out what is there."""
+    pixels = np.random.default_rng(2).random((12, 16, 3)).astype(np.float32)
+    for window, place in (((-5, -3, -5, -3, 16, 12), (0, 0)), ((0, 0, -4, -2, 30, 20), (2, 4)),
+                          ((-9, -4, -10, -6, 40, 30), (2, 1))):
+        name = make_image("a.exr", pixels=pixels, window=window)
+        tonetool(name, "-d", "uint8", "-o", f"a.{kind}")
+        got, spec = read(f"a.{kind}")
+        assert got.shape[:2] == (window[5], window[4]) and (spec.x, spec.y) == (0, 0)
+        assert np.abs(got[place[0]:, place[1]:][:12, :16] - pixels).max() < 0.003
+
+
 def test_data_window_in_a_format_without_one(tonetool, oiiotool, make_image, read):
     a = make_image("a.exr", window=(3, 2, 0, 0, 30, 20))
     tonetool(a, "-o", "x.png", "-o", "x.exr")

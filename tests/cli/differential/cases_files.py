@@ -9,6 +9,15 @@ TYPES = [f"type-{name}: in/unit.exr " + " ".join(f"-d {kind} -o {kind}.{name}" f
              ("png", ("uint8", "uint16", "half")), ("jpg", ("uint8", "uint16")))]
 FORMATS = ["formats: in/unit.exr " + " ".join(
     f"-o out.{name}" for name in ("bmp", "tga", "hdr", "gif", "ppm", "fits", "rla", "iff", "webp"))]
+# Data and display windows left of and above 0, which few formats can hold.
+PLACES = {"left": "-20-10 100x100+0+0", "all-left": "-20+5 70x70-30+5", "same": "-5-5 64x64-5-5",
+          "right": "+3+3 64x64+3+3", "outside": "-70-70 64x64+0+0", "around": "+0+0 100x100-5-5",
+          "within": "+0+0 32x32+10+10"}
+WINDOWS = [f"window-{name}-{kind}: --pattern checker 64x64 3 --origin {place.split()[0]} "
+           f"--fullsize {place.split()[1]} {command} out.{kind}"
+           for name, place in PLACES.items()
+           for kind, command in (("dpx", "-d uint8 -o"), ("tif", "-d uint8 -o"), ("png", "-o"),
+                                 ("jpg", "-o"), ("rla", "-d uint8 -o"), ("tx", "-otex"))]
 
 WRITE = """
 copy: in/rgb.exr -o out.exr
@@ -69,6 +78,11 @@ output-all-padded: in/rgb.exr in/rgb2.exr -o:all=5 out.%04d.exr
 type-documented!: in/unit.exr -d sint8 -o out.tif
 otex: in/rgb.exr -otex out.exr
 otex-tiff: in/u8.tif -otex out.tx
+otex-tiff-overscan: in/rgb.exr --fullsize 20x10+5+5 -otex out.tx
+otex-tiff-inside: in/rgb.exr --fullsize 100x80+0+0 --origin +10+5 -otex out.tif
+otex-tiff-below-zero: in/rgb.exr --fullsize 30x20-3-3 -otex out.tif
+otex-exr-overscan: in/rgb.exr --fullsize 20x10+5+5 -otex out.exr
+oenv-tiff-overscan: in/rgb.exr --fullsize 20x10+5+5 -oenv out.tx
 otex-options: in/u8.tif -otex:wrap=periodic:filter=lanczos3 out.tx
 otex-no-mips: in/u8.tif -otex:nomipmap=1 out.tx
 otex-resize: in/u8.tif -otex:resize=1:swrap=clamp:twrap=mirror out.tx
@@ -160,4 +174,4 @@ missing-checker!: --missingfile checker in/rgb.exr nosuch.exr --add -o out.exr
 missing-error: --missingfile error in/rgb.exr --mulc 2 -o out.exr
 """
 
-CASES = [*table("write", "\n".join(TYPES + FORMATS) + WRITE), *table("read", READ)]
+CASES = [*table("write", "\n".join(TYPES + FORMATS + WINDOWS) + WRITE), *table("read", READ)]
