@@ -90,7 +90,14 @@ Part& color_part(Session& session, const Call& call, const Image& image,
         }
         session.warning(call.row().label(), text);
     }
-    return image.part(size_t(choice.part));
+    Part& part = image.part(size_t(choice.part));
+    if (compares && part.mip_levels() > 1) {
+        session.warning(call.row().label(),
+                        "\"" + image.name() + "\": of its " + std::to_string(part.mip_levels()) +
+                            " MIP levels the largest is looked at (--selectmip chooses another, "
+                            "--diff compares all)");
+    }
+    return part;
 }
 
 Part& checked_part(Session& session, const Call& call, const Image& image,

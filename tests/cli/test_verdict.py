@@ -195,6 +195,18 @@ def test_a_file_against_itself(tonetool, put, pair, tmp_path, aovs):
     assert [f["status"] for f in found["frames"]] == ["warning", "warning"]
 
 
+def test_mip_levels_that_are_not_looked_at(tonetool, put, pair):
+    for name in ("good", "other"):
+        put(f"{name}.exr", GOOD)
+        tonetool(f"{name}.exr", "-otex", f"{name}.tx")
+    ran = tonetool("good.tx", "other.tx", "--hdrflip:fail=0.1", "--warnings-exit", status=2)
+    assert "MIP levels the largest is looked at" in ran.err
+    tonetool("good.tx", "other.tx", "--diff", "--warnings-exit")
+    tonetool("--warnings-exit", "good.tx", "--selectmip", "1", "--label", "a", "other.tx",
+             "--selectmip", "1", "--hdrflip:fail=0.1")
+    assert pair
+
+
 def test_alpha_that_is_ignored(tonetool, put):
     alpha = np.ones((HEIGHT, WIDTH, 1), np.float32)
     hole = alpha.copy()
