@@ -274,6 +274,18 @@ OIIO::TypeDesc output_type(const Part& part, const OutputSettings& settings, con
 
 namespace {
 
+// Types that OpenImageIO's writer takes, and then writes wrong.
+void avoid_broken_type(DataFormat& format, const OIIO::ImageOutput& writer,
+                       const OutputSettings& asked, const Writer& from) {
+    const std::string name = writer.format_name();
+    if (name == "fits" && format.type == OIIO::TypeHalf) {
+        format = DataFormat{}; // it calls half float, and writes half the bytes
+    }
+    if (name == "pnm" && asked.type && asked.type->type == OIIO::TypeUInt16) {
+        from.warn("PNM files of 16 bits would have their bytes swapped: 8 bits are written");
+    }
+}
+
 // The levels of a part on their way to the file.
 void prepare_part(const Image& image, Part& part, const std::string& filename,
                   const OutputSettings& settings, const Writer& from,
@@ -290,9 +302,7 @@ void prepare_part(const Image& image, Part& part, const std::string& filename,
         }
         fit_channels(next, writer, from);
         choose_format(next.format, next.pixels->spec(), settings, from);
-        if (next.format.type == OIIO::TypeHalf && writer.format_name() == std::string("fits")) {
-            next.format = DataFormat{}; // its writer calls half float, and writes half the pixels
-        }
+        avoid_broken_type(next.format, writer, settings, from);
         ready.push_back({next.pixels, output_spec(next, from, settings, filename, writer),
                          level > 0, settings.format_name, !from.lenient});
         if (levels == 1) { // OpenEXR would wait for more

@@ -119,6 +119,14 @@ def test_half_in_a_fits_file(tonetool, make_image, read):
         assert np.abs(read(written)[0] - read(name)[0]).max() < 1e-6
 
 
+def test_sixteen_bits_in_a_pnm_file(tonetool, make_image, read):
+    """The writer of OpenImageIO 2.4 swaps their bytes."""
+    name = make_image("a.exr")
+    ran = tonetool(name, "-d", "uint16", "-o", "a.ppm", "--warnings-exit", status=2)
+    assert "8 bits are written" in ran.err
+    assert np.abs(read("a.ppm")[0] - read(name)[0]).max() < 0.003
+
+
 @pytest.mark.parametrize("kind", ["png", "tif", "dpx", "tga"])
 def test_no_pixel_of_the_display_window_is_lost(tonetool, make_image, read, kind):
     """Few formats can hold an origin below 0: oiiotool leaves out what is there."""
