@@ -29,7 +29,8 @@ struct ColorSpace {
     double scale = 1; ///< light of the value 1, when it is decoded: 1/EXPOSURE of Radiance files
     /// The values were multiplied by alpha after they were encoded, as 8 and 16 bit files are read.
     bool straight = false;
-    /// The power of alpha that they were multiplied by: OpenImageIO's readers take the file's gamma.
+    /// The power of alpha that they were multiplied by: OpenImageIO's readers take the file's
+    /// gamma.
     double alpha_power = 1;
     /// Packed RGB to linear Rec.709 in place, of a configuration's space, instead of all the above
     /// but the scale.

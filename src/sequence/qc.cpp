@@ -136,10 +136,9 @@ void QcShot::add(QcFrame& frame, const std::string& code, const std::string& sen
 
 std::vector<QcFrame*> QcShot::pictures() {
     std::vector<QcFrame*> chosen = filled();
-    chosen.erase(
-        std::remove_if(chosen.begin(), chosen.end(),
-                       [](const QcFrame* frame) { return !has_picture(frame->facts); }),
-        chosen.end());
+    chosen.erase(std::remove_if(chosen.begin(), chosen.end(),
+                                [](const QcFrame* frame) { return !has_picture(frame->facts); }),
+                 chosen.end());
     return chosen;
 }
 

@@ -23,15 +23,15 @@ Ran run_words(const Strings& words) {
 }
 
 TEST(CommandLine, CompatIsACommandAndNotAnArgument) {
-    for (const Strings& words : {Strings{"-compat"}, Strings{"a.exr", "--compat"},
-                                 Strings{"--parallel-frames", "--compat"},
-                                 Strings{"--parallel-frames", "2", "--compat"},
-                                 Strings{"--attrib", "a", "b", "--compat"}}) {
+    for (const Strings& words :
+         {Strings{"-compat"}, Strings{"a.exr", "--compat"},
+          Strings{"--parallel-frames", "--compat"}, Strings{"--parallel-frames", "2", "--compat"},
+          Strings{"--attrib", "a", "b", "--compat"}}) {
         EXPECT_TRUE(is_compat(words)) << words.front();
     }
-    for (const Strings& words : {Strings{"compat"}, Strings{"--echo", "--compat"},
-                                 Strings{"--attrib", "note", "--compat"},
-                                 Strings{"-o", "-compat"}}) {
+    for (const Strings& words :
+         {Strings{"compat"}, Strings{"--echo", "--compat"}, Strings{"--attrib", "note", "--compat"},
+          Strings{"-o", "-compat"}}) {
         EXPECT_FALSE(is_compat(words)) << words.front();
     }
 }
