@@ -227,7 +227,7 @@ void Runner::run_file(const std::string& word) {
         push_file_or_label(m_session, word);
         seconds += time();
         if (from_file) {
-            m_session.stack.back()->same_in_all_frames = !m_varies;
+            mark_frames(*m_session.stack.back());
         }
         run_postponed();
     }
@@ -309,44 +309,70 @@ std::string Runner::evaluated(size_t at) const {
 
 void Runner::note_varying(size_t begin) {
     const Frame& frame = m_session.frame;
+    const auto is_one_of = [](const std::vector<size_t>& places, size_t at) {
+        return std::find(places.begin(), places.end(), at) != places.end();
+    };
     m_varies = !frame.loops;
+    m_still = is_one_of(frame.stills, begin);
     for (size_t at = begin; at < m_session.flow.next && !m_varies; ++at) {
-        m_varies = m_words[at].find('{') != std::string::npos ||
-                   std::find(frame.varying.begin(), frame.varying.end(), at) != frame.varying.end();
+        m_varies = m_words[at].find('{') != std::string::npos || is_one_of(frame.varying, at);
+        m_still |= is_one_of(frame.stills, at);
     }
 }
 
-// Against a sequence it is a slip as often as it is meant: what is meant has to be said.
+// Against a sequence it is a slip as often as it is meant: what is meant has to be said. And what
+// is compared once is not to be counted as a comparison of each frame.
 void Runner::refuse_the_same_in_all_frames(const Call& call) const {
     if (!m_session.judges || m_varies || call.row().group != Group::Compare) {
         return;
     }
-    for (auto image = m_session.stack.end() - call.pops(); image != m_session.stack.end();
-         ++image) {
-        if ((*image)->same_in_all_frames) {
-            const std::string& name = (*image)->name();
-            throw CommandError("\"" + name +
+    const std::vector<ImagePtr> images(m_session.stack.end() - call.pops(), m_session.stack.end());
+    for (const ImagePtr& image : images) {
+        if (image->same_in_all_frames && !image->meant_for_all_frames) {
+            throw CommandError("\"" + image->name() +
                                "\" has no wildcard, it is the same in every frame "
                                "(valid: # in its name; of a still that is meant for all frames: "
                                "--wildcardoff " +
-                               name + " --wildcardon)");
+                               image->name() + " --wildcardon)");
         }
     }
+    if (!images.empty() && std::all_of(images.begin(), images.end(), [](const ImagePtr& image) {
+            return image->same_in_all_frames;
+        })) {
+        throw CommandError("\"" + images.front()->name() + "\" and \"" + images.back()->name() +
+                           "\" are the same in every frame, so this would be one comparison that "
+                           "counts for each (valid: one of them with # in its name, or another "
+                           "command line for the two)");
+    }
+}
+
+// Of an image that was just read.
+void Runner::mark_frames(Image& image) const {
+    image.same_in_all_frames = !m_varies;
+    image.meant_for_all_frames = m_still;
 }
 
 // What the call has pushed, from `first` on.
 void Runner::mark_pushed(const Call& call, size_t first) const {
     const auto& popped = call.images;
-    const bool same = !m_varies && (call.row().group == Group::Read || !popped.empty()) &&
-                      std::all_of(popped.begin(), popped.end(),
-                                  [](const ImagePtr& image) { return image->same_in_all_frames; });
+    const auto all = [&](bool Image::*is) {
+        return !m_varies && !popped.empty() &&
+               std::all_of(popped.begin(), popped.end(),
+                           [is](const ImagePtr& image) { return (*image).*is; });
+    };
     const bool measured = call.row().group == Group::Compare || call.row().group == Group::Measure;
     for (size_t i = first; i < m_session.stack.size(); ++i) {
         const ImagePtr& image = m_session.stack[i];
-        if (std::find(popped.begin(), popped.end(), image) == popped.end()) {
-            image->same_in_all_frames = same;
-            image->worked_on |= measured;
+        if (std::find(popped.begin(), popped.end(), image) != popped.end()) {
+            continue;
         }
+        if (call.row().group == Group::Read) {
+            mark_frames(*image);
+        } else {
+            image->same_in_all_frames = all(&Image::same_in_all_frames);
+            image->meant_for_all_frames = all(&Image::meant_for_all_frames);
+        }
+        image->worked_on |= measured;
     }
 }
 

@@ -34,6 +34,7 @@ private:
     std::string evaluated(size_t at) const;
     void note_varying(size_t begin);
     void refuse_the_same_in_all_frames(const Call& call) const;
+    void mark_frames(Image& image) const;
     void mark_pushed(const Call& call, size_t first) const;
     void run_or_postpone(Call call);
     void run_call(Call& call);
@@ -50,6 +51,7 @@ private:
     std::deque<Call> m_postponed;
     bool m_ended = false;
     bool m_varies = true; ///< the word in hand and its arguments may be others in other frames
+    bool m_still = false; ///< they stand behind --wildcardoff
     size_t m_count = 0;   ///< of words that were run
     OIIO::Timer m_time;
 };

@@ -40,8 +40,8 @@ struct Frame {
     int number = 0, padding = 0;
     std::string view;
     bool loops = false;
-    std::vector<size_t> varying{}; ///< places of words that are others in other frames, or that
-                                   ///< --wildcardoff says to be the same
+    std::vector<size_t> stills{};  ///< places of words that --wildcardoff says to be the same
+    std::vector<size_t> varying{}; ///< of those that are others in other frames
     std::vector<size_t> found{};   ///< of names found on the disk, in which nothing is evaluated
 };
 

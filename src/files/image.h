@@ -124,8 +124,9 @@ public:
     bool used = false, written = false;
     /// Whether one has done more with it than move it about, or has measured it.
     bool worked_on = false;
-    /// It is made of files that are the same in every frame, and of nothing else.
-    bool same_in_all_frames = false;
+    /// It is made of files that are the same in every frame, and of nothing else; and the command
+    /// line says of them that this is meant.
+    bool same_in_all_frames = false, meant_for_all_frames = false;
     /// The same for images that must have the same pixels: those of one file (by whatever name),
     /// and what the same commands make of them. 0: nothing is known of it.
     uint64_t lineage = 0;

@@ -337,7 +337,7 @@ void list_frames(const Strings& words, Scan& scan, Files& first, std::vector<Fil
 void make_runs(const Strings& words, Scan& scan, const Files& first,
                const std::vector<Files>& listings) {
     FramePlan& plan = scan.plan;
-    Frame frame{0, scan.options.padding, "", true, scan.same, {}};
+    Frame frame{0, scan.options.padding, "", true, scan.same, {}, {}};
     for (size_t p = 0; p < listings.size(); ++p) {
         frame.varying.push_back(scan.patterns[p].at);
         if (listings[p].from_disk && !plan.compat) {
