@@ -13,6 +13,7 @@
 #include "chain/expression.h"
 #include "chain/io.h"
 #include "chain/ops.h"
+#include "include/tonetool/parts.h"
 #include "text/error.h"
 
 namespace tonetool::chain {
@@ -59,6 +60,37 @@ void note_lineage(const Session& session, const Call& call, size_t first) {
     }
 }
 
+bool has_picture_beside(const Part& kept, const Part& other) {
+    PartChoice choice;
+    std::string ignored;
+    return ToneAlgo::find_part({kept.header(), other.header()}, {}, choice, ignored) &&
+           (choice.part == 1 || !choice.left_out.empty());
+}
+
+// Most commands work on the first part of an image, and its others are gone.
+void note_left_out(const Session& session, const Call& call, size_t first) {
+    if (call.row().group == Group::Compare || call.row().names.front() == "subimage" ||
+        call.has("layer")) {
+        return;
+    }
+    for (size_t i = first; i < session.stack.size(); ++i) {
+        Image& made = *session.stack[i];
+        for (const ImagePtr& from : call.images) {
+            if (from.get() == &made) {
+                continue;
+            }
+            made.left_out.insert(made.left_out.end(), from->left_out.begin(), from->left_out.end());
+            for (size_t p = made.part_count(); p < from->part_count(); ++p) {
+                if (has_picture_beside(from->part(), from->part(p))) {
+                    const std::string name =
+                        from->part(p).header().get_string_attribute("oiio:subimagename");
+                    made.left_out.push_back(name.empty() ? "subimage " + std::to_string(p) : name);
+                }
+            }
+        }
+    }
+}
+
 void execute(Session& session, Call& call) {
     std::vector<ImagePtr>& stack = session.stack;
     auto first = stack.end() - call.pops();
@@ -76,6 +108,7 @@ void execute(Session& session, Call& call) {
     const size_t expected = below + static_cast<size_t>(call.pushes());
     call.row().run(session, call);
     note_lineage(session, call, below);
+    note_left_out(session, call, below);
     if (call.pushes() != any_number && stack.size() != expected) {
         throw CommandError("internal error: wrong number of images on the stack");
     }
@@ -456,7 +489,8 @@ void Runner::refuse_what_was_not_compared() const {
 void Runner::warn_of_unused() {
     const bool listing = m_session.listing() || m_session.produced_by_name;
     for (const ImagePtr& image : m_session.stack) {
-        if (!listing && !image->used && image->part().from_file()) {
+        const bool result = m_session.for_images && image == m_session.stack.back();
+        if (!listing && !result && !image->used && image->part().from_file()) {
             m_session.warning("", "\"" + image->name() + "\" was read, but no command used it");
         }
     }

@@ -130,6 +130,8 @@ public:
     /// The same for images that must have the same pixels: those of one file (by whatever name),
     /// and what the same commands make of them. 0: nothing is known of it.
     uint64_t lineage = 0;
+    /// Parts with a picture that a command has left out without being asked to.
+    std::vector<std::string> left_out;
     bool noted = false; ///< its data type has gone into Session::read_format
 
     void rename(std::string name) { m_name = std::move(name); }

@@ -10,6 +10,8 @@
 
 #include "imagebuf/allocation.h"
 #include "imagebuf/bands.h"
+#include "imagebuf/color_names.h"
+#include "imagebuf/names.h"
 #include "imagebuf/oiio_compat.h"
 #include "imagebuf/upright.h"
 
@@ -44,6 +46,22 @@ std::vector<std::string> differing_tags(const OIIO::ImageSpec& reference,
         return {};
     return {OIIO::Strutil::fmt::format(
         "{} is {} in the reference and {} in the test: compared as stored", tag, r, t)};
+}
+
+std::string last_word(const std::string& layer) {
+    return lower_case(layer.substr(layer.rfind('.') + 1));
+}
+
+// Whether two layers are the same by their names: renderers have their own for the beauty.
+bool alike(const std::string& a, const std::string& b) {
+    const auto beauty = [](const std::string& name) {
+        return name.empty() || is_beauty_name(name);
+    };
+    return last_word(a) == last_word(b) || (beauty(a) && beauty(b));
+}
+
+std::string layer_text(const std::string& layer) {
+    return layer.empty() ? "R,G,B" : layer;
 }
 
 // The planes as an image of R, G, B (and A): linear Rec.709, NaN where they are not finite.
@@ -215,11 +233,27 @@ bool FittedTest::open(const ImageBuf& reference, const ImageBuf& test, const Pai
     if (!check_orientation(reference, test, error))
         return false;
     m_notes = differing_tags(reference.spec(), test.spec());
+    if (!alike(of_reference.layer, m_choice.layer))
+        m_notes.push_back("the layer of the reference is " + layer_text(of_reference.layer) +
+                          ", that of the test " + layer_text(m_choice.layer));
     const ROI window = reference.roi_full();
     if (options.size == SizePolicy::Resize && !same_window(window, test.roi_full()) &&
         !resize(window, options, nthreads, error))
         return false;
-    return compared_region(reference, *m_test, options.size, m_region, error);
+    if (!compared_region(reference, *m_test, options.size, m_region, error))
+        return false;
+    note_cropped(window);
+    return true;
+}
+
+// A crop is asked for, but hardly one that leaves most of the picture out.
+void FittedTest::note_cropped(const ROI& window) {
+    const double compared = double(m_region.width()) * m_region.height();
+    const double whole = double(window.width()) * window.height();
+    if (compared < whole / 2)
+        m_notes.push_back(OIIO::Strutil::fmt::format(
+            "only {} of the {} pixels of the reference's display window are compared", compared,
+            whole));
 }
 
 // Only what is compared, in linear light and without its non-finite pixels, which stay what they

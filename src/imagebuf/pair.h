@@ -47,6 +47,7 @@ public:
 private:
     bool resize(const OIIO::ROI& window, const PairOptions& options, int nthreads,
                 std::string& error);
+    void note_cropped(const OIIO::ROI& window);
     bool fill_window(const ColorPlanes& planes, OIIO::ROI window, int nthreads, std::string& error);
 
     const OIIO::ImageBuf* m_came = nullptr;

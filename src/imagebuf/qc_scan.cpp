@@ -94,9 +94,12 @@ void QcScan::list_layers() {
                     place_of(from.first).part,
                     {},
                     {},
+                    -1,
                     {}};
         const auto is_alpha = [&](int channel) { return channel == from.alpha && from.count > 1; };
         for (int channel : from.channels) {
+            if (is_alpha(channel) && place_of(channel).part == layer.part)
+                layer.alpha = place_of(channel).channel;
             if (is_alpha(channel) || !belongs(from, channel))
                 continue;
             const auto* color = std::find(from.rgb, from.rgb + 3, channel);
@@ -117,8 +120,9 @@ QcScan::Layer QcScan::lone_layer(int channel) const {
     OIIO::ImageSpec one(1, 1, 1, OIIO::TypeFloat);
     one.channelnames = {name};
     const Place place = place_of(channel);
-    return {name, layer_kind(aov_layers(one).front(), {}, {}), place.part, {place.channel}, {1.0},
-            {}};
+    return {
+        name, layer_kind(aov_layers(one).front(), {}, {}), place.part, {place.channel}, {1.0}, -1,
+        {}};
 }
 
 bool QcScan::run(std::string& error) {
@@ -171,7 +175,8 @@ void QcScan::scan_row(int y, Row& row) const {
     for (size_t i = 0; i < m_layers.size(); ++i) {
         const metrics::ChannelRow pixels = row_of(m_layers[i].part, y);
         if (pixels.pixels)
-            row.layers[i] = scan_layer(pixels, m_layers[i].channels, m_layers[i].weights);
+            row.layers[i] =
+                scan_layer(pixels, m_layers[i].channels, m_layers[i].weights, m_layers[i].alpha);
     }
     if (m_choice.a >= 0) {
         const Place alpha = place_of(m_choice.a);

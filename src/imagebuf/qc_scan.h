@@ -21,6 +21,7 @@ public:
         size_t part = 0;
         std::vector<int> channels; ///< in the part, without alpha
         std::vector<double> weights;
+        int alpha = -1; ///< in the part; -1 if it has none
         metrics::LayerScan scan;
     };
 

@@ -1,7 +1,9 @@
 // The files that an OpenColorIO configuration refers to.
 #include <OpenImageIO/filesystem.h>
+#include <OpenImageIO/strutil.h>
 #include <algorithm>
 #include <filesystem>
+#include <regex>
 #include <set>
 
 #include "imagebuf/guard.h"
@@ -37,19 +39,33 @@ private:
             take_file(file->getSrc());
     }
 
-    // A name with a context variable that only a command gives can be any file of the search path.
-    void take_file(const char* name) {
+    // A name with a context variable, which a command may give, can be any file of the search path.
+    void take_file(const std::string& name) {
         try {
-            m_files.insert(m_context->resolveFileLocation(name));
+            const std::string found = m_context->resolveFileLocation(name.c_str());
+            m_files.insert(found);
+            for (const std::string& file : ToneAlgo::lut_references(found))
+                m_files.insert(file);
+            m_unresolved |= has_variable(name);
         } catch (const ocio::Exception&) {
             m_unresolved = true;
         }
+        for (int i = 0; i < m_config->getNumSearchPaths(); ++i)
+            m_unresolved |= has_variable(m_config->getSearchPath(i));
     }
 
+    static bool has_variable(const std::string& text) {
+        return text.find_first_of("$%") != std::string::npos;
+    }
+
+    // Up to the folder whose name depends on a variable.
     void take_search_path() {
         const fs::path folder = m_config->getWorkingDir();
         for (int i = 0; i < m_config->getNumSearchPaths(); ++i) {
-            const fs::path place = folder / m_context->resolveStringVar(m_config->getSearchPath(i));
+            const std::string path = m_config->getSearchPath(i);
+            const std::string plain = path.substr(0, path.find_first_of("$%"));
+            const fs::path place =
+                folder / (plain == path ? plain : plain.substr(0, plain.rfind('/') + 1));
             std::error_code why;
             for (fs::recursive_directory_iterator entry(place, why), end; !why && entry != end;
                  entry.increment(why))
@@ -102,6 +118,31 @@ private:
 };
 
 } // namespace
+
+std::vector<std::string> ToneAlgo::lut_references(const std::string& file) {
+    std::set<std::string> known{file};
+    std::vector<std::string> found, open{file};
+    static const std::regex reference("<Reference[^>]*\\spath\\s*=\\s*[\"']([^\"']+)[\"']");
+    while (!open.empty()) {
+        const std::string name = std::move(open.back());
+        open.pop_back();
+        std::string text;
+        const bool refers =
+            OIIO::Strutil::iends_with(name, ".ctf") || OIIO::Strutil::iends_with(name, ".clf");
+        if (!refers || !OIIO::Filesystem::read_text_file(name, text))
+            continue;
+        for (std::sregex_iterator match(text.begin(), text.end(), reference), end; match != end;
+             ++match) {
+            const std::string other =
+                (fs::path(name).parent_path() / (*match)[1].str()).lexically_normal().string();
+            if (known.insert(other).second) {
+                found.push_back(other);
+                open.push_back(other);
+            }
+        }
+    }
+    return found;
+}
 
 bool ToneAlgo::color_config_files(const std::string& config, std::vector<std::string>& files,
                                   std::string& error) {

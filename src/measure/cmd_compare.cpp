@@ -272,7 +272,8 @@ Measures error_measures(const std::string& metric) {
     measures.scale = [metric](const std::string& quantity) {
         const bool bounded = metric == "smape" || metric == "mpsnr";
         if (quantity == metric && (metric == "psnr" || metric == "mpsnr")) {
-            return Scale{bounded ? 0 : -unbounded, unbounded, true};
+            constexpr double least = -300; // of an error of 1e30
+            return Scale{bounded ? 0 : least, unbounded, true};
         }
         return Scale{0, bounded ? 1 : unbounded, false};
     };

@@ -380,6 +380,8 @@ void run_diff(Session& session, const Call& call) {
     session.diff.waiting.clear();
     if (!session.compat) {
         check_limits(session.diff);
+        check_nothing_left_out(a);
+        check_nothing_left_out(b);
         if (same_file(a, 0, b, 0)) {
             session.warning(call.row().label(),
                             "\"" + a.name() + "\" and \"" + b.name() + "\" are the same file");

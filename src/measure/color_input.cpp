@@ -72,11 +72,24 @@ void tell_encoding(Session& session, const Call& call, const Image& image,
     }
 }
 
+void check_nothing_left_out(const Image& image) {
+    if (!image.left_out.empty()) {
+        throw CommandError("\"" + image.name() +
+                           "\": a command before this one has left out parts with a picture: " +
+                           join(image.left_out, ", ") +
+                           " (valid: --subimage NAME behind the file, to choose one, or -a)");
+    }
+}
+
 Part& color_part(Session& session, const Call& call, const Image& image,
                  const PixelOptions& options) {
     const bool compares = call.row().group == Group::Compare;
     if (compares && session.all_subimages && options.layer.empty()) {
         refuse_all(image);
+    }
+    const bool judged = compares && (call.has("fail") || call.has("warn") || result_of(session));
+    if (judged) {
+        check_nothing_left_out(image);
     }
     PartChoice choice;
     std::string why;
@@ -85,7 +98,7 @@ Part& color_part(Session& session, const Call& call, const Image& image,
     }
     if (!choice.left_out.empty()) {
         const std::string text = left_out(image, choice);
-        if (compares && (call.has("fail") || call.has("warn") || result_of(session))) {
+        if (judged) {
             throw CommandError(text);
         }
         session.warning(call.row().label(), text);

@@ -13,6 +13,9 @@ namespace tonetool::measure {
 Part& color_part(Session& session, const Call& call, const Image& image,
                  const PixelOptions& options);
 
+/// A CommandError if commands before have left out parts of the image that have a picture.
+void check_nothing_left_out(const Image& image);
+
 /// The headers of all parts, as find_part() takes them.
 std::vector<OIIO::ImageSpec> headers_of(const Image& image);
 

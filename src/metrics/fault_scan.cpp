@@ -55,14 +55,15 @@ bool LayerScan::constant() const {
 }
 
 LayerScan scan_layer(const ChannelRow& row, const std::vector<int>& channels,
-                     const std::vector<double>& weights) {
+                     const std::vector<double>& weights, int alpha) {
     LayerScan out;
     const size_t count = channels.size();
     out.low.assign(count, kInfinity);
     out.high.assign(count, -kInfinity);
     for (int64_t x = 0; x < row.width; ++x) {
         const float* pixel = row.pixels + x * row.stride;
-        bool nan = false, inf = false, lit = false;
+        const float a = alpha < 0 ? 1.0f : pixel[alpha];
+        bool nan = std::isnan(a), inf = std::isinf(a), lit = false;
         double lowest = 0, light = 0;
         for (size_t c = 0; c < count; ++c) {
             const double v = pixel[channels[c]];
@@ -102,9 +103,9 @@ RangeScan scan_range(const ChannelRow& row, int channel, double low, double high
     RangeScan out;
     for (int64_t x = 0; x < row.width; ++x) {
         const double v = row.pixels[x * row.stride + channel];
-        if (!(v >= low))
+        if (v < low && std::isfinite(v))
             out.below.add({row.x + x, row.y, v});
-        if (v > high)
+        if (v > high && std::isfinite(v))
             out.above.add({row.x + x, row.y, v});
     }
     return out;

@@ -30,7 +30,7 @@ struct ChannelRow {
     int64_t width = 0, x = 0, y = 0;
 };
 
-/// A layer, but for its alpha.
+/// A layer, but for its alpha, which only counts where it is no number.
 struct LayerScan {
     Hits nan, inf, negative; ///< pixels where any channel is
     int64_t finite = 0, lit = 0;
@@ -43,14 +43,15 @@ struct LayerScan {
     /// Each channel has one value, and is finite.
     bool constant() const;
 };
+/// `alpha`: its channel; -1 if it has none.
 LayerScan scan_layer(const ChannelRow& row, const std::vector<int>& channels,
-                     const std::vector<double>& weights);
+                     const std::vector<double>& weights, int alpha = -1);
 
 struct RangeScan {
     Hits below, above;
     void add(const RangeScan& later);
 };
-/// Values of one channel beyond [low, high]; NaN is below.
+/// Finite values of one channel beyond [low, high].
 RangeScan scan_range(const ChannelRow& row, int channel, double low, double high);
 
 /// A pixel that is much larger than all that are kReach away, and the largest on the way.

@@ -48,6 +48,11 @@ bool is_output(const std::string& name) {
 // The settings that hold for the whole command line; true if `name` was one with an argument.
 bool take_setting(Scan& scan, const std::string& name, const std::string& argument) {
     if (name == "frames") {
+        if (!scan.options.frames.empty() && !scan.plan.compat) {
+            throw CommandError("--frames is given twice: " + scan.options.frames + " and " +
+                               argument + " (valid: once, as " + scan.options.frames + "," +
+                               argument + ")");
+        }
         scan.options.frames = argument;
     } else if (name == "framepadding") {
         scan.options.padding = checked_integer("DIGITS", argument, {1, 9});

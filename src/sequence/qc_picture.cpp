@@ -95,7 +95,7 @@ void find_picture_faults(const QcShot& shot, QcFrame& frame) {
     for (const QcLayer& layer : frame.facts.layers) {
         find_bad_values(shot, frame, layer);
     }
-    find_alpha(shot, frame, frame.facts.picture.alpha_low, "below 0 or no number");
+    find_alpha(shot, frame, frame.facts.picture.alpha_low, "below 0");
     find_alpha(shot, frame, frame.facts.picture.alpha_high, "above 1");
     find_unseen(shot, frame);
 }

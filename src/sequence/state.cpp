@@ -5,6 +5,7 @@
 #include <OpenImageIO/sysutil.h>
 #include <algorithm>
 #include <filesystem>
+#include <regex>
 #include <stdexcept>
 
 #include "include/tonetool/tonemap.h"
@@ -22,7 +23,7 @@ using OIIO::Strutil::fmt::format;
 namespace fs = std::filesystem;
 
 constexpr char state_format[] = "tonetool-state";
-constexpr int state_version = 2;
+constexpr int state_version = 3;
 
 ordered_json json_of(const Stamp& stamp) {
     return {stamp.file, stamp.device, stamp.inode, stamp.size, stamp.written, stamp.changed};
@@ -69,6 +70,9 @@ Stamps stamps_behind(const Stamps& inputs) {
         if (OIIO::Strutil::iends_with(names[i], ".ocio")) {
             note_luts(names[i]);
         }
+        for (const std::string& name : ToneAlgo::lut_references(names[i])) {
+            note_files_behind(names[i], {name});
+        }
         for (const std::string& name : files_behind(names[i])) {
             if (std::find(names.begin(), names.end(), name) == names.end()) {
                 names.push_back(name);
@@ -77,6 +81,31 @@ Stamps stamps_behind(const Stamps& inputs) {
         }
     }
     return all;
+}
+
+// The variables of the environment that configurations among the files name, with their values.
+ordered_json variables_of(const Stamps& inputs) {
+    static const std::regex variable(R"(\$\{?(\w+)|%(\w+)%)");
+    ordered_json values = ordered_json::object();
+    for (const Stamp& input : inputs) {
+        std::string text;
+        if (!OIIO::Strutil::iends_with(input.file, ".ocio") ||
+            !OIIO::Filesystem::read_text_file(input.file, text)) {
+            continue;
+        }
+        for (std::sregex_iterator match(text.begin(), text.end(), variable), end; match != end;
+             ++match) {
+            const std::string name = (*match)[1].matched ? (*match)[1] : (*match)[2];
+            values[name] = std::string(OIIO::Sysutil::getenv(name));
+        }
+    }
+    return values;
+}
+
+bool are_set(const ordered_json& variables) {
+    return std::all_of(variables.items().begin(), variables.items().end(), [](const auto& one) {
+        return OIIO::Sysutil::getenv(one.key()) == one.value().template get<std::string>();
+    });
 }
 
 std::string safe(const std::string& view) {
@@ -129,7 +158,8 @@ std::optional<Kept> State::find(const Item& item, const Origin& origin) const {
         return parsed(read_text(file(item)), [&](const ordered_json& from) -> std::optional<Kept> {
             check_format(from, state_format, state_version);
             if (from.at("key").get<std::string>() != key_of(origin) ||
-                !are_current(from.at("inputs")) || !are_current(from.at("outputs"))) {
+                !are_current(from.at("inputs")) || !are_current(from.at("outputs")) ||
+                !are_set(from.at("variables"))) {
                 return std::nullopt;
             }
             Kept kept{from.at("result").get<std::string>(), from.at("out").get<std::string>(),
@@ -166,6 +196,7 @@ void State::keep(const Item& item, const Origin& origin, const FileLog& inputs,
                                      {"key", key_of(origin)},
                                      {"inputs", json_of(all)},
                                      {"outputs", json_of(outputs)},
+                                     {"variables", variables_of(all)},
                                      {"status", kept.status},
                                      {"out", kept.out},
                                      {"err", kept.err},

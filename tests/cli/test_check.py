@@ -436,6 +436,53 @@ def test_a_missing_frame_that_comes_is_checked(tonetool, anim):
     assert statuses(anim)[2] == "passed"
 
 
+CONFIG = """ocio_profile_version: 2
+search_path: .
+environment: {LK: lut.spi1d}
+roles: {default: lin_srgb, scene_linear: lin_srgb, data: lin_srgb}
+file_rules: [!<Rule> {name: Default, colorspace: default}]
+displays: {sRGB: [!<View> {name: V, colorspace: out}]}
+colorspaces:
+  - !<ColorSpace> {name: lin_srgb, encoding: scene-linear}
+  - !<ColorSpace> {name: out, from_scene_reference: !<FileTransform> {src: $LK, interpolation: linear}}
+"""
+
+
+def write_lut(path, top):
+    path.write_text(f"Version 1\nFrom 0.0 1.0\nLength 2\nComponents 1\n{{\n0.0\n{top}\n}}\n")
+
+
+@pytest.mark.parametrize("how", ["context", "environment", "reference"])
+def test_a_state_knows_all_that_a_configuration_reads(tonetool, make_image, tmp_path, monkeypatch,
+                                                      how):
+    """Through the first LUTs nothing is seen; the ones that come into their places show all."""
+    matrix = ('<ProcessList id="b" version="1.3"><Matrix inBitDepth="32f" outBitDepth="32f">'
+              '<Array dim="3 3 3">{0} 0 0 0 {0} 0 0 0 {0}</Array></Matrix></ProcessList>')
+    (tmp_path / "c.ocio").write_text(CONFIG)
+    (tmp_path / "ref.ctf").write_text(
+        '<ProcessList id="a" version="1.3"><Reference inBitDepth="32f" outBitDepth="32f" '
+        'path="in.ctf"/></ProcessList>')
+    (tmp_path / "in.ctf").write_text(matrix.format("0.00001"))
+    for name, top in (("lut", 0.0001), ("lut2", 1.0)):
+        write_lut(tmp_path / f"{name}.spi1d", 0.0001 if how == "context" else top)
+    images = [make_image(f"{seed}.exr", 64, 48, seed=seed) for seed in (1, 2)]
+    flip = "--hdrflip:fail=0.02:print=0:startExposure=0:stopExposure=1"
+    view = ":display=sRGB:view=V:encoding=linear"
+    words = {"context": [*images, flip + view + ":context=LK=lut2.spi1d"],
+             "environment": [*images, flip + view],
+             "reference": [images[0], "--ociofiletransform", "ref.ctf", images[1],
+                           "--ociofiletransform", "ref.ctf", flip + ":from=rec709"]}[how]
+    words = ["--colorconfig", "c.ocio", *words, "--state", "s"]
+    tonetool(*words)
+    if how == "context":
+        write_lut(tmp_path / "lut2.spi1d", 1.0)
+    elif how == "environment":
+        monkeypatch.setenv("LK", "lut2.spi1d")
+    else:
+        (tmp_path / "in.ctf").write_text(matrix.format("1.0"))
+    tonetool(*words, status=3, **({"env": dict(os.environ)} if how == "environment" else {}))
+
+
 def test_a_damaged_state_is_made_anew(tonetool, anim):
     tonetool(*pair(flip(), "--json", "c.json", "--state", "s"), status=3)
     whole = (anim / "c.json").read_bytes()

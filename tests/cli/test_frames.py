@@ -160,6 +160,7 @@ FLIP = "--hdrflip:fail=0.05:print=0"
      "would be one comparison that counts for each"),
     (["r.#.exr", "--pop", "--wildcardoff", "r.0001.exr", "--mulc", "0.5", "t.0001.exr",
       "--wildcardon", "--mulc", "1", "--diff"], "would be one comparison that counts for each"),
+    (["--frames", "1-2", *SHOTS, FLIP, "--frames", "3"], "--frames is given twice"),
     (["--frames", "1-3", "r.1-2#.exr", "t.1-2#.exr", FLIP], "--frames 1-3 holds for no name"),
     (["r.1-3#.exr", "t.1-2#.exr", FLIP], '"r.1-3#.exr" has 3 frames, "t.1-2#.exr" 2'),
     (["r.#.exr", "-o", "same.exr"], '"same.exr" would be written by every frame'),

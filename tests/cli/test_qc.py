@@ -4,6 +4,7 @@ import json
 from pathlib import Path
 
 import make_shot
+import numpy as np
 import pytest
 from conftest import TESTIMAGES
 
@@ -47,6 +48,19 @@ def test_no_false_alarm(check, tmp_path, kind):
     ran, found = check(0)
     assert found == []
     assert "check: passed, 20 frames: 20 passed" in ran.out
+
+
+@pytest.mark.parametrize("value, code", [("nan", "nan"), ("inf", "inf"), ("-inf", "inf")])
+@pytest.mark.parametrize("alpha", ["A", "diffuse.A", "diffuse.alpha"])
+def test_an_alpha_that_is_no_number(tonetool, make_image, value, code, alpha):
+    names = ["R", "G", "B", "A", "diffuse.R", "diffuse.G", "diffuse.B"]
+    names += [] if alpha in names else [alpha]
+    pixels = np.random.default_rng(3).random((12, 16, len(names))).astype(np.float32)
+    pixels[4, 3, names.index(alpha)] = float(value)
+    name = make_image("a.exr", channels=names, pixels=pixels)
+    for words in ("--qc", "--qc:alpha=off"):
+        ran = tonetool(name, words, status=3)
+        assert f"error {code}: " in ran.out and "at (3, 4)" in ran.out
 
 
 def test_severities_and_thresholds(check, tonetool, tmp_path):

@@ -516,3 +516,15 @@ def test_the_plugin_shows_its_own_names_only(host):
     assert {line.split()[-1] for line in listed.splitlines()} == {
         "tone_imageio_version", "tone_imageio_library_version", "tone_input_imageio_create",
         "tone_input_extensions"}
+
+
+def test_a_recipe_is_held_to_what_a_command_line_is(tonetool, make_image, tmp_path):
+    for seed in (1, 2, 3):
+        make_image(f"{seed}.exr", seed=seed)
+    (tmp_path / "check.tone").write_text("tonetool 1\n1.exr 2.exr 2.exr --hdrflip:fail=0.9\n")
+    ran = tonetool("check.tone", "-o", "x.exr", status=1)
+    assert '"1.exr" was never compared' in ran.err
+    (tmp_path / "name.tone").write_text("tonetool 1\n1.exr\n")
+    assert not tonetool("name.tone", "-o", "x.exr", "--warnings-exit").err
+    (tmp_path / "two.tone").write_text("tonetool 1\n1.exr 2.exr\n")
+    assert '"1.exr" was read, but no command used it' in tonetool("two.tone", "-o", "x.exr").err

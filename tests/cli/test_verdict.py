@@ -195,6 +195,40 @@ def test_a_file_against_itself(tonetool, put, pair, tmp_path, aovs):
     assert [f["status"] for f in found["frames"]] == ["warning", "warning"]
 
 
+@pytest.mark.parametrize("between", [["--exposure", "1"], ["--mulc", "1"], ["--ch", "R,G,B"],
+                                     ["--flip"], ["--blur", "3x3"]])
+def test_parts_that_a_command_before_has_left_out(tonetool, make_parts, between):
+    one, other = make_parts("a.exr", 0.5, 0.5), make_parts("b.exr", 0.5, 0.9)
+    for command in ("--hdrflip:fail=0.01", "--errormap:metric=mse:fail=0.01", "--diff"):
+        ran = tonetool(one, *between, other, *between, command, status=1)
+        assert "has left out parts with a picture: two" in ran.err and "PASS" not in ran.out
+        ran = tonetool(one, "--subimage", "one", *between, other, "--subimage", "0", *between,
+                       command)
+        assert "PASS" in ran.out
+
+
+def test_layers_of_other_names(tonetool, put):
+    for layer in ("diffuse", "specular", "left", "right", "C", "ViewLayer.Combined", "v.diffuse"):
+        put(f"{layer}.exr", GOOD, [f"{layer}.{c}" for c in "RGB"])
+    put("plain.exr", GOOD)
+    for one, other in (("diffuse", "specular"), ("left", "right"), ("plain", "diffuse")):
+        ran = tonetool(f"{one}.exr", f"{other}.exr", "--hdrflip:fail=0.1", "--warnings-exit",
+                       status=2)
+        assert "the layer of the reference is" in ran.err
+    for one, other in (("C", "ViewLayer.Combined"), ("plain", "C"), ("diffuse", "v.diffuse")):
+        tonetool(f"{one}.exr", f"{other}.exr", "--hdrflip:fail=0.1", "--warnings-exit")
+
+
+def test_a_crop_that_leaves_most_out_is_said(tonetool, put):
+    put("a.exr", GOOD)
+    for width, status in ((WIDTH - 2, 0), (WIDTH // 3, 2)):
+        put("b.exr", GOOD, window=(0, 0, 0, 0, width, HEIGHT))
+        for command in ("hdrflip", "errormap:metric=mse"):
+            ran = tonetool("a.exr", "b.exr", f"--{command}:fail=0.1:crop=1", "--warnings-exit",
+                           status=status)
+            assert (f"only {width * HEIGHT} of the {WIDTH * HEIGHT} pixels" in ran.err) == (status == 2)
+
+
 def test_mip_levels_that_are_not_looked_at(tonetool, put, pair):
     for name in ("good", "other"):
         put(f"{name}.exr", GOOD)
@@ -324,6 +358,7 @@ def test_several_limits_of_one_measurement(tonetool, pair, tmp_path):
     ("hdrflip:fail=mean=", "not a number"),
     ("hdrflip:fail==0.5", 'unknown quantity ""'),
     ("hdrflip:quantity=max:fail=p99=0.5", "quantity= is of a limit without a name"),
+    ("errormap:metric=psnr:fail=-1000", "out of range"),
 ])
 def test_limits_that_mean_nothing(tonetool, pair, words, text):
     ran = tonetool(*pair, f"--{words}", status=1)

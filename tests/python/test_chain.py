@@ -34,6 +34,15 @@ def test_what_is_left_is_a_copy(noise):
     assert np.array_equal(noise, before)
 
 
+@pytest.mark.parametrize("words", ["--hdrflip:fail=0.9", "--diff",
+                                   "--if 0 --hdrflip:fail=0.9 --endif"])
+def test_what_was_not_compared_is_an_error(pair, words):
+    _, _, ref, test = pair
+    with pytest.raises(tonetool.Error, match="was never compared"):
+        tonetool.chain(words, [test, ref, ref])
+    assert len(tonetool.chain("--hdrflip", [test, ref, ref]).images) == 2
+
+
 def test_threshold_is_never_passed_over(pair):
     _, _, ref, test = pair
     with pytest.raises(tonetool.CheckFailed, match="threshold") as raised:

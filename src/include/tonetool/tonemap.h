@@ -152,12 +152,14 @@ TONETOOL_API bool tone_curve_response(std::vector<double>& response, const Curve
 /// Encodings of `TonemapOptions::encode`.
 TONETOOL_API std::vector<std::string> display_encodings();
 
-/// The files that an OpenColorIO configuration refers to (LUTs, CDLs), by the context that the
-/// environment gives: what its results depend on beside its own text. Where a name needs a context
-/// variable that is not set, all files of the search path. False with a reason in `error` where the
-/// configuration cannot be read.
+/// The files that an OpenColorIO configuration refers to (LUTs, CDLs): what its results depend on
+/// beside its own text. Where a name depends on a context variable, which commands may set, all
+/// files of the search path. False with a reason in `error` where the configuration cannot be read.
 TONETOOL_API bool color_config_files(const std::string& config, std::vector<std::string>& files,
                                      std::string& error);
+
+/// The files that a LUT refers to: those of the references of a CTF or CLF file, and of theirs.
+TONETOOL_API std::vector<std::string> lut_references(const std::string& file);
 
 } // namespace ToneAlgo
 } // namespace tonetool
