@@ -405,7 +405,10 @@ void Runner::mark_pushed(const Call& call, size_t first) const {
             image->same_in_all_frames = all(&Image::same_in_all_frames);
             image->meant_for_all_frames = all(&Image::meant_for_all_frames);
         }
-        image->worked_on |= measured;
+        image->is_result = call.row().group == Group::Compare ||
+                           std::any_of(popped.begin(), popped.end(),
+                                       [](const ImagePtr& from) { return from->is_result; });
+        image->worked_on |= measured || image->is_result;
     }
 }
 

@@ -124,6 +124,8 @@ public:
     bool used = false, written = false;
     /// Whether one has done more with it than move it about, or has measured it.
     bool worked_on = false;
+    /// A comparison has made it, or what was made of that.
+    bool is_result = false;
     /// It is made of files that are the same in every frame, and of nothing else; and the command
     /// line says of them that this is meant.
     bool same_in_all_frames = false, meant_for_all_frames = false;

@@ -50,18 +50,20 @@ TEST(QcFacts, Count_what_is_no_colour_and_where) {
     set(image, 3, 3, 4, kInf);
     set(image, 5, 5, 3, 1.25f);
     set(image, 6, 5, 3, kNan);
+    set(image, 8, 5, 3, -0.5f);
     const QcFacts facts = facts_of(image);
     ASSERT_EQ(facts.layers.size(), 2U);
     const QcLayer& picture = facts.layers[0];
     EXPECT_EQ(picture.kind, "picture");
-    EXPECT_EQ(picture.nan.pixels, 2);
+    EXPECT_EQ(picture.nan.pixels, 3);
     EXPECT_EQ(picture.nan.first[0].x, 4); // by row, then column
     EXPECT_EQ(picture.nan.first[1].x, 7);
+    EXPECT_EQ(picture.nan.first[2].x, 6); // its alpha
     EXPECT_EQ(picture.inf.first[0].y, 8);
     EXPECT_EQ(picture.negative.first[0].value, -0.5);
     EXPECT_EQ(picture.min, -0.5);
     EXPECT_EQ(picture.max, 3);
-    EXPECT_EQ(picture.lit, 197);
+    EXPECT_EQ(picture.lit, 196);
     EXPECT_EQ(facts.layers[1].name, "Z");
     EXPECT_EQ(facts.layers[1].kind, "depth");
     EXPECT_EQ(facts.layers[1].inf.pixels, 1);
