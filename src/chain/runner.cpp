@@ -10,10 +10,10 @@
 #include <new>
 #include <ostream>
 
+#include "chain/ancestry.h"
 #include "chain/expression.h"
 #include "chain/io.h"
 #include "chain/ops.h"
-#include "include/tonetool/parts.h"
 #include "text/error.h"
 
 namespace tonetool::chain {
@@ -42,55 +42,6 @@ void refuse_deep(const Session& session, const Call& call) {
     }
 }
 
-// What the images above `first` are made of, where that is files alone.
-void note_lineage(const Session& session, const Call& call, size_t first) {
-    std::string of_popped;
-    for (const ImagePtr& image : call.images) {
-        if (image->lineage == 0) {
-            return;
-        }
-        of_popped += std::to_string(image->lineage) + ' ';
-    }
-    for (size_t i = first; i < session.stack.size() && !of_popped.empty(); ++i) {
-        Image& made = *session.stack[i];
-        if (made.lineage == 0) {
-            made.lineage = std::hash<std::string>()(of_popped + call.quoted_words() + ' ' +
-                                                    std::to_string(i - first));
-        }
-    }
-}
-
-bool has_picture_beside(const Part& kept, const Part& other) {
-    PartChoice choice;
-    std::string ignored;
-    return ToneAlgo::find_part({kept.header(), other.header()}, {}, choice, ignored) &&
-           (choice.part == 1 || !choice.left_out.empty());
-}
-
-// Most commands work on the first part of an image, and its others are gone.
-void note_left_out(const Session& session, const Call& call, size_t first) {
-    if (call.row().group == Group::Compare || call.row().names.front() == "subimage" ||
-        call.has("layer")) {
-        return;
-    }
-    for (size_t i = first; i < session.stack.size(); ++i) {
-        Image& made = *session.stack[i];
-        for (const ImagePtr& from : call.images) {
-            if (from.get() == &made) {
-                continue;
-            }
-            made.left_out.insert(made.left_out.end(), from->left_out.begin(), from->left_out.end());
-            for (size_t p = made.part_count(); p < from->part_count(); ++p) {
-                if (has_picture_beside(from->part(), from->part(p))) {
-                    const std::string name =
-                        from->part(p).header().get_string_attribute("oiio:subimagename");
-                    made.left_out.push_back(name.empty() ? "subimage " + std::to_string(p) : name);
-                }
-            }
-        }
-    }
-}
-
 void execute(Session& session, Call& call) {
     std::vector<ImagePtr>& stack = session.stack;
     auto first = stack.end() - call.pops();
@@ -107,8 +58,7 @@ void execute(Session& session, Call& call) {
     const size_t below = stack.size();
     const size_t expected = below + static_cast<size_t>(call.pushes());
     call.row().run(session, call);
-    note_lineage(session, call, below);
-    note_left_out(session, call, below);
+    note_ancestry(session, call, below);
     if (call.pushes() != any_number && stack.size() != expected) {
         throw CommandError("internal error: wrong number of images on the stack");
     }

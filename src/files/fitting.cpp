@@ -93,10 +93,6 @@ bool holds_floats(const OIIO::ImageOutput& writer) {
     return std::find(formats.begin(), formats.end(), writer.format_name()) != formats.end();
 }
 
-} // namespace
-
-namespace {
-
 // What is left at the right of and below 0: one pixel where that is nothing.
 OIIO::ROI not_negative(OIIO::ROI window) {
     window.xbegin = std::max(window.xbegin, 0);

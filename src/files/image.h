@@ -8,6 +8,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -133,7 +134,7 @@ public:
     /// and what the same commands make of them. 0: nothing is known of it.
     uint64_t lineage = 0;
     /// Parts with a picture that a command has left out without being asked to.
-    std::vector<std::string> left_out;
+    std::set<std::string> left_out;
     bool noted = false; ///< its data type has gone into Session::read_format
 
     void rename(std::string name) { m_name = std::move(name); }

@@ -138,19 +138,20 @@ bool ColorReader::read(int begin, int end, ColorPlanes& planes, std::string& err
     const auto move_rows = [&](auto& array) {
         array.keep(drop, kept);
         array.resize(n);
+    };
+    const auto move_written = [&](auto& array) {
+        move_rows(array);
         array.expect_all_written();
     };
     for (auto& p : planes.plane)
-        move_rows(p);
-    move_rows(planes.nonfinite);
-    if (planes.counts.nonfinite > 0) {
-        planes.beside.keep(drop, kept);
-        planes.beside.resize(n);
-    } else {
+        move_written(p);
+    move_written(planes.nonfinite);
+    if (planes.counts.nonfinite > 0)
+        move_rows(planes.beside);
+    else
         (planes.beside = {}).resize(n);
-    }
     if (m_alpha)
-        move_rows(planes.alpha);
+        move_written(planes.alpha);
     planes.begin = begin;
     planes.end = end;
     return fill(from, end, planes, error);

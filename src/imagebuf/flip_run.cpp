@@ -5,6 +5,7 @@
 #include "flip/filters.h"
 #include "imagebuf/bands.h"
 #include "imagebuf/flip_finish.h"
+#include "imagebuf/ignored_alpha.h"
 #include "imagebuf/measure.h"
 #include "imagebuf/pair.h"
 #include "imagebuf/parallel.h"

@@ -15,6 +15,15 @@
 
 namespace tonetool {
 
+inline void prefer_large_pages(void* pages, size_t bytes) {
+#ifdef MADV_HUGEPAGE
+    if (pages)
+        ::madvise(pages, bytes, MADV_HUGEPAGE);
+#else
+    (void)pages, (void)bytes;
+#endif
+}
+
 /// An array of plain numbers. Elements are not initialized; shrinking gives whole pages back.
 template <class T>
 class PagedArray {
@@ -43,42 +52,21 @@ public:
         m_size = count;
     }
     /// All of it will be written: larger pages take less time.
-    void expect_all_written() {
-#ifdef MADV_HUGEPAGE
-        if (m_data)
-            ::madvise(m_data, m_capacity * sizeof(T), MADV_HUGEPAGE);
-#endif
-    }
+    void expect_all_written() { prefer_large_pages(m_data, m_capacity * sizeof(T)); }
     /// Moves `count` elements from `from` to the front; the others are lost.
     void keep(size_t from, size_t count) {
         if (from > 0 && count > 0)
             std::memmove(m_data, m_data + from, count * sizeof(T));
     }
 
-    T* data() {
-        return m_data;
-    }
-    const T* data() const {
-        return m_data;
-    }
-    size_t size() const {
-        return m_size;
-    }
-    bool empty() const {
-        return m_size == 0;
-    }
-    T& operator[](size_t i) {
-        return m_data[i];
-    }
-    const T& operator[](size_t i) const {
-        return m_data[i];
-    }
-    const T* begin() const {
-        return m_data;
-    }
-    const T* end() const {
-        return m_data + m_size;
-    }
+    T* data() { return m_data; }
+    const T* data() const { return m_data; }
+    size_t size() const { return m_size; }
+    bool empty() const { return m_size == 0; }
+    T& operator[](size_t i) { return m_data[i]; }
+    const T& operator[](size_t i) const { return m_data[i]; }
+    const T* begin() const { return m_data; }
+    const T* end() const { return m_data + m_size; }
     bool operator==(const PagedArray& o) const {
         return m_size == o.m_size && std::equal(begin(), end(), o.begin());
     }

@@ -10,6 +10,8 @@
 
 namespace tonetool {
 
+/// The region in x and y, of one channel.
+OIIO::ROI plane_of(OIIO::ROI r);
 /// The same pixels in x and y.
 bool same_window(const OIIO::ROI& a, const OIIO::ROI& b);
 
@@ -84,12 +86,6 @@ bool nonfinite_alike(const ColorPlanes& reference, size_t at, const ColorPlanes&
 /// sees no difference there; non-finite in both it stays black. Works on rows that both hold and
 /// counts the latter; once more it changes nothing.
 NonfiniteBoth mend_nonfinite(ColorPlanes& reference, ColorPlanes& test, int begin, int end);
-
-/// How many pixels that both images cover differ in alpha by more than rounding to the data types
-/// of their files explains; an image without alpha is opaque.
-bool count_alpha_differences(const OIIO::ImageBuf& reference, const ColorChoice& of_reference,
-                             const OIIO::ImageBuf& test, const ColorChoice& of_test,
-                             const OIIO::ROI& region, int64_t& count, std::string& error);
 
 /// Makes the non-finite pixels of a mended image black again.
 void unmend(ColorPlanes& planes);

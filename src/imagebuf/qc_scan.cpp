@@ -94,7 +94,6 @@ void QcScan::list_layers() {
                     place_of(from.first).part,
                     {},
                     {},
-                    -1,
                     {}};
         const auto is_alpha = [&](int channel) { return channel == from.alpha && from.count > 1; };
         for (int channel : from.channels) {
@@ -120,9 +119,8 @@ QcScan::Layer QcScan::lone_layer(int channel) const {
     OIIO::ImageSpec one(1, 1, 1, OIIO::TypeFloat);
     one.channelnames = {name};
     const Place place = place_of(channel);
-    return {
-        name, layer_kind(aov_layers(one).front(), {}, {}), place.part, {place.channel}, {1.0}, -1,
-        {}};
+    return {name, layer_kind(aov_layers(one).front(), {}, {}), place.part, {place.channel}, {1.0},
+            {}};
 }
 
 bool QcScan::run(std::string& error) {

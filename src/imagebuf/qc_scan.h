@@ -21,8 +21,8 @@ public:
         size_t part = 0;
         std::vector<int> channels; ///< in the part, without alpha
         std::vector<double> weights;
-        int alpha = -1; ///< in the part; -1 if it has none
         metrics::LayerScan scan;
+        int alpha = -1; ///< in the part; -1 if it has none
     };
 
     /// The images must live as long as this does.

@@ -27,16 +27,15 @@ inline void lie_as(const OIIO::ImageSpec& other, OIIO::ImageBuf& picture) {
 }
 
 /// The picture as it is meant to be seen. A runtime_error if there is no memory for it.
-inline OIIO::ImageBuf upright(const OIIO::ImageBuf& picture, int orientation) {
-    OIIO::ImageBuf turned = picture;
+inline OIIO::ImageBuf upright(OIIO::ImageBuf picture, int orientation) {
     if (orientation != 1) {
-        turned.specmod().attribute("Orientation", orientation);
-        turned = OIIO::ImageBufAlgo::reorient(turned);
+        picture.specmod().attribute("Orientation", orientation);
+        picture = OIIO::ImageBufAlgo::reorient(picture);
     }
-    if (turned.has_error()) {
-        throw std::runtime_error(turned.geterror());
+    if (picture.has_error()) {
+        throw std::runtime_error(picture.geterror());
     }
-    return turned;
+    return picture;
 }
 
 } // namespace tonetool

@@ -25,7 +25,7 @@ public:
         take_view_transforms();
         take_looks();
         take_named_transforms();
-        if (m_unresolved)
+        if (m_unresolved || (!m_files.empty() && search_path_varies()))
             take_search_path();
         return std::move(m_files);
     }
@@ -50,8 +50,13 @@ private:
         } catch (const ocio::Exception&) {
             m_unresolved = true;
         }
+    }
+
+    bool search_path_varies() const {
         for (int i = 0; i < m_config->getNumSearchPaths(); ++i)
-            m_unresolved |= has_variable(m_config->getSearchPath(i));
+            if (has_variable(m_config->getSearchPath(i)))
+                return true;
+        return false;
     }
 
     static bool has_variable(const std::string& text) {

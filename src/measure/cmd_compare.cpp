@@ -121,10 +121,14 @@ bool judge_flip(Session& session, const Call& call, const Limits& limits, const 
     return judge(session, call, limits, measure, sequence::Position{pool.max_x, pool.max_y}, test);
 }
 
+void push_result(Session& session, const Call& call, OIIO::ImageBuf result) {
+    session.push(Image::computed("--" + call.row().label(), std::move(result)));
+}
+
 // The map lies as its pictures do.
 void push_map(Session& session, const Call& call, OIIO::ImageBuf map) {
     lie_as(call.images.front()->part().header(), map);
-    session.push(Image::computed("--" + call.row().label(), std::move(map)));
+    push_result(session, call, std::move(map));
 }
 
 // ---- hdrflip
@@ -261,7 +265,7 @@ void run_filmstrip(Session& session, const Call& call) {
     report(session, call, result.summary);
     judge_flip(session, call, limits, result.summary.pool);
     maps[0].specmod().attribute("oiio:ColorSpace", "sRGB");
-    session.push(Image::computed("--" + call.row().label(), std::move(maps[0]))); // is upright
+    push_result(session, call, std::move(maps[0])); // upright already
 }
 
 // Errors that have no bound may have any limit.

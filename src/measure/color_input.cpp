@@ -47,10 +47,10 @@ std::vector<OIIO::ImageSpec> headers_of(const Image& image) {
 
 bool same_file(const Image& a, size_t part_of_a, const Image& b, size_t part_of_b) {
     std::error_code ignored;
-    const bool files = a.part(part_of_a).from_file() && b.part(part_of_b).from_file();
-    const bool one =
-        a.name() == b.name() || std::filesystem::equivalent(a.name(), b.name(), ignored);
-    return part_of_a == part_of_b && ((files && one) || (a.lineage != 0 && a.lineage == b.lineage));
+    const bool one_file =
+        a.part(part_of_a).from_file() && b.part(part_of_b).from_file() &&
+        (a.name() == b.name() || std::filesystem::equivalent(a.name(), b.name(), ignored));
+    return part_of_a == part_of_b && (one_file || (a.lineage != 0 && a.lineage == b.lineage));
 }
 
 void tell_encoding(Session& session, const Call& call, const Image& image,
@@ -76,7 +76,7 @@ void check_nothing_left_out(const Image& image) {
     if (!image.left_out.empty()) {
         throw CommandError("\"" + image.name() +
                            "\": a command before this one has left out parts with a picture: " +
-                           join(image.left_out, ", ") +
+                           join({image.left_out.begin(), image.left_out.end()}, ", ") +
                            " (valid: --subimage NAME behind the file, to choose one, or -a)");
     }
 }

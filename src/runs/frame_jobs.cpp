@@ -306,8 +306,11 @@ Ran CheckedFrames::failed(size_t index, Status status, const std::string& why, s
 }
 
 void CheckedFrames::claim(const Strings& written, FrameResult& result, Ran& ran) const {
+    if (m_context.plan.compat) {
+        return;
+    }
     try {
-        for (const std::string& file : m_context.plan.compat ? Strings() : written) {
+        for (const std::string& file : written) {
             m_context.written->claim(file, result.frame, result.view);
         }
     } catch (const CommandError& problem) {

@@ -129,8 +129,8 @@ private:
                 srgb_bytes(result.exposures.at(0).test)};
     }
 
-    std::string uri(const ImageBuf& picture, Encoding encoding, int quality) const {
-        return data_uri(upright(picture, m_orientation), encoding, quality);
+    std::string uri(ImageBuf picture, Encoding encoding, int quality = large_quality) const {
+        return data_uri(upright(std::move(picture), m_orientation), encoding, quality);
     }
 
     ImageBuf displayed(const ImageBuf& linear) const {
@@ -213,14 +213,14 @@ private:
         SpotPictures result;
         result.at = at;
         mark_nonfinite(shown.test, *m_request.test, m_request.look.pixels, near);
-        result.test = uri(shown.test, Encoding::Png, 0);
+        result.test = uri(shown.test, Encoding::Png);
         if (m_request.reference) {
             mark_nonfinite(shown.reference, *m_request.reference, m_request.look.pixels, near);
-            result.reference = uri(shown.reference, Encoding::Png, 0);
+            result.reference = uri(shown.reference, Encoding::Png);
         }
         if (m_request.error) {
             const ImageBuf error = OIIO::ImageBufAlgo::cut(*m_request.error, near);
-            result.error = uri(colored_bytes(error, "magma"), Encoding::Png, 0);
+            result.error = uri(colored_bytes(error, "magma"), Encoding::Png);
         }
         return result;
     }

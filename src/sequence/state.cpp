@@ -5,7 +5,10 @@
 #include <OpenImageIO/sysutil.h>
 #include <algorithm>
 #include <filesystem>
+#include <map>
+#include <mutex>
 #include <regex>
+#include <set>
 #include <stdexcept>
 
 #include "include/tonetool/tonemap.h"
@@ -83,19 +86,35 @@ Stamps stamps_behind(const Stamps& inputs) {
     return all;
 }
 
-// The variables of the environment that configurations among the files name, with their values.
-ordered_json variables_of(const Stamps& inputs) {
+std::set<std::string> variables_in(const std::string& config) {
     static const std::regex variable(R"(\$\{?(\w+)|%(\w+)%)");
+    std::set<std::string> names;
+    std::string text;
+    OIIO::Filesystem::read_text_file(config, text);
+    for (std::sregex_iterator match(text.begin(), text.end(), variable), end; match != end;
+         ++match) {
+        names.insert((*match)[1].matched ? (*match)[1] : (*match)[2]);
+    }
+    return names;
+}
+
+// The variables of the environment that configurations among the files name, with their values. A
+// configuration is read once, as long as it stays as it is.
+ordered_json variables_of(const Stamps& inputs) {
+    static std::mutex mutex;
+    static std::map<std::string, std::pair<Stamp, std::set<std::string>>> known;
+    const std::lock_guard<std::mutex> lock(mutex);
     ordered_json values = ordered_json::object();
     for (const Stamp& input : inputs) {
-        std::string text;
-        if (!OIIO::Strutil::iends_with(input.file, ".ocio") ||
-            !OIIO::Filesystem::read_text_file(input.file, text)) {
+        if (!OIIO::Strutil::iends_with(input.file, ".ocio")) {
             continue;
         }
-        for (std::sregex_iterator match(text.begin(), text.end(), variable), end; match != end;
-             ++match) {
-            const std::string name = (*match)[1].matched ? (*match)[1] : (*match)[2];
+        auto& [stamp, names] = known[input.file];
+        if (stamp != input) {
+            names = variables_in(input.file);
+            stamp = input;
+        }
+        for (const std::string& name : names) {
             values[name] = std::string(OIIO::Sysutil::getenv(name));
         }
     }

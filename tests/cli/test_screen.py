@@ -87,7 +87,7 @@ def test_maps_lie_as_their_pictures(tonetool, make_image, read, words):
 
 def picture_of(uri, folder):
     (folder / "decoded.jpg").write_bytes(base64.b64decode(uri.split(",")[1]))
-    return oiio.ImageBuf(str(folder / "decoded.jpg")).get_pixels("float")
+    return oiio.ImageInput.open(str(folder / "decoded.jpg")).read_image("float")
 
 
 @pytest.mark.parametrize("orientation", [2, 3, 6, 8])
