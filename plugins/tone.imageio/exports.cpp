@@ -1,6 +1,6 @@
 // What OpenImageIO looks for in the file tone.imageio.so: every name begins as the file's does.
-#include "include/tonetool/export.h"
 #include "tone.imageio/tone_input.h"
+#include "tonetool/export.h"
 
 OIIO_PLUGIN_EXPORTS_BEGIN
 

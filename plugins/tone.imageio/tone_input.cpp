@@ -7,10 +7,10 @@
 #include <mutex>
 #include <optional>
 
-#include "include/tonetool/export.h"
 #include "recipe/picture.h"
 #include "recipe/plan.h"
 #include "text/printable.h"
+#include "tonetool/export.h"
 
 namespace tonetool {
 

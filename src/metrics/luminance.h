@@ -3,8 +3,8 @@
 
 #include <cstdint>
 
-#include "include/tonetool/numbers.h"
 #include "kernels/views.h"
+#include "tonetool/numbers.h"
 
 namespace tonetool::metrics {
 

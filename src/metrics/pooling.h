@@ -4,8 +4,8 @@
 #include <cstddef>
 #include <vector>
 
-#include "include/tonetool/numbers.h"
 #include "kernels/views.h"
+#include "tonetool/numbers.h"
 
 namespace tonetool::metrics {
 

@@ -1,5 +1,5 @@
 // CG-TMO.
-#include "include/tonetool/cgtmo.h"
+#include "tonetool/cgtmo.h"
 
 #include "python/families.h"
 #include "python/lights.h"

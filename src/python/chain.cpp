@@ -1,7 +1,7 @@
 // A command line on images.
 #include "runs/runs.h"
 
-#include "imagebuf/oiio_compat.h"
+#include "imagebuf/pixels/oiio_compat.h"
 #include "python/families.h"
 #include "python/results.h"
 

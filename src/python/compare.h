@@ -3,8 +3,8 @@
 
 #include <string>
 
-#include "include/tonetool/compare.h"
 #include "python/results.h"
+#include "tonetool/compare.h"
 
 namespace tonetool::python {
 

@@ -1,7 +1,7 @@
 // The registry of tone curves.
-#include "include/tonetool/tonemap.h"
 #include "python/families.h"
 #include "python/results.h"
+#include "tonetool/tonemap.h"
 
 namespace tonetool::python {
 

@@ -1,5 +1,5 @@
 // Making maps visible.
-#include "include/tonetool/display.h"
+#include "tonetool/display.h"
 
 #include "python/families.h"
 

@@ -1,5 +1,5 @@
 // The measures that rendering papers report.
-#include "include/tonetool/errors.h"
+#include "tonetool/errors.h"
 
 #include "python/compare.h"
 #include "python/families.h"

@@ -1,5 +1,5 @@
 // LDR-FLIP, HDR-FLIP and the filmstrip.
-#include "include/tonetool/flip.h"
+#include "tonetool/flip.h"
 
 #include "python/families.h"
 #include "python/flip_results.h"

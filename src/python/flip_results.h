@@ -4,8 +4,8 @@
 #include <utility>
 #include <vector>
 
-#include "include/tonetool/flip.h"
 #include "python/compare.h"
+#include "tonetool/flip.h"
 
 namespace tonetool::python {
 

@@ -2,7 +2,7 @@
 
 #include <OpenImageIO/strutil.h>
 
-#include "imagebuf/names.h"
+#include "imagebuf/pixels/names.h"
 
 namespace tonetool::python {
 

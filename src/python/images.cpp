@@ -3,8 +3,8 @@
 #include <OpenImageIO/oiioversion.h>
 #include <OpenImageIO/strutil.h>
 
-#include "imagebuf/has_pixels.h"
-#include "imagebuf/utf8.h"
+#include "imagebuf/pixels/has_pixels.h"
+#include "imagebuf/pixels/utf8.h"
 #include "python/function.h"
 #include "python/types.h"
 

@@ -1,5 +1,5 @@
 // Light groups and panoramas.
-#include "include/tonetool/lights.h"
+#include "tonetool/lights.h"
 
 #include "python/families.h"
 #include "python/lights.h"

@@ -1,8 +1,8 @@
 // Options of lights, which other functions take, too.
 #pragma once
 
-#include "include/tonetool/lights.h"
 #include "python/results.h"
+#include "tonetool/lights.h"
 
 namespace tonetool::python {
 

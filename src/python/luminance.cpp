@@ -1,5 +1,5 @@
 // Luminance statistics and exposure.
-#include "include/tonetool/luminance.h"
+#include "tonetool/luminance.h"
 
 #include "python/families.h"
 #include "python/results.h"

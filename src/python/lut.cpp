@@ -1,5 +1,5 @@
 // Tone curves and views as look-up tables.
-#include "include/tonetool/lut.h"
+#include "tonetool/lut.h"
 
 #include "python/families.h"
 #include "python/results.h"

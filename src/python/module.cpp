@@ -1,7 +1,7 @@
 // The module of Python. It is called tonetool._tonetool; its package, tonetool, shows all of it.
-#include "include/tonetool/tonetool.h"
 #include "python/families.h"
 #include "python/images.h"
+#include "tonetool/tonetool.h"
 
 namespace tonetool::python {
 

@@ -1,5 +1,5 @@
 // Which pixels of an image a function looks at.
-#include "include/tonetool/pixels.h"
+#include "tonetool/pixels.h"
 
 #include "python/families.h"
 #include "python/results.h"

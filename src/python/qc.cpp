@@ -1,5 +1,5 @@
 // What a dailies check must know of a picture.
-#include "include/tonetool/qc.h"
+#include "tonetool/qc.h"
 
 #include "python/families.h"
 #include "python/results.h"

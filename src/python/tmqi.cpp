@@ -1,5 +1,5 @@
 // TMQI.
-#include "include/tonetool/tmqi.h"
+#include "tonetool/tmqi.h"
 
 #include "python/compare.h"
 #include "python/families.h"

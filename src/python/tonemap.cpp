@@ -1,5 +1,5 @@
 // Tone mapping and calibration.
-#include "include/tonetool/tonemap.h"
+#include "tonetool/tonemap.h"
 
 #include "python/families.h"
 #include "python/results.h"

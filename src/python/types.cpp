@@ -3,7 +3,7 @@
 #include <OpenImageIO/strutil.h>
 #include <algorithm>
 
-#include "imagebuf/names.h"
+#include "imagebuf/pixels/names.h"
 
 namespace tonetool::python {
 

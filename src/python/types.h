@@ -12,9 +12,9 @@
 #include <utility>
 #include <vector>
 
-#include "imagebuf/utf8.h"
-#include "include/tonetool/pixels.h"
-#include "include/tonetool/tonemap.h"
+#include "imagebuf/pixels/utf8.h"
+#include "tonetool/pixels.h"
+#include "tonetool/tonemap.h"
 
 namespace tonetool::python {
 

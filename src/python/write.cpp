@@ -1,5 +1,5 @@
 // Writing files so that a failed run never harms what was there.
-#include "include/tonetool/write.h"
+#include "tonetool/write.h"
 
 #include "python/families.h"
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "recipe/picture.h"
-#include "sequence/file_stamp.h"
+#include "sequence/frames/file_stamp.h"
 
 namespace tonetool::recipe {
 

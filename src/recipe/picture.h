@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "recipe/recipe.h"
-#include "sequence/file_stamp.h"
+#include "sequence/frames/file_stamp.h"
 
 namespace tonetool::recipe {
 

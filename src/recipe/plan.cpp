@@ -5,10 +5,10 @@
 #include <filesystem>
 #include <iterator>
 
-#include "chain/call.h"
+#include "chain/session/call.h"
 #include "recipe/nesting.h"
 #include "runs/runs.h"
-#include "sequence/file_sequence.h"
+#include "sequence/frames/file_sequence.h"
 
 namespace tonetool::recipe {
 

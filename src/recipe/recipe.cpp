@@ -6,7 +6,7 @@
 #include <fstream>
 #include <set>
 
-#include "imagebuf/names.h"
+#include "imagebuf/pixels/names.h"
 
 namespace tonetool::recipe {
 

@@ -5,12 +5,12 @@
 #include <ostream>
 
 #include "runs/loop.h"
-#include "sequence/check_files.h"
-#include "sequence/file_stamp.h"
-#include "sequence/merge.h"
-#include "sequence/qc.h"
-#include "sequence/report_files.h"
-#include "sequence/shot_exposures.h"
+#include "sequence/frames/file_stamp.h"
+#include "sequence/qc/qc.h"
+#include "sequence/report/report_files.h"
+#include "sequence/results/check_files.h"
+#include "sequence/results/shot_exposures.h"
+#include "sequence/verdict/merge.h"
 #include "text/error.h"
 #include "text/printable.h"
 #include "text/token.h"

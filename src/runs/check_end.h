@@ -5,8 +5,8 @@
 #include <iosfwd>
 
 #include "runs/frames.h"
-#include "sequence/report_store.h"
-#include "sequence/results.h"
+#include "sequence/report/report_store.h"
+#include "sequence/results/results.h"
 
 namespace tonetool::runs {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <set>
 
-#include "chain/registry.h"
+#include "chain/language/registry.h"
 #include "runs/frames.h"
 #include "text/error.h"
 #include "text/token.h"

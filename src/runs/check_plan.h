@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "chain/registry.h"
-#include "sequence/file_sequence.h"
+#include "chain/language/registry.h"
+#include "sequence/frames/file_sequence.h"
 #include "text/text.h"
 
 namespace tonetool::runs {

@@ -7,11 +7,11 @@
 #include <ostream>
 #include <sstream>
 
-#include "include/tonetool/write.h"
 #include "runs/check_end.h"
 #include "runs/frame_jobs.h"
-#include "sequence/check_files.h"
+#include "sequence/results/check_files.h"
 #include "text/error.h"
+#include "tonetool/write.h"
 
 namespace tonetool::runs {
 

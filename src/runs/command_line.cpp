@@ -1,7 +1,7 @@
 // What is said about the whole command line.
 #include <algorithm>
 
-#include "chain/registry.h"
+#include "chain/language/registry.h"
 #include "runs/frames.h"
 #include "text/token.h"
 

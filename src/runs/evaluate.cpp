@@ -3,8 +3,8 @@
 #include <map>
 #include <sstream>
 
-#include "chain/runner.h"
-#include "imagebuf/has_pixels.h"
+#include "chain/session/runner.h"
+#include "imagebuf/pixels/has_pixels.h"
 #include "runs/check_run.h"
 #include "runs/frames.h"
 #include "runs/runs.h"

@@ -5,14 +5,14 @@
 #include <ostream>
 #include <sstream>
 
-#include "chain/runner.h"
-#include "include/tonetool/write.h"
-#include "manual/help.h"
+#include "chain/manual/help.h"
+#include "chain/session/runner.h"
 #include "runs/check_end.h"
 #include "runs/packed.h"
-#include "sequence/probe.h"
-#include "sequence/results_json.h"
+#include "sequence/results/probe.h"
+#include "sequence/results/results_json.h"
 #include "text/error.h"
+#include "tonetool/write.h"
 
 namespace tonetool::runs {
 

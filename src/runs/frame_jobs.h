@@ -6,11 +6,11 @@
 #include <optional>
 #include <vector>
 
-#include "measure/check_part.h"
+#include "chain/commands/check_part.h"
 #include "runs/loop.h"
-#include "sequence/report_store.h"
-#include "sequence/shot_exposures.h"
-#include "sequence/state.h"
+#include "sequence/report/report_store.h"
+#include "sequence/results/shot_exposures.h"
+#include "sequence/results/state.h"
 
 namespace tonetool::runs {
 

@@ -10,9 +10,9 @@
 #include <set>
 #include <unistd.h>
 
-#include "chain/call.h"
-#include "sequence/file_sequence.h"
-#include "sequence/pairing.h"
+#include "chain/session/call.h"
+#include "sequence/frames/file_sequence.h"
+#include "sequence/frames/pairing.h"
 #include "text/error.h"
 #include "text/printable.h"
 #include "text/token.h"

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "chain/session.h"
+#include "chain/session/session.h"
 #include "runs/check_plan.h"
 #include "text/text.h"
 

@@ -8,7 +8,7 @@
 #include <string>
 
 #include "runs/frames.h"
-#include "sequence/results.h"
+#include "sequence/results/results.h"
 
 namespace tonetool::runs {
 

@@ -6,13 +6,13 @@
 #include <poll.h>
 #include <unistd.h>
 
-#include "chain/runner.h"
-#include "manual/help.h"
-#include "measure/commands.h"
+#include "chain/commands/commands.h"
+#include "chain/manual/help.h"
+#include "chain/session/runner.h"
 #include "runs/check_run.h"
 #include "runs/frames.h"
 #include "runs/loop.h"
-#include "sequence/check_files.h"
+#include "sequence/results/check_files.h"
 
 namespace tonetool::runs {
 

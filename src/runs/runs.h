@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "chain/policy.h"
+#include "chain/language/policy.h"
 #include "text/text.h"
 
 namespace tonetool::runs {

@@ -4,7 +4,7 @@ set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 bash src/scripts/setup.sh
 
-tonetool=build/release/src/tonetool/tonetool
+tonetool=build/release/src/program/tonetool
 reference=testimages/nightstreet_ref.exr
 test=testimages/nightstreet_test.exr
 out=build/demo

@@ -17,8 +17,8 @@
 
 #include "flip/evaluate.h"
 #include "flip/filters.h"
-#include "imagebuf/parallel.h"
-#include "imagebuf/view.h"
+#include "imagebuf/color/view.h"
+#include "imagebuf/pixels/parallel.h"
 #include "kernels/flip_rows.h"
 #include "kernels/flip_twin.h"
 #include "kernels/lut_rows.h"

@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "imagebuf/parallel.h"
+#include "imagebuf/pixels/parallel.h"
 #include "kernels/guided_rows.h"
 #include "tonemap/base.h"
 #include "tonemap/footprint.h"

@@ -104,7 +104,7 @@ def test_set_up_commands():
 
 
 def test_demo(program):
-    if Path(program).resolve() != ROOT / "build/release/src/tonetool/tonetool":
+    if Path(program).resolve() != ROOT / "build/release/src/program/tonetool":
         pytest.skip("demo.sh builds and runs build/release, this is another build")
     done = subprocess.run(["bash", "src/scripts/demo.sh"], cwd=ROOT, capture_output=True, text=True,
                           timeout=600, check=False, env={**os.environ})

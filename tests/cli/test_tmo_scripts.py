@@ -11,7 +11,7 @@ import pytest
 
 ROOT = Path(__file__).resolve().parents[2]
 TESTIMAGES = ROOT / "testimages"
-PROGRAM = "build/release/src/tonetool/tonetool"
+PROGRAM = "build/release/src/program/tonetool"
 
 
 def script(name, *words):

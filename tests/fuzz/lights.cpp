@@ -1,6 +1,6 @@
 // Light tables: JSON where the text begins with a bracket, else CSV.
 #include "fuzz.h"
-#include "imagebuf/light_table.h"
+#include "imagebuf/lights/light_table.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
     using namespace tonetool;

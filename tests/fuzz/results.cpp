@@ -1,8 +1,8 @@
 // JSON of checks: results, frames, exposures, what --qc measured; and their merge.
-#include "sequence/merge.h"
-#include "sequence/qc_json.h"
-#include "sequence/results_json.h"
-#include "sequence/shot_exposures.h"
+#include "sequence/qc/qc_json.h"
+#include "sequence/results/results_json.h"
+#include "sequence/results/shot_exposures.h"
+#include "sequence/verdict/merge.h"
 
 #include <algorithm>
 #include <exception>

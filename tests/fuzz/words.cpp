@@ -1,9 +1,9 @@
 // Tokens, expressions, numbers, and what is printed of them.
 #include <algorithm>
 
+#include "chain/language/arithmetic.h"
 #include "fuzz.h"
 #include "text/error.h"
-#include "text/expression.h"
 #include "text/printable.h"
 #include "text/text.h"
 #include "text/token.h"

@@ -6,7 +6,7 @@
 #include <OpenImageIO/filesystem.h>
 #include <string>
 
-#include "imagebuf/oiio_compat.h"
+#include "imagebuf/pixels/oiio_compat.h"
 #include "images.h"
 
 namespace tonetool {

@@ -5,7 +5,7 @@
 #include <set>
 #include <unistd.h>
 
-#include "chain/registry.h"
+#include "chain/language/registry.h"
 #include "runs/runs.h"
 
 namespace tonetool::runs {

@@ -1,9 +1,9 @@
-#include "chain/registry.h"
+#include "chain/language/registry.h"
 
 #include <gtest/gtest.h>
 #include <set>
 
-#include "manual/help.h"
+#include "chain/manual/help.h"
 #include "runs/runs.h"
 
 namespace tonetool::runs {

@@ -1,0 +1,165 @@
+// Arithmetic on pixel values, with constants and with other images.
+#include <limits>
+
+#include "chain/session/ops.h"
+
+namespace tonetool::chain {
+
+namespace {
+
+constexpr float largest = std::numeric_limits<float>::max();
+
+bool invert(Op& op) {
+    OIIO::ROI roi = op.a().roi();
+    roi.chend = std::min(3, roi.chend);
+    roi.chbegin = op.integer("chbegin", roi.chbegin);
+    roi.chend = op.integer("chend", roi.chend);
+    return op.dst.copy(op.a()) && IBA::invert(op.dst, op.dst, roi);
+}
+
+bool noise(Op& op) {
+    return op.dst.copy(op.a()) && add_noise(op, false);
+}
+
+bool contrast(Op& op) {
+    const auto given = [&](const char* key, float otherwise) {
+        return op.call.has(key) ? op.list(key, op.text(key)) : Floats{otherwise};
+    };
+    const Floats low = given("min", 0), high = given("max", 1);
+    bool done = IBA::contrast_remap(op.dst, op.a(), given("black", 0), given("white", 1), low, high,
+                                    given("scontrast", 1), given("sthresh", 0.5F));
+    if (op.call.has("gamma")) {
+        op.session.warning(op.call.text(), "gamma= has no effect, as in oiiotool (--powc has)");
+    }
+    return done && (!op.flag("clamp") || IBA::clamp(op.dst, op.dst, low, high));
+}
+
+bool clamp(Op& op) {
+    return IBA::clamp(op.dst, op.a(), op.values("min", -largest), op.values("max", largest),
+                      op.flag("clampalpha"));
+}
+
+const std::string luma = "luma=0|1: on luminance instead of each channel";
+const std::string limits = "min=VALUES: lowest value, one or one per channel\n"
+                           "max=VALUES: highest value, one or one per channel\n";
+
+const std::vector<OpRow> constant_rows = {
+    {"addc|cadd VALUES", 1, "Add a constant (0.5) or one per channel (1,1.25,0.5)",
+     [](Op& op) { return IBA::add(op.dst, op.a(), op.constants(0)); }},
+    {"subc|csub VALUES", 1, "Subtract a constant or one per channel",
+     [](Op& op) { return IBA::sub(op.dst, op.a(), op.constants(0)); }},
+    {"mulc|cmul VALUES", 1, "Multiply by a constant or one per channel",
+     [](Op& op) { return IBA::mul(op.dst, op.a(), op.constants(1)); }},
+    {"divc VALUES", 1, "Divide by a constant or one per channel",
+     [](Op& op) { return IBA::div(op.dst, op.a(), op.constants(1)); }},
+    {"absdiffc VALUES", 1, "Absolute difference to a constant or one per channel",
+     [](Op& op) { return IBA::absdiff(op.dst, op.a(), op.constants(0)); }},
+    {"powc|cpow VALUES", 1, "Raise to a power or one per channel",
+     [](Op& op) { return IBA::pow(op.dst, op.a(), op.constants(1)); }},
+    {"maxc VALUES", 1, "The larger of the values and a constant or one per channel",
+     [](Op& op) { return IBA::max(op.dst, op.a(), op.constants(0)); }},
+    {"minc VALUES", 1, "The smaller of the values and a constant or one per channel",
+     [](Op& op) { return IBA::min(op.dst, op.a(), op.constants(0)); }},
+};
+
+const std::vector<OpRow> image_rows = {
+    {"add", 2, "Add two images", [](Op& op) { return IBA::add(op.dst, op.a(), op.b()); }},
+    {"sub", 2, "Subtract the second image from the first",
+     [](Op& op) { return IBA::sub(op.dst, op.a(), op.b()); }},
+    {"mul", 2, "Multiply two images", [](Op& op) { return IBA::mul(op.dst, op.a(), op.b()); }},
+    {"div", 2, "Divide the first image by the second",
+     [](Op& op) { return IBA::div(op.dst, op.a(), op.b()); }},
+    {"mad", 3, "Multiply two images and add a third",
+     [](Op& op) { return IBA::mad(op.dst, op.a(), op.b(), op.c()); }},
+    {"absdiff", 2, "Absolute difference of two images",
+     [](Op& op) { return IBA::absdiff(op.dst, op.a(), op.b()); }},
+    {"max", 2, "The larger value of two images, pixel by pixel",
+     [](Op& op) { return IBA::max(op.dst, op.a(), op.b()); }},
+    {"min", 2, "The smaller value of two images, pixel by pixel",
+     [](Op& op) { return IBA::min(op.dst, op.a(), op.b()); }},
+};
+
+const std::vector<OpRow> value_rows = {
+    {"abs", 1, "Absolute value", [](Op& op) { return IBA::abs(op.dst, op.a()); }},
+    {"invert", 1, "Subtract the colour from 1", invert,
+     "chbegin=N: first channel (0)\n"
+     "chend=N: one past the last channel (3)"},
+    {"maxchan", 1, "The largest of the channels of each pixel",
+     [](Op& op) { return IBA::maxchan(op.dst, op.a()); }},
+    {"minchan", 1, "The smallest of the channels of each pixel",
+     [](Op& op) { return IBA::minchan(op.dst, op.a()); }},
+    {"chsum", 1, "Sum of the channels",
+     [](Op& op) { return IBA::channel_sum(op.dst, op.a(), op.values("weight", 1)); },
+     "weight=VALUES: weight of each channel (1)"},
+    named("", {"clamp", 1, "Clamp the values", clamp, limits + "clampalpha=0|1: alpha to 0..1",
+               Scope::Levels}),
+    {"contrast", 1, "Remap black to min and white to max, with a contrast curve", contrast,
+     limits + "black=VALUES: what becomes min (0)\n"
+              "white=VALUES: what becomes max (1)\n"
+              "sthresh=VALUES: middle of the curve (0.5)\n"
+              "scontrast=VALUES: its slope (1: none)\n"
+              "gamma=VALUES: has no effect\n"
+              "clamp=0|1: clamp to min..max"},
+    {"saturate SCALE", 1, "Scale the saturation (0: grey)",
+     [](Op& op) { return IBA::saturate(op.dst, op.a(), op.number(0)); }},
+    {"rangecompress", 1, "Compress values beyond 1 by a logarithm",
+     [](Op& op) { return IBA::rangecompress(op.dst, op.a(), op.flag("luma")); }, luma},
+    {"rangeexpand", 1, "Undo --rangecompress",
+     [](Op& op) { return IBA::rangeexpand(op.dst, op.a(), op.flag("luma")); }, luma},
+    {"noise", 1, "Add noise", noise, noise_modifiers() + "nchannels=N: channels that get noise"},
+    {"premult", 1, "Multiply the colour by alpha",
+     [](Op& op) { return IBA::premult(op.dst, op.a()); }},
+    {"unpremult", 1, "Divide the colour by alpha",
+     [](Op& op) { return IBA::unpremult(op.dst, op.a()); }},
+    {"repremult", 1, "Multiply the colour by alpha, but keep it where alpha is 0",
+     [](Op& op) { return IBA::repremult(op.dst, op.a()); }},
+};
+
+} // namespace
+
+bool add_noise(Op& op, bool to_blank) {
+    const float middle = to_blank ? 0.5F : 0;
+    const struct {
+        const char *type, *first, *second;
+        float first_value, second_value;
+    } kinds[] = {{"gaussian", "mean", "stddev", middle, 0.1F},
+                 {"uniform", "min", "max", middle, to_blank ? 1 : 0.1F},
+                 {"white", "min", "max", middle, to_blank ? 1 : 0.1F},
+                 {"blue", "min", "max", middle, to_blank ? 1 : 0.1F},
+                 {"salt", "value", "portion", 0, to_blank ? 0.1F : 0.01F}};
+    const std::string type = op.text("type", "gaussian");
+    OIIO::ROI roi = op.dst.roi();
+    if (!to_blank) {
+        roi.chend = std::min(roi.chend, op.integer("nchannels", roi.chend));
+    }
+    for (const auto& kind : kinds) {
+        if (type == kind.type) {
+            return IBA::noise(op.dst, type, op.number(kind.first, kind.first_value),
+                              op.number(kind.second, kind.second_value), op.flag("mono"),
+                              op.integer("seed", 0), roi);
+        }
+    }
+    throw CommandError("Unknown noise type \"" + type + "\"" +
+                       (op.session.compat ? "" : " (valid: gaussian, uniform, white, blue, salt)"));
+}
+
+std::string noise_modifiers() {
+    return "type=gaussian|uniform|white|blue|salt: kind (gaussian)\n"
+           "mean=X: of gaussian noise (0)\n"
+           "stddev=X: of gaussian noise (0.1)\n"
+           "min=X: of uniform noise (0)\n"
+           "max=X: of uniform noise (0.1)\n"
+           "value=X: of salt noise (0)\n"
+           "portion=X: of pixels with salt (0.01)\n"
+           "mono=0|1: the same in all channels\n"
+           "seed=N: seed (0)\n";
+}
+
+std::vector<Command> arithmetic_commands() {
+    std::vector<Command> all = op_rows(Group::Arithmetic, constant_rows);
+    append(all, op_rows(Group::Arithmetic, image_rows));
+    append(all, op_rows(Group::Arithmetic, value_rows));
+    return all;
+}
+
+} // namespace tonetool::chain

@@ -1,0 +1,179 @@
+// Commands that choose channels, subimages and MIP levels, and count pixels.
+#include <OpenImageIO/strutil.h>
+#include <algorithm>
+
+#include "chain/images/channels.h"
+#include "chain/session/ops.h"
+
+namespace tonetool::chain {
+
+namespace {
+
+bool ch(Op& op) {
+    const auto warn = [&op](const std::string& text) {
+        op.session.warning("--ch", text); // twice, as oiiotool
+        op.session.warning("--ch", text);
+    };
+    op.dst = files::select_channels(op.a(), op.call.argument(0),
+                                    op.session.compat ? files::Warn(warn) : nullptr);
+    return !op.dst.has_error();
+}
+
+void push_parts(Session& session, const std::string& name, std::vector<PartPtr> parts) {
+    session.push(std::make_shared<Image>(name, std::move(parts)));
+}
+
+void run_subimage(Session& session, const Call& call) {
+    const Image& image = *call.images[0];
+    auto index = std::ptrdiff_t(image.find_part(call.argument(0), session.compat));
+    std::vector<PartPtr> parts = image.parts();
+    if (call.flag("delete", false)) {
+        parts.erase(parts.begin() + index);
+    } else {
+        parts = {parts[size_t(index)]};
+    }
+    if (parts.empty()) {
+        throw CommandError("cannot delete the only subimage of " + image.name());
+    }
+    push_parts(session, image.name(), std::move(parts));
+}
+
+void run_sisplit(Session& session, const Call& call) {
+    for (const PartPtr& part : call.images[0]->parts()) {
+        push_parts(session, call.images[0]->name(), {part});
+    }
+}
+
+void push_appended(Session& session, const std::vector<ImagePtr>& images) {
+    std::vector<PartPtr> parts;
+    for (const ImagePtr& image : images) {
+        parts.insert(parts.end(), image->parts().begin(), image->parts().end());
+    }
+    push_parts(session, images.front()->name(), std::move(parts));
+}
+
+void push_level(Session& session, const Image& image, int level) {
+    std::vector<PartPtr> parts;
+    for (const PartPtr& part : image.parts()) {
+        const int levels = part->mip_levels();
+        if (levels > 1 && level >= levels) {
+            throw CommandError("Selecting MIP level " + std::to_string(level) + " of subimage " +
+                               std::to_string(parts.size()) + ", which has only " +
+                               std::to_string(levels) + " MIP levels");
+        }
+        parts.push_back(levels > 1 ? Part::of_level(part, level) : part);
+    }
+    push_parts(session, image.name(), std::move(parts));
+}
+
+// Prints lines about the values of the first subimage.
+template <class Lines>
+void run_count(Session& session, const Call& call, Lines lines) {
+    OIIO::ImageBuf none;
+    lines(Op{session, call, none, {&call.images[0]->part().pixels()}});
+    session.produced = true;
+    session.push(call.images[0]);
+}
+
+void print_count(Session& session, OIIO::imagesize_t count, const std::string& of) {
+    session.print(OIIO::Strutil::fmt::format("{:8}  {}", count, of));
+}
+
+void colorcount(const Op& op) {
+    // Between the colours oiiotool takes a colon as well as the semicolon of its help.
+    std::string list = op.call.argument(0);
+    std::replace(list.begin(), list.end(), ';', ':');
+    const Strings colors = split(list, ':');
+    Floats values;
+    for (const std::string& color : colors) {
+        const Floats one = op.per_channel("COLORLIST", color, 0);
+        values.insert(values.end(), one.begin(), one.end());
+    }
+    std::vector<OIIO::imagesize_t> counts(colors.size());
+    if (!IBA::color_count(op.a(), counts.data(), int(colors.size()), values,
+                          op.values("eps", 0.001F))) {
+        throw CommandError(op.a().geterror());
+    }
+    for (size_t i = 0; i < colors.size(); ++i) {
+        print_count(op.session, counts[i], colors[i]);
+    }
+}
+
+void rangecheck(const Op& op) {
+    OIIO::imagesize_t below = 0, above = 0, within = 0;
+    const std::string &low = op.call.argument(0), &high = op.call.argument(1);
+    if (!IBA::color_range_check(op.a(), &below, &above, &within, op.per_channel("MIN", low, 0),
+                                op.per_channel("MAX", high, 1))) {
+        throw CommandError(op.a().geterror());
+    }
+    print_count(op.session, below, "< " + low);
+    print_count(op.session, above, "> " + high);
+    print_count(op.session, within, "within range");
+}
+
+const char* const count_help = "n=N: so many images instead of two\n";
+
+const std::vector<OpRow> rows = {
+    named("", {"ch CHANLIST", 1,
+               "Select or shuffle channels (\"R,G,B\", \"2,1,0\", \"R,G=0.5,B,A=1.0\")", ch, "",
+               Scope::Levels}),
+    named("", {"chappend", 2, "The channels of the last two images (or n=) in one",
+               [](Op& op) {
+                   op.dst.copy(op.a());
+                   for (size_t i = 1; i < op.src.size(); ++i) {
+                       op.dst = IBA::channel_append(op.dst, *op.src[i]);
+                   }
+                   return !op.dst.has_error();
+               },
+               count_help}),
+};
+
+std::vector<Command> subimage_commands() {
+    auto row = [](const char* usage, int pops, int pushes, const char* help, Run run,
+                  const char* modifiers = "") {
+        return free_row(Group::Channels, usage, pops, pushes, help, std::move(run), modifiers);
+    };
+    return {
+        row("subimage INDEX", 1, 1, "Select one subimage by index or name", run_subimage,
+            "delete=0|1: keep all but this one"),
+        row("sisplit", 1, any_number, "An image of its own for each subimage", run_sisplit),
+        row(
+            "siappend", 2, 1, "The subimages of the last two images (or n=) in one image",
+            [](Session& session, const Call& call) { push_appended(session, call.images); },
+            count_help),
+        row("siappendall", 0, any_number, "The subimages of all images of the stack in one image",
+            [](Session& session, const Call&) { push_appended(session, take_images(session, 0)); }),
+        row("selectmip MIPLEVEL", 1, 1, "Select one MIP level (0: the largest)",
+            [](Session& session, const Call& call) {
+                OIIO::ImageBuf none;
+                push_level(session, *call.images[0], Op{session, call, none, {}}.integer(0));
+            }),
+        row("unmip", 1, 1, "Keep only the largest MIP level",
+            [](Session& session, const Call& call) { push_level(session, *call.images[0], 0); }),
+    };
+}
+
+} // namespace
+
+std::vector<Command> channel_commands() {
+    std::vector<Command> all = op_rows(Group::Channels, rows);
+    append(all, subimage_commands());
+    for (Command& row : all) {
+        if (row.label() == "chappend" || row.label() == "siappend") {
+            row.pops_of = [](const Call& call) {
+                return call.integer("n", {1, 1000}).value_or(call.row().pops);
+            };
+        }
+    }
+    all.push_back(free_row(
+        Group::Print, "colorcount COLORLIST", 1, 1,
+        "Count the pixels of each colour (COLOR:COLOR:...)",
+        [](Session& session, const Call& call) { run_count(session, call, colorcount); },
+        "eps=VALUES: how near a value must be (0.001)"));
+    all.push_back(free_row(
+        Group::Print, "rangecheck MIN MAX", 1, 1, "Count the pixels outside a range of values",
+        [](Session& session, const Call& call) { run_count(session, call, rangecheck); }));
+    return all;
+}
+
+} // namespace tonetool::chain

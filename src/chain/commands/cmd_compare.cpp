@@ -1,0 +1,401 @@
+// Commands that compare a test image with a reference.
+#include <functional>
+
+#include "chain/commands/color_input.h"
+#include "chain/commands/commands.h"
+#include "chain/commands/flip_args.h"
+#include "chain/commands/flip_report.h"
+#include "chain/commands/frame_pictures.h"
+#include "chain/commands/shot_args.h"
+#include "chain/images/colormap.h"
+#include "imagebuf/pixels/upright.h"
+#include "sequence/results/measurement.h"
+#include "text/error.h"
+
+namespace tonetool::measure {
+
+namespace {
+
+using Maps = std::vector<OIIO::ImageBuf>;
+using Tests = std::vector<const OIIO::ImageBuf*>;
+using Views = std::vector<OIIO::ImageBuf>;
+using Compare = std::function<bool(Maps&, const OIIO::ImageBuf&, const Tests&)>;
+
+// What the images of a command are looked at for: call.images is the reference and the tests.
+struct Look {
+    PixelOptions reference, tests;
+    /// Many times: the images are read before, unless their memory is bounded.
+    bool again = false;
+};
+
+Look same_look(const Call& call, bool again = false) {
+    return {pixel_options(call), pixel_options(call), again};
+}
+
+// The images as they were compared, and a map for each test.
+struct Compared {
+    Views views;
+    Maps maps;
+};
+
+// The same pixels twice: most likely a slip of the command line.
+void warn_of_same_file(Session& session, const Call& call, const Image& test, const Look& look) {
+    const Image& reference = *call.images.front();
+    const auto part_of = [](const Image& image, const PixelOptions& options, ColorChoice& color) {
+        const std::vector<OIIO::ImageSpec> headers = headers_of(image);
+        PartChoice found;
+        std::string ignored;
+        (void)ToneAlgo::find_part(headers, options, found, ignored);
+        (void)ToneAlgo::find_color(headers.at(size_t(found.part)), options, color, ignored);
+        return size_t(found.part);
+    };
+    ColorChoice r, t;
+    const size_t of_reference = part_of(reference, look.reference, r);
+    const size_t of_test = part_of(test, look.tests, t);
+    if (same_file(reference, of_reference, test, of_test) && r.r == t.r && r.g == t.g &&
+        r.b == t.b) {
+        session.warning(call.row().label(), "reference \"" + reference.name() + "\" and test \"" +
+                                                test.name() + "\" are the same file");
+    }
+}
+
+Compared compare(Session& session, const Call& call, const Look& look, const Compare& function) {
+    Compared done;
+    const auto view = shown_bytes(session, call) > 0      ? shown_input
+                      : look.again && session.memory == 0 ? color_input
+                                                          : color_source;
+    for (const ImagePtr& image : call.images) {
+        const PixelOptions& options = done.views.empty() ? look.reference : look.tests;
+        done.views.push_back(view(session, call, *image, options));
+    }
+    Tests tests;
+    for (size_t i = 1; i < done.views.size(); ++i) {
+        warn_of_same_file(session, call, *call.images[i], look);
+        tests.push_back(&done.views[i]);
+    }
+    done.maps.resize(tests.size());
+    if (!function(done.maps, done.views.front(), tests)) {
+        throw CommandError(done.maps.front().geterror());
+    }
+    session.produced = true;
+    return done;
+}
+
+template <class Summary>
+void report(Session& session, const Call& call, const Summary& summary, size_t test = 0) {
+    const std::string label = call.row().label();
+    for (const std::string& warning : summary.warnings) {
+        session.warning(label, warning);
+    }
+    record(session, call, sequence::measurement(summary), test);
+    if (call.flag("print", true)) {
+        session.report(summary_text(label, summary, call.images.front()->name(),
+                                    call.images.at(test + 1)->name()));
+    }
+}
+
+// The pair for the report; of maps without a bound there are no colours that mean the same in all
+// frames.
+sequence::PictureRequest pair_request(const Views& views, size_t test = 0) {
+    sequence::PictureRequest request;
+    request.reference = &views.at(0);
+    request.test = &views.at(test + 1);
+    return request;
+}
+
+void show_flip(Session& session, const Call& call, sequence::PictureRequest request,
+               const OIIO::ImageBuf& map, const FlipResult& result) {
+    request.error = &map;
+    request.exposures = result.summary.exposures;
+    if (result.exposure_stops.initialized()) {
+        request.stops = &result.exposure_stops;
+    }
+    show(session, call, std::move(request));
+}
+
+bool judge_flip(Session& session, const Call& call, const Limits& limits, const FlipPool& pool,
+                size_t test = 0) {
+    const auto measure = [&](const std::string& quantity) {
+        return Measured{ToneAlgo::flip_quantity(pool, quantity).value()};
+    };
+    return judge(session, call, limits, measure, sequence::Position{pool.max_x, pool.max_y}, test);
+}
+
+void push_result(Session& session, const Call& call, OIIO::ImageBuf result) {
+    session.push(Image::computed("--" + call.row().label(), std::move(result)));
+}
+
+// The map lies as its pictures do.
+void push_map(Session& session, const Call& call, OIIO::ImageBuf map) {
+    lie_as(call.images.front()->part().header(), map);
+    push_result(session, call, std::move(map));
+}
+
+// ---- hdrflip
+
+int test_count(const Call& call) {
+    return call.integer("tests", {1, 1000}).value_or(1);
+}
+
+int hdrflip_pops(const Call& call) {
+    return 1 + test_count(call);
+}
+
+int hdrflip_pushes(const Call& call) {
+    return test_count(call) * (call.has("exposuremap") ? 2 : 1);
+}
+
+void save(Session& session, const OIIO::ImageBuf& image, const std::string& filename) {
+    session.claim(filename);
+    if (session.dry_run) {
+        return;
+    }
+    session.keep_pixels_of(filename);
+    std::string why;
+    if (!write_image(image, filename, why)) {
+        throw CommandError(why);
+    }
+}
+
+void save_exposures(Session& session, const Call& call, const FlipResult& result, size_t test) {
+    std::string of_test = test_count(call) > 1 ? ".t" + std::to_string(test + 1) : "";
+    std::string start = call.text("saveexposures").value_or("") + of_test;
+    for (size_t i = 0; i < result.exposures.size(); ++i) {
+        std::string name = start + (i < 10 ? ".0" : ".") + std::to_string(i);
+        save(session, result.exposures[i].reference, name + ".reference.exr");
+        save(session, result.exposures[i].test, name + ".test.exr");
+        save(session, result.exposures[i].flip, name + ".flip.exr");
+    }
+}
+
+void run_hdrflip(Session& session, const Call& call) {
+    HdrFlipOptions options;
+    read_flip_options(session, call, true, options);
+    read_hdr_options(session, call, options);
+    const Limits limits = limits_of(call, {}, options.quantities);
+    read_shot_exposures(session, call, options);
+    auto exposure_map = call.choice("exposuremap", {"stops", "index"});
+    options.want_exposure_map = exposure_map || shown_bytes(session, call) > 0;
+    options.want_exposures = call.has("saveexposures");
+    std::vector<FlipResult> results;
+    auto [views, maps] =
+        compare(session, call, {options.pixels, options.pixels},
+                [&](Maps& to, auto& reference, auto& tests) {
+                    return ToneAlgo::hdr_flip(to, reference, tests, options, &results);
+                });
+    for (size_t i = 0; i < maps.size(); ++i) {
+        FlipResult& result = results[i];
+        report(session, call, result.summary, i);
+        judge_flip(session, call, limits, result.summary.pool, i);
+        save_exposures(session, call, result, i);
+        sequence::PictureRequest request = pair_request(views, i);
+        request.look = options;
+        show_flip(session, call, std::move(request), maps[i], result);
+        if (exposure_map) {
+            push_map(session, call,
+                     std::move(*exposure_map == "stops" ? result.exposure_stops
+                                                        : result.exposure_index));
+        }
+        push_map(session, call, std::move(maps[i]));
+    }
+}
+
+// ---- one test
+
+void run_ldrflip(Session& session, const Call& call) {
+    FlipOptions options;
+    read_flip_options(session, call, true, options);
+    const Limits limits = limits_of(call, {}, options.quantities);
+    FlipResult result;
+    auto [views, maps] =
+        compare(session, call, same_look(call), [&](Maps& to, auto& reference, auto& tests) {
+            return ToneAlgo::ldr_flip(to[0], reference, *tests[0], options, &result);
+        });
+    report(session, call, result.summary);
+    judge_flip(session, call, limits, result.summary.pool);
+    sequence::PictureRequest request = pair_request(views);
+    static_cast<FlipOptions&>(request.look) = options;
+    request.hdr = false;
+    show_flip(session, call, std::move(request), maps[0], result);
+    push_map(session, call, std::move(maps[0]));
+}
+
+void run_flipdiff(Session& session, const Call& call) {
+    HdrFlipOptions options = flipdiff_options(session, call);
+    bool hdr = call.flag("hdr", true);
+    const Limits limits = limits_of(call, {{"max"}, false}, options.quantities);
+    auto colors = call.text("colormap");
+    if (colors) {
+        files::check_colormap(*colors);
+    }
+    options.want_exposure_map = hdr && shown_bytes(session, call) > 0;
+    FlipResult result;
+    auto [views, maps] =
+        compare(session, call, same_look(call), [&](Maps& to, auto& reference, auto& tests) {
+            return hdr ? ToneAlgo::hdr_flip(to[0], reference, *tests[0], options, &result)
+                       : ToneAlgo::ldr_flip(to[0], reference, *tests[0], options, &result);
+        });
+    report(session, call, result.summary);
+    if (judge_flip(session, call, limits, result.summary.pool)) {
+        session.print("FAILURE");
+    } else if (!limits.empty()) {
+        session.report("PASS");
+    }
+    sequence::PictureRequest request = pair_request(views);
+    request.look = options;
+    request.hdr = hdr;
+    show_flip(session, call, std::move(request), maps[0], result);
+    push_map(session, call, colors ? files::colored(maps[0], *colors) : std::move(maps[0]));
+}
+
+void run_filmstrip(Session& session, const Call& call) {
+    HdrFlipOptions options;
+    read_flip_options(session, call, false, options);
+    read_hdr_options(session, call, options);
+    const Limits limits = limits_of(call, {}, options.quantities);
+    ToneAlgo::FilmstripOptions look;
+    look.thumb_width = call.integer("width", {32, 4096}).value_or(look.thumb_width);
+    look.max_columns = call.integer("columns", {1, 1024}).value_or(look.max_columns);
+    look.font = call.text("font").value_or(look.font);
+    FlipResult result;
+    auto [views, maps] =
+        compare(session, call, same_look(call, true), [&](Maps& to, auto& reference, auto& tests) {
+            return ToneAlgo::flip_filmstrip(to[0], reference, *tests[0], options, look, &result);
+        });
+    report(session, call, result.summary);
+    judge_flip(session, call, limits, result.summary.pool);
+    maps[0].specmod().attribute("oiio:ColorSpace", "sRGB");
+    push_result(session, call, std::move(maps[0])); // upright already
+}
+
+// Errors that have no bound may have any limit.
+Measures error_measures(const std::string& metric) {
+    constexpr double unbounded = 1e30;
+    Measures measures;
+    measures.names.insert(measures.names.begin(), metric);
+    measures.scale = [metric](const std::string& quantity) {
+        const bool bounded = metric == "smape" || metric == "mpsnr";
+        if (quantity == metric && (metric == "psnr" || metric == "mpsnr")) {
+            constexpr double least = -300; // of an error of 1e30
+            return Scale{bounded ? 0 : least, unbounded, true};
+        }
+        return Scale{0, bounded ? 1 : unbounded, false};
+    };
+    return measures;
+}
+
+void run_errormap(Session& session, const Call& call) {
+    ErrorOptions options = error_options(session, call);
+    const Limits limits = limits_of(call, error_measures(options.metric), options.quantities);
+    ErrorSummary summary;
+    auto [views, maps] =
+        compare(session, call, same_look(call), [&](Maps& to, auto& reference, auto& tests) {
+            return ToneAlgo::error_map(to[0], reference, *tests[0], options, &summary);
+        });
+    report(session, call, summary);
+    const auto measured = [&](const std::string& quantity) {
+        const auto pooled = ToneAlgo::flip_quantity(summary.pool, quantity);
+        return Measured{pooled.value_or(summary.value), !pooled && summary.decibels};
+    };
+    judge(session, call, limits, measured,
+          sequence::Position{summary.pool.max_x, summary.pool.max_y});
+    sequence::PictureRequest request = pair_request(views);
+    request.look.pixels = options.pixels;
+    request.look.size = options.size;
+    request.exposures = summary.exposures;
+    request.error = options.metric == "smape" || options.metric == "mpsnr" ? &maps[0] : nullptr;
+    show(session, call, std::move(request));
+    push_map(session, call, std::move(maps[0]));
+}
+
+Measures tmqi_measures() {
+    return {ToneAlgo::tmqi_quantities(), false, [](const std::string&) {
+                return Scale{0, 1, true};
+            }};
+}
+
+void run_tmqi(Session& session, const Call& call) {
+    TmqiOptions options{pixel_options(call), pixel_options(call, "ldr"), call.flag("crop", false),
+                        session.memory};
+    Strings none;
+    const Limits limits = limits_of(call, tmqi_measures(), none);
+    TmqiSummary summary;
+    auto [views, maps] =
+        compare(session, call, {options.hdr, options.ldr}, [&](Maps& to, auto& hdr, auto& tests) {
+            return ToneAlgo::tmqi(to[0], hdr, *tests[0], options, &summary);
+        });
+    report(session, call, summary);
+    const auto measured = [&](const std::string& quantity) {
+        return Measured{ToneAlgo::tmqi_quantity(summary.score, quantity).value(), true};
+    };
+    judge(session, call, limits, measured, {});
+    push_map(session, call, std::move(maps[0]));
+}
+
+// ---- rows
+
+std::vector<Modifier> hdrflip_modifiers() {
+    return concatenated(
+        {hdr_modifiers(),
+         viewing_modifiers(),
+         pair_modifiers(),
+         {{"exposures", "frame|shot|FILE",
+           "range of the exposures: each frame's own (frame), one of the whole shot, or what "
+           "--statistics or --json wrote into FILE"},
+          {"exposuremap", "stops|index", "push the exposure of the largest error below the map"},
+          {"saveexposures", "PREFIX", "write PREFIX.NN.reference.exr, .test.exr and .flip.exr"},
+          {"tests", "K", "compare K tests with the one reference below them"}},
+         threshold_modifiers()});
+}
+
+std::vector<Modifier> filmstrip_modifiers() {
+    return concatenated({hdr_modifiers(),
+                         {viewing_modifiers().front()},
+                         pair_modifiers(),
+                         {{"width", "PIXELS", "width of one picture (240)"},
+                          {"columns", "N", "at most this many exposures are shown (9)"},
+                          {"font", "FILE", "font of the labels (DejaVu Sans)"}},
+                         threshold_modifiers()});
+}
+
+std::vector<Modifier> tmqi_modifiers() {
+    return concatenated(
+        {{{"layer", "NAME", "layer of the HDR image whose R,G,B are used"},
+          {"from", "SPACE", "colour space of the HDR image"},
+          {"ldrlayer", "NAME", "layer of the picture"},
+          {"ldrfrom", "SPACE", "colour space of the picture (sRGB for integers)"},
+          {"crop", "0|1", "compare only where the display windows meet"}},
+         threshold_modifiers(tmqi_measures(), "at least X (0 to 1; higher is better)")});
+}
+
+Command pair_command(const char* name, std::vector<Modifier> modifiers, const char* help,
+                     void (*run)(Session&, const Call&)) {
+    return {{{name}, {}, 2, 1, Group::Compare}, std::move(modifiers), help, run};
+}
+
+} // namespace
+
+std::vector<Command> compare_commands() {
+    std::vector<Command> rows{
+        pair_command("hdrflip", hdrflip_modifiers(), "HDR-FLIP: reference, test -> error map",
+                     run_hdrflip),
+        pair_command("ldrflip",
+                     concatenated({viewing_modifiers(), pair_modifiers(), threshold_modifiers()}),
+                     "LDR-FLIP: reference, test -> error map", run_ldrflip),
+        pair_command("flipdiff", flipdiff_modifiers(),
+                     "FLIP with the option names and defaults of OpenImageIO 3.2's oiiotool",
+                     run_flipdiff),
+        pair_command("filmstrip", filmstrip_modifiers(),
+                     "HDR-FLIP as a picture: every exposure of both images and its map",
+                     run_filmstrip),
+        pair_command("errormap", error_modifiers(),
+                     "An error by pixel: reference, test -> error map", run_errormap),
+        pair_command("tmqi", tmqi_modifiers(),
+                     "TMQI of a tone-mapped picture: HDR image, picture -> structure map",
+                     run_tmqi)};
+    rows.front().pops_of = hdrflip_pops;
+    rows.front().pushes_of = hdrflip_pushes;
+    return rows;
+}
+
+} // namespace tonetool::measure

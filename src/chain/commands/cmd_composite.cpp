@@ -1,0 +1,115 @@
+// Compositing, pasting, contact sheets and deep images.
+#include <algorithm>
+#include <cstdio>
+
+#include "chain/images/sheet.h"
+#include "chain/session/ops.h"
+
+namespace tonetool::chain {
+
+namespace {
+
+struct Position {
+    int x = 0, y = 0;
+};
+
+// From where the images lie.
+Position asked_position(const Session& session, const std::string& text) {
+    Position position;
+    int end = 0;
+    if (text != "-" && text != "auto" &&
+        (std::sscanf(text.c_str(), "%d%d%n", &position.x, &position.y, &end) != 2 ||
+         (!session.compat && size_t(end) < text.size()))) {
+        throw CommandError("Invalid offset '" + text + "'" +
+                           (session.compat ? "" : " (valid: +X+Y, auto, -)"));
+    }
+    return position;
+}
+
+std::vector<const OIIO::ImageBuf*> flat_pixels_of(const std::vector<ImagePtr>& images) {
+    std::vector<const OIIO::ImageBuf*> all;
+    for (const ImagePtr& image : images) {
+        if (image->part().header().deep) {
+            throw CommandError("\"" + image->name() +
+                               "\" is deep, which this command cannot use (--flatten makes it "
+                               "flat)");
+        }
+        all.push_back(&image->part().pixels());
+    }
+    return all;
+}
+
+void run_paste(Session& session, const Call& call) {
+    std::vector<ImagePtr> images = take_images(session, call.flag("all", false) ? 0 : 2);
+    const Position at = asked_position(session, call.argument(0));
+    OIIO::ImageBuf result =
+        files::pasted(flat_pixels_of(images), at.x, at.y, call.flag("mergeroi", false));
+    session.push(Image::derived(*images.back(), std::move(result)));
+}
+
+bool paste_metadata(Op& op) {
+    bool done = op.dst.copy(op.b());
+    op.dst.specmod().extra_attribs = op.a().spec().extra_attribs;
+    op.dst.set_roi_full(op.a().roi_full());
+    return done;
+}
+
+void run_mosaic(Session& session, const Call& call) {
+    auto size = parsed_size(call.argument(0));
+    if (!size || size->width < 1 || size->height < 1) {
+        throw CommandError("Invalid size '" + call.argument(0) + "'" +
+                           (session.compat ? "" : " (valid: COLUMNSxROWS)"));
+    }
+    const auto fit = call.text("fit");
+    files::Sheet sheet{int(size->width), int(size->height)};
+    sheet.pad = call.integer("pad", any_integer).value_or(0);
+    sheet.fit = fit ? parsed_size(*fit) : std::nullopt;
+    if (fit && !sheet.fit && !session.compat) {
+        throw CommandError("fit \"" + *fit + "\" is no size (valid: WxH)");
+    }
+    const size_t cells = size_t(sheet.columns) * size_t(sheet.rows);
+    std::vector<ImagePtr> images = take_images(session, std::min(cells, session.stack.size()));
+    session.push(Image::created("mosaic", files::mosaic(sheet, flat_pixels_of(images))));
+}
+
+const std::vector<OpRow> rows = {
+    {"over", 2, "The first image over the second",
+     [](Op& op) { return IBA::over(op.dst, op.a(), op.b()); }},
+    {"zover", 2, "The nearer of two images with Z channels over the other",
+     [](Op& op) { return IBA::zover(op.dst, op.a(), op.b(), op.flag("zeroisinf")); },
+     "zeroisinf=0|1: Z of 0 is infinitely far"},
+    {"deepmerge", 2, "Merge two deep images",
+     [](Op& op) {
+         op.dst = IBA::deep_merge(op.a(), op.b());
+         return !op.dst.has_error();
+     }},
+    {"deepholdout", 2, "Hold out the first deep image by the second",
+     [](Op& op) {
+         op.dst = IBA::deep_holdout(op.a(), op.b());
+         return !op.dst.has_error();
+     }},
+    {"deepen", 1, "From flat to deep",
+     [](Op& op) { return IBA::deepen(op.dst, op.a(), op.number("z", 1)); },
+     "z=X: depth where there is no Z channel (1)"},
+    {"flatten", 1, "From deep to flat", [](Op& op) { return IBA::flatten(op.dst, op.a()); }},
+    {"pastemeta", 2, "The pixels of the second image with the metadata of the first",
+     paste_metadata},
+};
+
+} // namespace
+
+std::vector<Command> composite_commands() {
+    std::vector<Command> all = op_rows(Group::Composite, rows);
+    all.push_back(free_row(Group::Composite, "paste +X+Y", 0, any_number,
+                           "Paste the first image over the second, there or as it lies (auto, -)",
+                           run_paste,
+                           "all=0|1: all images of the stack over the last\n"
+                           "mergeroi=0|1: a data window that holds both"));
+    all.push_back(free_row(Group::Composite, "mosaic WxH", 0, any_number,
+                           "Assemble as many images as there are into columns and rows", run_mosaic,
+                           "pad=N: pixels between images (0)\n"
+                           "fit=WxH: fit each image to this size first"));
+    return all;
+}
+
+} // namespace tonetool::chain

@@ -1,0 +1,281 @@
+// Commands that make images of nothing, and draw.
+#include <OpenImageIO/strutil.h>
+
+#include "chain/session/ops.h"
+#include "imagebuf/pixels/oiio_compat.h"
+
+namespace tonetool::chain {
+
+namespace {
+
+using Corners = std::vector<Floats>;
+
+// The window and the number of channels that the last two arguments ask for.
+OIIO::ImageBuf blank(Session& session, const Call& call, size_t first) {
+    OIIO::ROI window(0, 64, 0, 64);
+    adjust_window(session, call, call.argument(first), Geometry::Window, window);
+    OIIO::ImageBuf image;
+    const Op op{session, call, image, {}};
+    int channels = op.integer(first + 1);
+    if (channels < 1 || channels > 1024) {
+        const std::string why = "Invalid number of channels: " + std::to_string(channels);
+        if (!session.compat) {
+            throw CommandError(why + " (valid: 1 to 1024)");
+        }
+        session.warning(call.text(), why);
+        channels = 3;
+    }
+    OIIO::ImageSpec spec(window.width(), window.height(), channels,
+                         OIIO::TypeDesc(op.text("type", "float")));
+    spec.x = spec.full_x = window.xbegin;
+    spec.y = spec.full_y = window.ybegin;
+    image.reset(spec);
+    IBA::zero(image);
+    return image;
+}
+
+void push_created(Session& session, OIIO::ImageBuf image) {
+    if (image.has_error()) {
+        throw CommandError(image.geterror());
+    }
+    session.push(Image::created("new", std::move(image)));
+}
+
+void run_create(Session& session, const Call& call) {
+    push_created(session, blank(session, call, 0));
+}
+
+// A value for each channel. Beyond them there may be an alpha, which these commands do not use, as
+// oiiotool's do not.
+Floats color_of(const Op& op, const std::string& key, float otherwise = 1) {
+    const size_t channels = size_t(op.a().nchannels());
+    const auto words = op.call.text(key);
+    Floats color =
+        words ? op.per_value(key, *words, otherwise, channels + 1) : Floats(channels, otherwise);
+    color.resize(channels);
+    return color;
+}
+
+// The values of all of these modifiers, or none.
+Corners colors(const Op& op, const Strings& keys) {
+    Corners found;
+    for (const std::string& key : keys) {
+        if (op.call.has(key)) {
+            found.push_back(color_of(op, key));
+        }
+    }
+    return found.size() == keys.size() ? found : Corners();
+}
+
+bool fill(Op& op, const OIIO::ROI& window) {
+    if (Corners four = colors(op, {"topleft", "topright", "bottomleft", "bottomright"});
+        !four.empty()) {
+        return IBA::fill(op.dst, four[0], four[1], four[2], four[3], window);
+    }
+    if (Corners two = colors(op, {"top", "bottom"}); !two.empty()) {
+        return IBA::fill(op.dst, two[0], two[1], window);
+    }
+    if (Corners two = colors(op, {"left", "right"}); !two.empty()) {
+        return IBA::fill(op.dst, two[0], two[1], two[0], two[1], window);
+    }
+    if (!op.call.has("color") && op.session.compat && op.call.row().label() == "pattern") {
+        return true; // black, without a word
+    }
+    if (!op.call.has("color")) {
+        const std::string why = "No recognized fill parameters";
+        if (!op.session.compat) {
+            throw CommandError(why + " (valid: color=, or top= and bottom=, or left= and "
+                                     "right=, or topleft=, "
+                                     "topright=, bottomleft= and bottomright=)");
+        }
+        op.session.warning(op.call.text(), why + ": filling with white.");
+    }
+    return IBA::fill(op.dst, color_of(op, "color"), window);
+}
+
+bool checker(Op& op) {
+    const int width = op.integer("width", 8);
+    return IBA::checker(op.dst, width, op.integer("height", width), op.integer("depth", width),
+                        color_of(op, "color1", 0), color_of(op, "color2"));
+}
+
+bool draw_pattern(Op& op, const std::string& pattern) {
+    static const Strings names = {"black", "constant", "fill", "checker", "noise"};
+    if (pattern == "noise") {
+        return add_noise(op, true);
+    }
+    if (pattern == "checker") {
+        return checker(op);
+    }
+    if (pattern == "fill") {
+        return fill(op, op.dst.roi());
+    }
+    if (pattern == "constant") {
+        return IBA::fill(op.dst, color_of(op, "color"));
+    }
+    if (!op.session.compat) {
+        check_choice("pattern", pattern, names);
+    } else if (pattern != "black") {
+        op.session.warning("--pattern", "Unknown pattern \"" + pattern + "\"");
+    }
+    return true;
+}
+
+void run_pattern(Session& session, const Call& call) {
+    OIIO::ImageBuf image = blank(session, call, 1);
+    const Token pattern = parse_token("--" + call.argument(0), session.compat);
+    const Call own(call.row(), pattern, {}, session.compat);
+    Op op{session, own, image, {&image}};
+    draw_pattern(op, pattern.name);
+    push_created(session, std::move(image));
+}
+
+void run_kernel_command(Session& session, const Call& call) {
+    auto size = parsed_size(call.argument(1));
+    if (!size) {
+        throw CommandError("Unknown size " + call.argument(1));
+    }
+    push_created(session, IBA::make_kernel(call.argument(0), size->width, size->height));
+}
+
+void run_capture(Session& session, const Call& call) {
+    OIIO::ImageBuf image;
+    push_created(session, oiio::capture_image(Op{session, call, image, {}}.integer("camera", 0)));
+}
+
+// The positions of the argument: at least `least` numbers, in pairs.
+std::vector<int> positions(const Op& op, size_t least) {
+    std::vector<int> all;
+    for (float value : op.list(op.call.row().args.front(), op.call.argument(0))) {
+        all.push_back(static_cast<int>(value));
+    }
+    if (all.size() < least || (all.size() % 2 != 0 && !op.session.compat)) {
+        throw CommandError("\"" + op.call.argument(0) + "\" has " + std::to_string(all.size()) +
+                           " numbers (valid: " + op.call.row().args.front() + ")");
+    }
+    return all;
+}
+
+// A colour to draw with: after the channels its alpha, which counts where the image has none. As in
+// oiiotool one value is that of the alpha, too.
+Floats paint(const Op& op) {
+    const size_t values = size_t(op.a().nchannels()) + 1;
+    const auto words = op.call.text("color");
+    return words ? op.per_value("color", *words, 1, values) : Floats(values, 1.0F);
+}
+
+bool point(Op& op) {
+    const std::vector<int> at = positions(op, 2);
+    bool done = op.dst.copy(op.a());
+    for (size_t i = 0; done && i + 1 < at.size(); i += 2) {
+        done = IBA::render_point(op.dst, at[i], at[i + 1], color_of(op, "color"));
+    }
+    return done;
+}
+
+bool line(Op& op) {
+    const std::vector<int> at = positions(op, 4);
+    bool done = op.dst.copy(op.a());
+    for (size_t i = 0; done && i + 3 < at.size(); i += 2) {
+        done = IBA::render_line(op.dst, at[i], at[i + 1], at[i + 2], at[i + 3], paint(op), i > 0);
+    }
+    return done;
+}
+
+bool box(Op& op) {
+    const std::vector<int> at = positions(op, 4);
+    return op.dst.copy(op.a()) &&
+           IBA::render_box(op.dst, at[0], at[1], at[2], at[3], paint(op), op.flag("fill"));
+}
+
+bool fill_window(Op& op) {
+    OIIO::ROI window = op.a().roi();
+    adjust_window(op.session, op.call, op.call.argument(0), Geometry::Window, window);
+    window.chend = op.a().nchannels();
+    return op.dst.copy(op.a()) && fill(op, window);
+}
+
+template <class Align>
+Align aligned(const Op& op, const std::string& key,
+              const std::vector<std::pair<const char*, Align>>& names) {
+    Strings valid;
+    Align found = names.front().second;
+    for (const auto& [name, value] : names) {
+        valid.push_back(name);
+        found = op.text(key) == name ? value : found;
+    }
+    if (op.call.has(key) && !op.session.compat) {
+        check_choice(key, op.text(key), valid);
+    }
+    return found;
+}
+
+bool text(Op& op) {
+    using X = IBA::TextAlignX;
+    using Y = IBA::TextAlignY;
+    const OIIO::ImageSpec& spec = op.a().spec();
+    auto x =
+        aligned<X>(op, "xalign", {{"left", X::Left}, {"right", X::Right}, {"center", X::Center}});
+    auto y = aligned<Y>(
+        op, "yalign",
+        {{"base", Y::Baseline}, {"top", Y::Top}, {"bottom", Y::Bottom}, {"center", Y::Center}});
+    return op.dst.copy(op.a()) &&
+           IBA::render_text(op.dst, op.integer("x", spec.x + spec.width / 2),
+                            op.integer("y", spec.y + spec.height / 2), op.call.argument(0),
+                            op.integer("size", 16), op.text("font"), paint(op), x, y,
+                            op.integer("shadow", 0));
+}
+
+const std::string color = "color=VALUES: one value, or one per channel (1)\n";
+const std::string ramps = color + "top=VALUES: colour at the top, to bottom=\n"
+                                  "bottom=VALUES: colour at the bottom\n"
+                                  "left=VALUES: colour at the left, to right=\n"
+                                  "right=VALUES: colour at the right\n"
+                                  "topleft=VALUES: colour of a corner, with the other three\n"
+                                  "topright=VALUES: colour of a corner\n"
+                                  "bottomleft=VALUES: colour of a corner\n"
+                                  "bottomright=VALUES: colour of a corner\n";
+
+const std::vector<OpRow> drawing_rows = {
+    {"point X,Y[,X,Y...]", 1, "Draw points", point, color},
+    {"line X,Y,X,Y[,X,Y...]", 1, "Draw a line through these points", line, color},
+    {"box X1,Y1,X2,Y2", 1, "Draw a box", box, color + "fill=0|1: filled"},
+    named("", {"fill GEOM", 1, "Fill a window with a colour or a ramp", fill_window, ramps}),
+    {"text TEXT", 1, "Draw text", text,
+     color + "x=N: position (the middle)\n"
+             "y=N: position (the middle)\n"
+             "size=N: height of the letters (16)\n"
+             "font=NAME: font, a name or a file\n"
+             "xalign=left|right|center: of the text to its position (left)\n"
+             "yalign=base|top|bottom|center: of the text to its position (base)\n"
+             "shadow=N: width of a black outline (0)"},
+};
+
+} // namespace
+
+std::vector<Command> create_commands() {
+    const std::string pattern = ramps + noise_modifiers() +
+                                "width=N: of the squares of a checker (8)\n"
+                                "height=N: of the squares of a checker (width)\n"
+                                "depth=N: of the squares of a checker (width)\n"
+                                "color1=VALUES: of a checker (0)\n"
+                                "color2=VALUES: of a checker (1)";
+    std::vector<Command> all = {
+        free_row(Group::Create, "create GEOM NCHANS", 0, 1, "A black image", run_create,
+                 "type=TYPE: data type (float)"),
+        free_row(Group::Create, "pattern NAME[:...] GEOM NCHANS", 0, 1,
+                 "An image of a pattern: black, constant, fill, checker, noise", run_pattern,
+                 pattern),
+        free_row(Group::Create, "kernel NAME WxH", 0, 1, "A convolution kernel",
+                 run_kernel_command),
+        free_row(Group::Create, "capture", 0, 1, "An image from a camera", run_capture,
+                 "camera=N: which camera (0)"),
+    };
+    for (Command& row : all) {
+        row.operation = row.label() == "kernel" ? "-kernel" : "";
+    }
+    append(all, op_rows(Group::Create, drawing_rows));
+    return all;
+}
+
+} // namespace tonetool::chain

@@ -1,0 +1,438 @@
+// --diff and --pdiff, with oiiotool's report and exit status, but for what oiiotool lets pass:
+// images with values that are no numbers (files/unlike.h), and without --compat images whose
+// windows, channels or parts differ, and parts that it does not look at.
+#include <OpenImageIO/imagebufalgo.h>
+#include <OpenImageIO/strutil.h>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <ostream>
+
+#include "chain/commands/check_part.h"
+#include "chain/commands/color_input.h"
+#include "chain/commands/commands.h"
+#include "chain/images/unlike.h"
+#include "imagebuf/pixels/upright.h"
+#include "sequence/results/results.h"
+#include "text/error.h"
+#include "tonetool/color_tags.h"
+
+namespace tonetool::measure {
+
+namespace {
+
+using OIIO::Strutil::fmt::format;
+using Results = OIIO::ImageBufAlgo::CompareResults;
+
+enum class Verdict { Pass, Warning, Failure };
+
+std::string values_at(const OIIO::ImageBuf& image, const Results& found) {
+    Strings words;
+    for (int c = 0; c < image.nchannels(); ++c) {
+        words.push_back(format("{:g}", image.getchannel(found.maxx, found.maxy, found.maxz, c)));
+    }
+    return join(words, ", ");
+}
+
+void print_maximum(Session& session, const OIIO::ImageBuf& a, const OIIO::ImageBuf& b,
+                   const Results& found) {
+    session.out << format("  Max error  = {:g}", found.maxerror);
+    if (found.maxerror != 0) {
+        const OIIO::ImageSpec& named = a.nchannels() > found.maxc ? a.spec() : b.spec();
+        session.out << format(" @ ({}, {}, {}{})", found.maxx, found.maxy,
+                              a.spec().depth > 1 ? format("{}, ", found.maxz) : "",
+                              named.channel_name(found.maxc));
+    }
+    if (found.maxerror != 0 && !a.deep() && !b.deep()) {
+        session.out << format("  values are {} vs {}", values_at(a, found), values_at(b, found));
+    }
+    session.out << '\n';
+}
+
+void print_report(Session& session, const OIIO::ImageBuf& a, const OIIO::ImageBuf& b,
+                  const Results& found, bool perceptual) {
+    const double pixels = double(std::max(a.spec().image_pixels(), b.spec().image_pixels()));
+    const DiffLimits& limits = session.diff;
+    if (!perceptual) {
+        session.out << format("  Mean error = {:g}\n  RMS error = {:g}\n  Peak SNR = {:g}\n",
+                              found.meanerror, found.rms_error, found.PSNR);
+    }
+    print_maximum(session, a, b, found);
+    const std::pair<OIIO::imagesize_t, std::string> counts[] = {
+        {found.nwarn, format("over {:g}", limits.warn)},
+        {found.nfail, format("over {:g}", limits.fail)},
+        {found.nfail, "failed the perceptual test"}};
+    for (size_t i = 0; i < (perceptual ? 3 : 2); ++i) {
+        const auto& [count, what] = counts[i];
+        session.out << format("  {} pixels ({:.3g}%) {}\n", count, 100.0 * double(count) / pixels,
+                              what);
+    }
+}
+
+Verdict judge(const Results& found, const DiffLimits& limits, double pixels) {
+    auto beyond = [&](OIIO::imagesize_t count, float percent, float hard) {
+        return double(count) > double(percent) / 100 * pixels || found.maxerror > double(hard);
+    };
+    if (beyond(found.nfail, limits.fail_percent, limits.hard_fail)) {
+        return Verdict::Failure;
+    }
+    return beyond(found.nwarn, limits.warn_percent, limits.hard_warn) ? Verdict::Warning
+                                                                      : Verdict::Pass;
+}
+
+// The verdict as a threshold: of the pixels that fail or warn, or of the largest error.
+sequence::Threshold threshold_of(const Results& found, const DiffLimits& limits, double pixels,
+                                 Verdict verdict) {
+    const bool warns = verdict == Verdict::Warning;
+    const double count = double(warns ? found.nwarn : found.nfail);
+    const double allowed = double(warns ? limits.warn_percent : limits.fail_percent) / 100 * pixels;
+    const double hard = double(warns ? limits.hard_warn : limits.hard_fail);
+    const bool by_count = verdict == Verdict::Pass || count > allowed;
+    const std::optional<double> limit = by_count ? allowed : hard, none;
+    return {by_count ? "differing-pixels" : "max", by_count ? count : found.maxerror, false,
+            warns ? none : limit, warns ? limit : none};
+}
+
+void record(Session& session, const Results& found, double pixels, Verdict verdict) {
+    if (result_of(session)) {
+        sequence::Measurement measured;
+        measured.thresholds = {threshold_of(found, session.diff, pixels, verdict)};
+        measured.quantities = {
+            {"mean", found.meanerror}, {"rms", found.rms_error}, {"max", found.maxerror}};
+        measured.worst = sequence::Position{found.maxx, found.maxy};
+        measured.pixels = static_cast<long long>(pixels);
+        result_of(session)->measurements.push_back(std::move(measured));
+    }
+}
+
+// Images that differ in more than their pixels (`unlike`) have no measurement of their own.
+void complete_record(Session& session, const Call& call, size_t before, Verdict verdict,
+                     bool unlike) {
+    if (!result_of(session)) {
+        return;
+    }
+    auto& all = result_of(session)->measurements;
+    if (all.size() == before || unlike || (verdict == Verdict::Failure && session.all_subimages)) {
+        all.emplace_back();
+        all.back().thresholds = {
+            {"differing-images", verdict == Verdict::Failure ? 1.0 : 0.0, false, 0.0, {}}};
+    }
+    for (size_t i = before; i < all.size(); ++i) {
+        all[i].command = call.row().label();
+        all[i].reference = call.images[0]->name();
+        all[i].test = call.images[1]->name();
+    }
+}
+
+Results results_of(const OIIO::ImageBuf& a, const OIIO::ImageBuf& b, const DiffLimits& limits,
+                   bool perceptual) {
+    Results found{};
+    if (perceptual) {
+        found.nfail = OIIO::imagesize_t(OIIO::ImageBufAlgo::compare_Yee(a, b, found));
+    } else {
+        found = OIIO::ImageBufAlgo::compare(a, b, limits.fail, limits.warn);
+    }
+    if (a.has_error() || b.has_error()) {
+        throw CommandError(a.has_error() ? a.geterror() : b.geterror());
+    }
+    return found;
+}
+
+// No limit is as large as the error of the first unlike pixel.
+void add(Results& found, const files::Unlike& unlike) {
+    found.maxerror = std::numeric_limits<double>::infinity();
+    found.maxx = unlike.x;
+    found.maxy = unlike.y;
+    found.maxz = unlike.z;
+    found.maxc = unlike.channel;
+}
+
+// Pixels that differ by more than `limit` where the perceptual comparison does not look: in the
+// channels behind its three, and beside a NaN or Inf.
+OIIO::imagesize_t unseen_differences(const OIIO::ImageBuf& a, const OIIO::ImageBuf& b,
+                                     float limit) {
+    constexpr int looked_at = 3;
+    const OIIO::ROI all = a.roi();
+    const size_t channels = size_t(a.nchannels());
+    std::vector<float> values_of_a(size_t(all.width()) * channels), values_of_b(values_of_a.size());
+    OIIO::imagesize_t pixels = 0;
+    for (int y = all.ybegin; y < all.yend; ++y) {
+        OIIO::ROI row = all;
+        row.ybegin = y;
+        row.yend = y + 1;
+        a.get_pixels(row, OIIO::TypeFloat, values_of_a.data());
+        b.get_pixels(row, OIIO::TypeFloat, values_of_b.data());
+        for (size_t at = 0; at < values_of_a.size(); at += channels) {
+            const float *one = &values_of_a[at], *other = &values_of_b[at];
+            const auto finite = [](float value) { return std::isfinite(value); };
+            const size_t colors = std::min<size_t>(channels, looked_at);
+            const bool seen = std::all_of(one, one + colors, finite) &&
+                              std::all_of(other, other + colors, finite);
+            bool differs = false;
+            for (size_t c = seen ? colors : 0; c < channels; ++c) {
+                differs = differs || std::abs(one[c] - other[c]) > limit;
+            }
+            pixels += differs ? 1 : 0;
+        }
+    }
+    return pixels;
+}
+
+// Once something differs, all that follows is reported.
+void compare_pixels(Session& session, const OIIO::ImageBuf& a, const OIIO::ImageBuf& b,
+                    bool perceptual, const std::string& heading, Verdict& worst) {
+    const double pixels = double(std::max(a.spec().image_pixels(), b.spec().image_pixels()));
+    Results found = results_of(a, b, session.diff, perceptual);
+    Verdict verdict = judge(found, session.diff, pixels);
+    // Where oiiotool fails, too, its report is kept.
+    const bool settled = session.compat && verdict == Verdict::Failure;
+    const files::Unlike unlike = settled ? files::Unlike{} : files::unlike_values(a, b);
+    if (unlike.pixels > 0) {
+        add(found, unlike);
+        verdict = judge(found, session.diff, pixels);
+    }
+    const auto unseen = perceptual && !session.compat && !a.deep() && !b.deep()
+                            ? unseen_differences(a, b, session.diff.fail)
+                            : 0;
+    Results all = found;
+    all.nfail = std::max(found.nfail, unseen);
+    verdict = unseen > 0 ? judge(all, session.diff, pixels) : verdict;
+    record(session, all, pixels, verdict);
+    worst = std::max(worst, verdict);
+    if (worst != Verdict::Pass || session.verbose) {
+        session.out << heading;
+        print_report(session, a, b, found, perceptual);
+        if (unlike.pixels > 0 && !session.compat) {
+            session.print(
+                format("  {} pixel(s) are NaN, Inf or -Inf in one image and not in the other",
+                       unlike.pixels));
+        }
+        if (unseen > 0) {
+            session.print(format("  {} pixel(s) differ where --pdiff does not look: in channels "
+                                 "behind the first three, or beside a NaN or Inf",
+                                 unseen));
+        }
+    }
+}
+
+std::string window_text(const OIIO::ROI& window) {
+    return format("{}x{}{:+}{:+}", window.width(), window.height(), window.xbegin, window.ybegin);
+}
+
+// Of one of several parts: that of a file's only one is not what its picture is known by.
+std::string name_of_part(const OIIO::ImageSpec& spec) {
+    const std::string view = spec.get_string_attribute("view");
+    return spec.get_int_attribute("oiio:subimages") < 2
+               ? ""
+               : std::string(spec.get_string_attribute("oiio:subimagename")) +
+                     (view.empty() ? "" : " of view " + view);
+}
+
+// What makes two headers ones of different pictures, as a sentence; empty where nothing does.
+std::string difference(const OIIO::ImageSpec& a, const OIIO::ImageSpec& b) {
+    const auto windows = [](const OIIO::ROI& r, const OIIO::ROI& t) {
+        return window_text(r) + " vs " + window_text(t);
+    };
+    const auto same = [](const OIIO::ROI& r, const OIIO::ROI& t) {
+        return r.xbegin == t.xbegin && r.xend == t.xend && r.ybegin == t.ybegin &&
+               r.yend == t.yend && r.zbegin == t.zbegin && r.zend == t.zend;
+    };
+    if (!same(a.roi(), b.roi())) {
+        return "Images differ in size (data windows " + windows(a.roi(), b.roi()) + ")";
+    }
+    if (!same(a.roi_full(), b.roi_full())) {
+        return "Images differ in their display windows (" + windows(a.roi_full(), b.roi_full()) +
+               ")";
+    }
+    if (a.channelnames != b.channelnames) {
+        return "Images differ in their channels (" + join(a.channelnames, ",") + " vs " +
+               join(b.channelnames, ",") + ")";
+    }
+    if (name_of_part(a) != name_of_part(b)) {
+        return "Images differ in the names of their parts (" + name_of_part(a) + " vs " +
+               name_of_part(b) + ")";
+    }
+    if (orientation_of(a) != orientation_of(b)) {
+        return format("Images differ in Orientation ({} vs {})", orientation_of(a),
+                      orientation_of(b));
+    }
+    return "";
+}
+
+// Of a comparison of images that may have several parts.
+struct Outcome {
+    Verdict worst = Verdict::Pass;
+    bool unlike = false; ///< they differ in more than their pixels
+
+    void differ(Session& session, const std::string& how) {
+        session.print(how);
+        worst = Verdict::Failure;
+        unlike = true;
+    }
+};
+
+// Without --compat all parts and levels are compared: what nobody looked at does not pass.
+bool compares_all(const Session& session) {
+    return session.all_subimages || !session.compat;
+}
+
+// Levels that only one of the two has are no difference of the pictures, but are not compared.
+int levels_of(Session& session, Part& a, Part& b) {
+    if (session.all_subimages) {
+        return a.mip_levels();
+    }
+    if (session.compat || a.mip_levels() == b.mip_levels()) {
+        return session.compat ? 1 : a.mip_levels();
+    }
+    session.print(format("Only compared the first MIPmap level (of {} and {}, respectively)",
+                         a.mip_levels(), b.mip_levels()));
+    ++session.warnings;
+    return 1;
+}
+
+void compare_parts(Session& session, Part& a, Part& b, bool perceptual, const std::string& which,
+                   Outcome& outcome) {
+    const int levels = levels_of(session, a, b);
+    for (int level = 0; level < levels; ++level) {
+        if (level > 0 && a.mip_levels() != b.mip_levels()) {
+            return outcome.differ(session, "Files do not match in their number of MIPmap levels");
+        }
+        const OIIO::ImageSpec& spec = a.header(level);
+        const std::string unlike = session.compat ? "" : difference(spec, b.header(level));
+        if (!unlike.empty()) {
+            return outcome.differ(session, unlike);
+        }
+        const std::string heading = format("{} {}: {} x {}, {} channel\n", which,
+                                           level > 0 ? format(" MIP level {} ", level) : "",
+                                           spec.width, spec.height, spec.nchannels);
+        compare_pixels(session, a.pixels(level), b.pixels(level), perceptual,
+                       which.empty() ? "" : heading, outcome.worst);
+    }
+}
+
+Outcome compare_images(Session& session, const Image& a, const Image& b, bool perceptual) {
+    const bool all = compares_all(session);
+    const size_t parts = all ? std::min(a.part_count(), b.part_count()) : 1;
+    Outcome outcome;
+    for (size_t s = 0; s < parts; ++s) {
+        const bool named = session.all_subimages || parts > 1;
+        compare_parts(session, a.part(s), b.part(s), perceptual,
+                      named ? format("Subimage {}", s) : "", outcome);
+    }
+    if (all && a.part_count() != b.part_count()) {
+        outcome.differ(session, format("Images had differing numbers of subimages ({} vs {})",
+                                       a.part_count(), b.part_count()));
+    } else if (a.part_count() > parts || b.part_count() > parts) {
+        session.print(format("Only compared the first subimage (of {} and {}, respectively)",
+                             a.part_count(), b.part_count()));
+    }
+    return outcome;
+}
+
+// The numbers of the files are compared, whatever their headers say that these mean.
+void warn_of_unapplied(Session& session, const Call& call, const Image& image_a,
+                       const Image& image_b) {
+    const OIIO::ImageSpec &a = image_a.part().header(), &b = image_b.part().header();
+    const auto gamma = [](const OIIO::ImageSpec& spec) {
+        const double stated = stated_gamma(spec);
+        return stated > 0 ? format_number(stated) : std::string("none");
+    };
+    const auto exposure = [](const OIIO::ImageSpec& spec) {
+        return format_number(stated_exposure(spec));
+    };
+    const auto profile = [](const OIIO::ImageSpec& spec) {
+        return unapplied_profile(spec).value_or("none");
+    };
+    const auto told = [&](const char* what, const std::string& one, const std::string& other) {
+        if (one != other) {
+            session.warning(call.row().label(), std::string(what) + " is " + one +
+                                                    " in the one and " + other +
+                                                    " in the other, and is not applied");
+        }
+    };
+    const auto space = [](const OIIO::ImageSpec& spec) {
+        return spec.get_string_attribute("oiio:ColorSpace", "none");
+    };
+    told("gamma", gamma(a), gamma(b));
+    told("EXPOSURE", exposure(a), exposure(b));
+    told("the ICC profile", profile(a), profile(b));
+    if (image_a.file_format() == image_b.file_format()) { // formats have their own
+        told("the colour space", space(a), space(b));
+    }
+}
+
+// Limits that no number of pixels can exceed.
+void check_limits(const DiffLimits& limits) {
+    constexpr float all = 100, unlimited = 1e30f;
+    if (limits.fail_percent >= all && limits.hard_fail >= unlimited) {
+        throw CommandError(format("--failpercent {} can never fail (valid: below 100, or with "
+                                  "--hardfail)",
+                                  limits.fail_percent));
+    }
+}
+
+void run_diff(Session& session, const Call& call) {
+    const bool perceptual = call.row().label() == "pdiff";
+    const Image &a = *call.images[0], &b = *call.images[1];
+    session.print(format("Computing {}diff of \"{}\" vs \"{}\"", perceptual ? "perceptual " : "",
+                         a.name(), b.name()));
+    const size_t before = result_of(session) ? result_of(session)->measurements.size() : 0;
+    session.diff.waiting.clear();
+    if (!session.compat) {
+        check_limits(session.diff);
+        check_nothing_left_out(a);
+        check_nothing_left_out(b);
+        if (same_file(a, 0, b, 0)) {
+            session.warning(call.row().label(),
+                            "\"" + a.name() + "\" and \"" + b.name() + "\" are the same file");
+        }
+        warn_of_unapplied(session, call, a, b);
+    }
+    const Outcome outcome = compare_images(session, a, b, perceptual);
+    const Verdict verdict = outcome.worst;
+    complete_record(session, call, before, verdict, outcome.unlike);
+    session.print(verdict == Verdict::Pass      ? "PASS"
+                  : verdict == Verdict::Warning ? "WARNING"
+                                                : "FAILURE");
+    session.warnings += verdict == Verdict::Warning ? 1 : 0;
+    session.differs |= verdict == Verdict::Failure;
+    session.produced |= !(perceptual && session.compat);
+    session.push(call.images[0]);
+    session.push(call.images[1]);
+}
+
+template <float DiffLimits::*Limit>
+Command limit_row(const char* name, const char* argument, const char* help) {
+    return setting(Group::Compare, {name}, {argument}, help,
+                   [](Session& session, const Call& call) {
+                       session.diff.*Limit = float(call.number_argument(0, {0, 1e30}));
+                       session.diff.waiting = call.row().label();
+                   });
+}
+
+} // namespace
+
+std::vector<Command> diff_commands() {
+    std::vector<Command> rows = {
+        limit_row<&DiffLimits::fail>("fail", "THRESH", "--diff: a pixel fails above it (1e-6)"),
+        limit_row<&DiffLimits::fail_percent>("failpercent", "PCNT",
+                                             "--diff: so many failing pixels are allowed (0)"),
+        limit_row<&DiffLimits::hard_fail>("hardfail", "THRESH",
+                                          "--diff: no pixel may exceed it (infinity)"),
+        limit_row<&DiffLimits::warn>("warn", "THRESH", "--diff: a pixel warns above it (1e-6)"),
+        limit_row<&DiffLimits::warn_percent>("warnpercent", "PCNT",
+                                             "--diff: so many warning pixels are allowed (0)"),
+        limit_row<&DiffLimits::hard_warn>("hardwarn", "THRESH",
+                                          "--diff: a pixel above it is a warning (infinity)")};
+    for (const char* name : {"diff", "pdiff"}) {
+        const bool perceptual = name[0] == 'p';
+        rows.push_back({{{name}, {}, 2, 2, Group::Compare},
+                        {},
+                        perceptual ? "Report the perceptual difference of two images (Yee)"
+                                   : "Report the difference of two images; status 1 if it fails",
+                        run_diff});
+    }
+    return rows;
+}
+
+} // namespace tonetool::measure

@@ -1,0 +1,95 @@
+// Filters: neighbourhoods, kernels, Fourier transforms and repairs.
+#include "chain/session/ops.h"
+
+namespace tonetool::chain {
+
+namespace {
+
+Size asked_size(const Op& op) {
+    const std::string& text = op.call.argument(0);
+    auto size = parsed_size(text);
+    if (!size) {
+        throw CommandError("Unknown size " + text + (op.session.compat ? "" : " (valid: WxH)"));
+    }
+    return *size;
+}
+
+using Windowed = bool (*)(OIIO::ImageBuf&, const OIIO::ImageBuf&, int, int, OIIO::ROI, int);
+
+template <Windowed Filter>
+bool windowed(Op& op) {
+    const Size size = asked_size(op);
+    return Filter(op.dst, op.a(), int(size.width), int(size.height), {}, 0);
+}
+
+bool blur(Op& op) {
+    const Size size = asked_size(op);
+    OIIO::ImageBuf kernel =
+        IBA::make_kernel(op.text("kernel", "gaussian"), size.width, size.height, 1.0F, true);
+    if (kernel.has_error()) {
+        throw CommandError(kernel.geterror(), "", true);
+    }
+    return IBA::convolve(op.dst, op.a(), kernel);
+}
+
+bool unsharp(Op& op) {
+    return IBA::unsharp_mask(op.dst, op.a(), op.text("kernel", "gaussian"), op.number("width", 3),
+                             op.number("contrast", 1), op.number("threshold", 0));
+}
+
+bool fixnan(Op& op) {
+    const std::string& strategy = op.call.argument(0);
+    auto mode = strategy == "black"   ? IBA::NONFINITE_BLACK
+                : strategy == "error" ? IBA::NONFINITE_ERROR
+                                      : IBA::NONFINITE_BOX3;
+    if (strategy == "none" && !op.session.compat) {
+        mode = IBA::NONFINITE_NONE;
+    } else if (strategy != "black" && strategy != "box3" && strategy != "error") {
+        const std::string why = "\"" + strategy +
+                                "\" not recognized. Valid choices: black, box3, "
+                                "error";
+        if (!op.session.compat) {
+            throw CommandError(why);
+        }
+        op.session.warning(op.call.text(), why);
+    }
+    return IBA::fixNonFinite(op.dst, op.a(), mode);
+}
+
+const std::vector<OpRow> neighbour_rows = {
+    {"convolve", 2, "Convolve the first image with the second, a kernel",
+     [](Op& op) { return IBA::convolve(op.dst, op.a(), op.b()); }},
+    {"blur WxH", 1, "Blur", blur, "kernel=NAME: kernel (gaussian)"},
+    {"median WxH", 1, "Median of the pixels around", windowed<IBA::median_filter>},
+    {"dilate WxH", 1, "Largest of the pixels around", windowed<IBA::dilate>},
+    {"erode WxH", 1, "Smallest of the pixels around", windowed<IBA::erode>},
+    {"unsharp", 1, "Sharpen by an unsharp mask", unsharp,
+     "kernel=NAME: kernel of the blur (gaussian)\n"
+     "width=X: its width (3)\n"
+     "contrast=X: how much is added (1)\n"
+     "threshold=X: differences below stay (0)"},
+    {"laplacian", 1, "Laplacian", [](Op& op) { return IBA::laplacian(op.dst, op.a()); }},
+};
+
+const std::vector<OpRow> other_rows = {
+    {"fft", 1, "Fourier transform", [](Op& op) { return IBA::fft(op.dst, op.a()); }},
+    {"ifft", 1, "Inverse Fourier transform", [](Op& op) { return IBA::ifft(op.dst, op.a()); }},
+    {"polar", 1, "From real and imaginary to amplitude and phase",
+     [](Op& op) { return IBA::complex_to_polar(op.dst, op.a()); }},
+    {"unpolar", 1, "From amplitude and phase to real and imaginary",
+     [](Op& op) { return IBA::polar_to_complex(op.dst, op.a()); }},
+    named("", {"fixnan STRATEGY", 1, "Replace NaN and infinity: none, black, box3 or error", fixnan,
+               "", Scope::Levels}),
+    named("", {"fillholes", 1, "Fill where alpha is not 1 from around",
+               [](Op& op) { return IBA::fillholes_pushpull(op.dst, op.a()); }}),
+};
+
+} // namespace
+
+std::vector<Command> filter_commands() {
+    std::vector<Command> all = op_rows(Group::Filter, neighbour_rows);
+    append(all, op_rows(Group::Filter, other_rows));
+    return all;
+}
+
+} // namespace tonetool::chain

@@ -1,0 +1,146 @@
+// Commands that print what images are, and other texts.
+#include <OpenImageIO/strutil.h>
+#include <cstdio>
+#include <ostream>
+
+#include "chain/images/inspect.h"
+#include "chain/session/expression.h"
+#include "chain/session/ops.h"
+#include "text/error.h"
+
+namespace tonetool::chain {
+
+namespace {
+
+void run_info(Session& session, const Call& call) {
+    session.list.info = true;
+    session.list.format = call.choice("format", {"text", "xml"}).value_or("");
+    session.list.verbose = session.list.verbose || call.flag("verbose", false);
+}
+
+void run_dumpdata(Session& session, const Call& call) {
+    session.list.dump = call.text("C").value_or("");
+    session.list.dump_black = call.flag("empty", true);
+}
+
+void print_listing(Session& session, const Call& call, Listing what) {
+    what.named = false;
+    what.all_subimages = call.flag("allsubimages", session.all_subimages);
+    what.metamatch = session.list.metamatch;
+    what.no_metamatch = session.list.no_metamatch;
+    session.push(call.images[0]);
+    try {
+        session.out << files::listing_text(*call.images[0], what);
+    } catch (const ReadError& problem) {
+        if (!session.compat || !what.stats) {
+            throw;
+        }
+        session.error("read", problem.why);
+        session.print(OIIO::Strutil::rstrip(files::header_text(*call.images[0], 0, false)));
+        throw CommandError("unable to compute: " + problem.why + "\nError reading from \"" +
+                               call.images[0]->name() + "\" (subimg=0, mip=0, tile@0,0,0)",
+                           "stats");
+    }
+    session.produced = session.produced_by_name = true;
+}
+
+void run_printinfo(Session& session, const Call& call) {
+    Listing what;
+    what.verbose = call.flag("verbose", true);
+    what.stats = call.flag("stats", false);
+    const auto format = call.choice("format", {"text", "xml"});
+    if (format && session.compat) {
+        session.warning(call.text(), "format= has no effect here, as in oiiotool");
+    } else if (call.flag("native", false) && !session.compat) {
+        what.native = call.images[0]->part().from_file();
+    }
+    what.format = session.compat ? "" : format.value_or("");
+    print_listing(session, call, what);
+}
+
+void run_printstats(Session& session, const Call& call) {
+    Listing what;
+    what.stats = true;
+    what.verbose = session.verbose;
+    // Its help says roi=, but what oiiotool takes is window=.
+    if (call.has("roi") && session.compat) {
+        session.warning(call.text(), "roi= has no effect, as in oiiotool (window= has)");
+    }
+    auto text = call.text("window");
+    text = text || session.compat ? text : call.text("roi");
+    if (text) {
+        const OIIO::ImageSpec& spec = call.images[0]->part().header();
+        OIIO::ROI window = spec.roi();
+        try {
+            adjust_window(session, call, *text, Geometry::Scalable, window);
+            window.chbegin = 0;
+            window.chend = spec.nchannels;
+            what.roi = window;
+        } catch (const CommandError& problem) {
+            if (!session.compat) {
+                throw;
+            }
+            session.error(call.text(), problem.what()); // and of all pixels, as oiiotool
+        }
+    }
+    print_listing(session, call, what);
+}
+
+void run_echo(Session& session, const Call& call) {
+    int lines = call.integer("newline", {0, 99}).value_or(1);
+    session.out << OIIO::Strutil::unescape_chars(call.argument(0))
+                << std::string(static_cast<size_t>(lines), '\n') << std::flush;
+    session.produced = session.produced_by_name = true;
+}
+
+void run_list_formats(Session& session, const Call&) {
+    session.print(files::formats_text(session.compat));
+    session.produced = true;
+}
+
+} // namespace
+
+std::vector<Command> inspect_commands() {
+    const auto row = [](const char* name, Strings args, const char* help, const Run& run,
+                        std::vector<Modifier> modifiers = {}) {
+        return setting(Group::Print, {name}, std::move(args), help, run, std::move(modifiers));
+    };
+    const Modifier format{"format", "text|xml", "how it is printed (text)"};
+    const auto image_row = [&](const char* name, const char* help, const Run& run,
+                               std::vector<Modifier> modifiers) {
+        modifiers.push_back({"allsubimages", "0|1", "of all subimages and MIP levels (-a)"});
+        Command made = row(name, {}, help, run, std::move(modifiers));
+        made.pops = made.pushes = 1;
+        return made;
+    };
+    return {
+        row("info", {}, "Print size, channels and format of every image read after it", run_info,
+            {{"verbose", "0|1", "with the metadata, as -v does"}, format}),
+        row("stats", {}, "Print pixel statistics of every image read after it",
+            [](Session& session, const Call&) { session.list.stats = true; }),
+        row("hash", {}, "Print the SHA-1 of the pixels of every image read after it",
+            [](Session& session, const Call&) { session.list.hash = true; }),
+        row("dumpdata", {}, "Print all pixel values of every image read after it", run_dumpdata,
+            {{"empty", "0|1", "also pixels that are all 0 (1)"},
+             {"C", "NAME", "as an array of C of that name"}}),
+        row("metamatch", {"REGEX"}, "Print only metadata whose names match",
+            [](Session& session, const Call& call) { session.list.metamatch = call.argument(0); }),
+        row("no-metamatch", {"REGEX"}, "Do not print metadata whose names match",
+            [](Session& session, const Call& call) {
+                session.list.no_metamatch = call.argument(0);
+            }),
+        row("echo", {"TEXT"}, "Print a text", run_echo,
+            {{"newline", "N", "line ends after it (1)"}}),
+        image_row("printinfo", "Print information about the current image", run_printinfo,
+                  {format,
+                   {"verbose", "0|1", "with the metadata (1)"},
+                   {"stats", "0|1", "and with pixel statistics (0)"},
+                   {"native", "0|1", "the data type of the file, not of the memory (0)"}}),
+        image_row("printstats", "Print pixel statistics of the current image", run_printstats,
+                  {{"window", "GEOM", "of that part of it"}, {"roi", "GEOM", "the same"}}),
+        row("list-formats", {}, "List the image formats and their file name extensions",
+            run_list_formats),
+    };
+}
+
+} // namespace tonetool::chain

@@ -1,0 +1,49 @@
+// --memory, the bound of the comparisons.
+#include <cstdint>
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
+
+#include "chain/commands/commands.h"
+#include "text/error.h"
+
+namespace tonetool::measure {
+
+namespace {
+
+// Per thread OpenEXR's decoder holds blocks of rows of the whole width.
+constexpr int threads_within_memory = 2;
+
+// glibc keeps freed blocks of up to 32 MB for itself, and some for each thread; within a bound they
+// go back to the system.
+void give_memory_back() {
+#ifdef __GLIBC__
+    mallopt(M_MMAP_THRESHOLD, 1 << 20);
+    mallopt(M_TRIM_THRESHOLD, 1 << 20);
+    mallopt(M_ARENA_MAX, 2);
+#endif
+}
+
+void run_memory(Session& session, const Call& call) {
+    auto size = parse_size(call.argument(0));
+    if (!size) {
+        throw CommandError("SIZE \"" + call.argument(0) +
+                           "\": not a size; valid: bytes, or a whole number with K, M or G "
+                           "(powers of 1024), above 0: 268435456, 256M, 1G");
+    }
+    session.memory = *size / uint64_t(session.parallel);
+    files::limit_reader_threads(threads_within_memory);
+    give_memory_back();
+}
+
+} // namespace
+
+std::vector<Command> memory_commands() {
+    return {of_manner(
+        of_process(setting(Group::General, {"memory"}, {"SIZE"},
+                           "Peak memory of the comparisons that follow, 256M or 1G: larger "
+                           "images are read in bands (half of the computer's)",
+                           run_memory)))};
+}
+
+} // namespace tonetool::measure

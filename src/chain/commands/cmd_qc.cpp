@@ -1,0 +1,132 @@
+// --qc: the faults that a picture shows without a reference.
+#include <algorithm>
+
+#include "chain/commands/check_part.h"
+#include "chain/commands/color_input.h"
+#include "chain/commands/commands.h"
+#include "chain/commands/flip_args.h"
+#include "chain/commands/frame_pictures.h"
+#include "sequence/qc/qc.h"
+#include "sequence/qc/qc_json.h"
+#include "sequence/results/results.h"
+#include "text/error.h"
+#include "tonetool/qc.h"
+
+namespace tonetool::measure {
+
+namespace {
+
+sequence::QcLimits limits_of(const Call& call) {
+    sequence::QcLimits limits;
+    for (const sequence::QcRule& rule : sequence::qc_rules()) {
+        if (const auto text = call.text(rule.code)) {
+            try {
+                limits.set(rule.code, *text);
+            } catch (const std::runtime_error& problem) {
+                throw CommandError(problem.what());
+            }
+        }
+    }
+    return limits;
+}
+
+// Of files that were read before, only the stack knows the types of the channels.
+void take_types(const Image& image, QcFacts& facts) {
+    size_t channel = 0;
+    for (const PartPtr& part : image.parts()) {
+        for (int c = 0; c < part->header().nchannels; ++c, ++channel) {
+            if (const auto& format = part->format()) {
+                const bool own = size_t(c) < format->of_channel.size();
+                facts.channels.at(channel).second =
+                    (own ? format->of_channel[size_t(c)] : format->type).c_str();
+            }
+        }
+    }
+}
+
+bool has_picture(const QcFacts& facts) {
+    return std::any_of(facts.layers.begin(), facts.layers.end(),
+                       [](const QcLayer& layer) { return layer.kind == "picture"; });
+}
+
+// The picture, and from near the pixels that have a fault or may turn out to have one.
+void show_faults(Session& session, const Call& call, const sequence::QcRecord& record) {
+    if (!painter_of(session) || !has_picture(record.facts)) {
+        return;
+    }
+    const sequence::FrameResult before = *result_of(session);
+    result_of(session)->faults = sequence::picture_faults(record);
+    sequence::PictureRequest request;
+    for (const sequence::Fault& fault : result_of(session)->faults) {
+        if (fault.position) {
+            request.spots.push_back(*fault.position);
+        }
+    }
+    for (const QcSpot& spike : record.facts.picture.spikes) {
+        request.spots.push_back({spike.x, spike.y});
+    }
+    request.look.pixels = pixel_options(call);
+    const OIIO::ImageBuf picture = shown_input(session, call, *call.images[0], request.look.pixels);
+    request.test = &picture;
+    show(session, call, std::move(request));
+    *result_of(session) = before;
+}
+
+void run_qc(Session& session, const Call& call) {
+    const Image& image = *call.images[0];
+    sequence::QcRecord record{{}, limits_of(call)};
+    session.push(call.images[0]);
+    session.produced = true;
+    if (!result_of(session)) {
+        return; // the exposures of the shot are being measured
+    }
+    std::vector<OIIO::ImageBuf> parts;
+    std::vector<const OIIO::ImageBuf*> pointers;
+    for (const PartPtr& part : image.parts()) {
+        parts.push_back(part->color_source());
+    }
+    for (const OIIO::ImageBuf& part : parts) {
+        pointers.push_back(&part);
+    }
+    QcOptions options{pixel_options(call), {}};
+    if (const auto groups = call.text("groups")) {
+        options.groups = split(*groups, ',');
+    }
+    std::string why;
+    if (!ToneAlgo::qc_facts(record.facts, pointers, why, options)) {
+        throw CommandError("\"" + image.name() + "\": " + why);
+    }
+    take_types(image, record.facts);
+    if (has_picture(record.facts) && !painter_of(session)) { // which looks at the picture itself
+        tell_encoding(session, call, image, image.part().header(), options.pixels);
+    }
+    result_of(session)->qc = sequence::to_json(record);
+    show_faults(session, call, record);
+}
+
+std::vector<Modifier> modifiers() {
+    std::vector<Modifier> all = pixel_modifiers();
+    all.push_back({"groups", "NAME,...", "light groups that add up to the picture (all)"});
+    for (const sequence::QcRule& rule : sequence::qc_rules()) {
+        std::string usual = severity_name(rule.severity);
+        if (rule.threshold) {
+            usual = format_number(*rule.threshold) + "," + usual;
+        }
+        all.push_back(
+            {rule.code, rule.threshold ? "X,SEVERITY" : "SEVERITY",
+             rule.help + (rule.threshold ? "; X: " + rule.measures : "") + " (" + usual + ")"});
+    }
+    return all;
+}
+
+} // namespace
+
+std::vector<Command> qc_commands() {
+    return {
+        {{{"qc"}, {}, 1, 1, Group::Measure},
+         modifiers(),
+         "Look for faults of the pictures and of the shot; severities: off, info, warning, error",
+         run_qc}};
+}
+
+} // namespace tonetool::measure

@@ -1,0 +1,181 @@
+// Commands that write textures.
+#include <OpenImageIO/imagebufalgo.h>
+
+#include "chain/session/io.h"
+#include "chain/session/ops.h"
+#include "text/error.h"
+#include "tonetool/texture.h"
+
+namespace tonetool::chain {
+
+namespace {
+
+// One setting of make_texture: the modifiers that set it, the first that is there counts.
+struct Setting {
+    const char* name;
+    Strings keys;
+    char kind;        ///< i, f or s
+    double otherwise; ///< i and f: without a modifier; s: is not set then
+};
+
+const std::vector<Setting>& settings_of_textures() {
+    static const std::vector<Setting> all = {
+        {"maketx:resize", {"resize"}, 'i', 0},
+        {"maketx:nomipmap", {"nomipmap"}, 'i', 0},
+        {"maketx:updatemode", {"updatemode"}, 'i', 0},
+        {"maketx:constant_color_detect", {"constant_color_detect"}, 'i', 0},
+        {"maketx:monochrome_detect", {"monochrome_detect"}, 'i', 0},
+        {"maketx:opaque_detect", {"opaque_detect"}, 'i', 0},
+        {"maketx:compute_average", {"compute_average"}, 'i', 1},
+        {"maketx:unpremult", {"unpremult"}, 'i', 0},
+        {"maketx:incolorspace", {"incolorspace"}, 's', 0},
+        {"maketx:outcolorspace", {"outcolorspace"}, 's', 0},
+        {"maketx:highlightcomp", {"highlightcomp", "hicomp"}, 'i', 0},
+        {"maketx:sharpen", {"sharpen"}, 'f', 0},
+        {"maketx:filtername", {"filtername", "filter"}, 's', 0},
+        {"maketx:fileformatname", {"fileformatname"}, 's', 0},
+        {"maketx:prman_metadata", {"prman_metadata"}, 'i', 0},
+        {"maketx:prman_options", {"prman_options", "prman"}, 'i', 0},
+        {"maketx:oiio_options", {"oiio_options", "oiio"}, 'i', 0},
+        {"maketx:bumpformat", {"bumpformat"}, 's', 0},
+        {"maketx:uvslopes_scale", {"uvslopes_scale"}, 'f', 0},
+        {"handed", {"handed"}, 's', 0},
+        {"maketx:cdf", {"cdf"}, 'i', 0},
+        {"maketx:cdfbits", {"cdfbits"}, 'i', 8},
+        {"maketx:cdfsigma", {"cdfsigma"}, 'f', 1.0 / 6},
+    };
+    return all;
+}
+
+void add_setting(OIIO::ImageSpec& config, const Call& call, const Setting& setting) {
+    std::string key = setting.keys.back();
+    for (auto each = setting.keys.rbegin(); each != setting.keys.rend(); ++each) {
+        key = call.has(*each) ? *each : key;
+    }
+    if (setting.kind == 'i') {
+        config.attribute(setting.name,
+                         call.integer(key, any_integer).value_or(int(setting.otherwise)));
+    } else if (setting.kind == 'f') {
+        config.attribute(setting.name,
+                         float(call.number(key, any_number_at_all).value_or(setting.otherwise)));
+    } else if (auto value = call.text(key)) {
+        config.attribute(setting.name, *value);
+    }
+}
+
+void set_tiles(OIIO::ImageSpec& config, Session& session, const Call& call,
+               const OutputSettings& output) {
+    const bool ignored = session.compat && call.text("tile");
+    if (ignored) {
+        session.warning(call.text(),
+                        "tile= has no effect on textures, as in oiiotool (--tile has)");
+    }
+    const OutputSettings& asked = ignored ? session.output : output;
+    config.tile_width = asked.tile_width > 0 ? asked.tile_width : 64;
+    config.tile_height = asked.tile_width > 0 ? asked.tile_height : 64;
+    config.tile_depth = 1;
+}
+
+void set_layout(OIIO::ImageSpec& config, const OutputSettings& output) {
+    if (output.type && output.type->bits > 0) {
+        config.attribute("oiio:BitsPerSample", output.type->bits);
+    }
+    if (!output.compression.empty()) {
+        config.attribute("compression", output.compression);
+    }
+    if (output.quality > 0) {
+        config.attribute("CompressionQuality", output.quality);
+    }
+    if (!output.planarconfig.empty() && output.planarconfig != "default") {
+        config.attribute("planarconfig", output.planarconfig);
+    }
+}
+
+// What make_texture is to do.
+OIIO::ImageSpec texture_config(Session& session, const Call& call, const Image& image,
+                               const OutputSettings& output) {
+    OIIO::ImageSpec config;
+    for (const Setting& setting : settings_of_textures()) {
+        add_setting(config, call, setting);
+    }
+    const auto fov = call.number("fovcot", any_number_at_all);
+    if (fov && session.compat) {
+        session.warning(call.text(), "fovcot= has no effect, as in oiiotool");
+    } else if (fov) {
+        config.attribute("fovcot", float(*fov));
+    }
+    const std::string wrap = call.text("wrap").value_or("black");
+    config.attribute("wrapmodes",
+                     call.text("swrap").value_or(wrap) + "," + call.text("twrap").value_or(wrap));
+    config.attribute("maketx:bumpformat", call.text("bumpformat").value_or("auto"));
+    config.attribute("maketx:colorconfig", session.color_config);
+    set_tiles(config, session, call, output);
+    set_layout(config, output);
+    config.set_format(output.type ? output.type->type
+                                  : session.types.of(image.part(), session.compat).type);
+    if (output.history) {
+        // By that name readers trust the average and the hash that are in it.
+        config.attribute("Software",
+                         "OpenImageIO " OIIO_VERSION_STRING " : " + session.command_line);
+        config.attribute("maketx:full_command_line", session.command_line);
+    }
+    return config;
+}
+
+void save_texture(Session& session, const Call& call, const Image& image,
+                  const std::string& filename, const OutputSettings& settings) {
+    namespace IBA = OIIO::ImageBufAlgo;
+    const std::string label = call.row().label();
+    const auto mode = label == "oenv"    ? IBA::MakeTxEnvLatl
+                      : label == "obump" ? IBA::MakeTxBumpWithSlopes
+                                         : IBA::MakeTxTexture;
+    std::string why;
+    OIIO::ImageBuf cropped;
+    const OIIO::ImageBuf& pixels =
+        files::texture_pixels(image.part().pixels(), filename, settings, session.compat, cropped);
+    session.keep_pixels_of(filename);
+    if (!write_texture(mode, pixels, filename, texture_config(session, call, image, settings),
+                       why)) {
+        throw CommandError("Could not make texture: " + why, call.text());
+    }
+}
+
+// -otex and its like.
+void run_texture(Session& session, const Call& call) {
+    write_to_files(session, call, save_texture);
+}
+
+} // namespace
+
+std::vector<Command> texture_commands() {
+    const std::string options =
+        output_modifiers() +
+        "wrap=MODE: black, clamp, periodic, mirror\nswrap=MODE: in x\ntwrap=MODE: in y\n"
+        "resize=0|1: to a power of 2\nnomipmap=0|1: the top level only\n"
+        "updatemode=0|1: only if the texture would change\n"
+        "constant_color_detect=0|1: one tile where all pixels are the same\n"
+        "monochrome_detect=0|1: one channel where all are the same\n"
+        "opaque_detect=0|1: without an alpha that is 1 everywhere\n"
+        "incolorspace=NAME: colour space of the image\noutcolorspace=NAME: of the texture\n"
+        "highlightcomp=0|1: soften highlights before filtering\nhicomp=0|1: the same\n"
+        "sharpen=X: each level\nfilter=NAME: of the levels\nfiltername=NAME: the same\n"
+        "prman_options=0|1: settings of RenderMan\nprman=0|1: the same\n"
+        "prman_metadata=0|1: metadata of RenderMan\n"
+        "oiio_options=0|1: settings of OpenImageIO\noiio=0|1: the same\n"
+        "compute_average=0|1: metadata of the average colour (1)\n"
+        "handed=left|right|none: of a vector displacement or normal map\n"
+        "cdf=0|1: store the distribution of values in the metadata\n"
+        "cdfbits=N: its size (8)\ncdfsigma=X: its deviation (1/6)\nfovcot=X: field of view\n"
+        "bumpformat=height|normal|auto: of a bump map\nuvslopes_scale=X: of its slopes";
+    std::vector<Command> rows;
+    for (const char* usage : {"otex FILENAME", "oenv FILENAME", "obump FILENAME"}) {
+        rows.push_back(free_row(Group::Write, usage, 0, any_number,
+                                usage[1] == 't'   ? "Write the current image as a texture"
+                                : usage[1] == 'e' ? "Write it as an environment map"
+                                                  : "Write a bump map with its slopes",
+                                run_texture, options));
+    }
+    return rows;
+}
+
+} // namespace tonetool::chain

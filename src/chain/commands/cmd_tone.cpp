@@ -1,0 +1,230 @@
+// Commands that show HDR images: calibration, tone curves, views.
+#include <algorithm>
+#include <cmath>
+
+#include "chain/commands/color_input.h"
+#include "chain/commands/commands.h"
+#include "chain/commands/flip_args.h"
+#include "chain/commands/tone_args.h"
+#include "text/error.h"
+
+namespace tonetool::measure {
+
+namespace {
+
+void add_calibration(Lines& lines, const CalibrationSummary& found) {
+    if (found.mean > 0) {
+        lines.add("mean", found.mean);
+        lines.add("key", found.key);
+    }
+    lines.add("exposure", found.exposure);
+    lines.add_positive("white", found.white);
+}
+
+void run_calibrate(Session& session, const Call& call) {
+    const Image& image = *call.images[0];
+    PixelOptions pixels = pixel_options(call);
+    OIIO::ImageBuf source = color_input(session, call, image, pixels);
+    CalibrationSummary found;
+    OIIO::ImageBuf result;
+    if (!ToneAlgo::calibrate(result, source, calibration_options(call), pixels, &found)) {
+        throw CommandError(result.geterror());
+    }
+    Lines lines(call.row().label());
+    add_calibration(lines, found);
+    session.report(lines.text);
+    session.push(Image::derived(image, std::move(result)));
+}
+
+TonemapOptions tonemap_options(const Session& session, const Call& call) {
+    TonemapOptions options;
+    check_one_way(call, "curve");
+    options.pixels = pixel_options(call);
+    options.view = view_options(session, call);
+    options.curve = curve_options(call, "curve");
+    options.calibration = calibration_options(call);
+    options.calibration.white_percentile = white_percentile(call);
+    if (options.view && (call.has("encode") || call.has("primaries") || call.has("clamp"))) {
+        throw CommandError("encode=, primaries= and clamp= are of tone curves: a view has its own");
+    }
+    options.primaries = call.choice("primaries", {"rec709", "image"}).value_or("rec709");
+    options.encode = call.choice("encode", ToneAlgo::display_encodings()).value_or(options.encode);
+    options.clamp = call.flag("clamp", true);
+    options.unpremult = call.flag("unpremult", false);
+    return options;
+}
+
+void run_tonemap(Session& session, const Call& call) {
+    const Image& image = *call.images[0];
+    const std::string label = call.row().label();
+    TonemapOptions options = tonemap_options(session, call);
+    // A view's space is the configuration's business.
+    PixelOptions checked = options.pixels;
+    checked.from = options.view ? "rec709" : checked.from;
+    OIIO::ImageBuf source = color_input(session, call, image, checked);
+    TonemapSummary found;
+    OIIO::ImageBuf result;
+    if (!ToneAlgo::tonemap(result, source, options, &found)) {
+        throw CommandError(result.geterror());
+    }
+    Lines lines(label);
+    lines.add("curve", found.curve);
+    for (const auto& [name, value] : found.parameters) {
+        lines.add(name, value);
+    }
+    add_calibration(lines, found.calibration);
+    session.report(lines.text);
+    for (const std::string& warning : found.warnings) {
+        session.warning(label, image.name() + ": " + warning);
+    }
+    session.push(Image::derived(image, std::move(result)));
+}
+
+void print_curve(Session& session, const ToneCurveInfo& curve) {
+    session.print(curve.name + ": " + curve.title + "; on " + curve.domain);
+    session.print("    " + curve.formula);
+    for (const ToneCurveParameter& p : curve.parameters) {
+        session.print("    " + p.name + "=" + format_number(p.value) + "  " + p.help + ", " +
+                      format_number(p.low) + " to " + format_number(p.high));
+    }
+    if (!curve.coefficients.empty()) {
+        Strings numbers;
+        for (double k : curve.coefficients) {
+            numbers.push_back(format_number(k));
+        }
+        session.print("    coeffs=" + join(numbers, ","));
+    }
+    if (!curve.note.empty()) {
+        session.print("    " + curve.note);
+    }
+    session.print("    from: " + curve.source);
+}
+
+// Stops against display light, a column per curve.
+void print_table(Session& session) {
+    const Strings names = ToneAlgo::tone_curve_names();
+    session.print("stops," + join(names, ","));
+    constexpr int first = -12, last = 12, per_stop = 4;
+    for (int i = first * per_stop; i <= last * per_stop; ++i) {
+        double stops = double(i) / per_stop;
+        Strings cells{format_number(stops)};
+        for (const std::string& name : names) {
+            CurveOptions curve;
+            curve.name = name;
+            std::vector<double> light;
+            std::string why;
+            if (!ToneAlgo::tone_curve_response(light, curve, {std::exp2(stops)}, why)) {
+                throw CommandError(why);
+            }
+            cells.push_back(format_number(std::min(1.0, std::max(0.0, light[0]))));
+        }
+        session.print(join(cells, ","));
+    }
+}
+
+void run_tonecurves(Session& session, const Call& call) {
+    if (call.flag("table", false)) {
+        print_table(session);
+    } else {
+        for (const ToneCurveInfo& curve : ToneAlgo::tone_curves()) {
+            print_curve(session, curve);
+        }
+    }
+    session.produced = true;
+}
+
+LutOptions lut_options(const Session& session, const Call& call) {
+    LutOptions options;
+    check_one_way(call, "curve");
+    options.curve = curve_options(call, "curve");
+    options.view = view_options(session, call);
+    options.from = call.text("from").value_or("");
+    if (options.view && call.has("encode")) {
+        throw CommandError("encode= is of tone curves: a view has its own");
+    }
+    options.encode = call.choice("encode", ToneAlgo::display_encodings()).value_or(options.encode);
+    options.shaper = call.choice("shaper", ToneAlgo::lut_shapers()).value_or(options.shaper);
+    options.min = call.number("min", {-24, 0}).value_or(options.min);
+    options.max = call.number("max", {1, 16}).value_or(options.max);
+    options.size = call.integer("size", {2, 65536}).value_or(0);
+    return options;
+}
+
+void run_exportlut(Session& session, const Call& call) {
+    LutSummary made;
+    std::string why;
+    const auto options = lut_options(session, call);
+    session.produced = true;
+    if (session.dry_run) {
+        return;
+    }
+    if (!ToneAlgo::export_lut(call.argument(0), options, &made, why)) {
+        throw CommandError(why);
+    }
+    Lines lines(call.row().label());
+    lines.add("file", call.argument(0) + ", " + made.structure);
+    lines.add("input", made.input);
+    lines.add("range", format_number(made.low) + " to " + format_number(made.high));
+    lines.add("error max",
+              format_number(made.max_error) + " mean " + format_number(made.mean_error));
+    lines.add("grey-error max", made.grey_max_error);
+    session.report(lines.text);
+}
+
+std::vector<Modifier> exportlut_modifiers() {
+    return concatenated(
+        {{{"curve", "NAME", "tone curve (aces): " + join(ToneAlgo::tone_curve_names(), ", ")}},
+         curve_modifiers(false),
+         view_modifiers(),
+         {{"from", "SPACE", "colour space that a view starts from (linear Rec.709)"},
+          {"encode", join(ToneAlgo::display_encodings(), "|"), "of a curve's result (srgb)"},
+          {"shaper", join(ToneAlgo::lut_shapers(), "|"), "of scene light to 0 to 1 (log2)"},
+          {"min", "X", "stops of log2's low end, -24 to 0 (-12)"},
+          {"max", "X", "stops of its high end, 1 to 16 (10)"},
+          {"size", "N", "entries (4096), or nodes along a cube's edge (33)"}}});
+}
+
+std::vector<Modifier> method_modifier(const std::string& otherwise) {
+    return {{"method", "manual|mean|auto",
+             "exposure: stops alone, from the geometric mean, with a key from the mean (" +
+                 otherwise + ")"}};
+}
+
+std::vector<Modifier> tonemap_modifiers() {
+    return concatenated(
+        {{{"curve", "NAME", "tone curve (aces): " + join(ToneAlgo::tone_curve_names(), ", ")}},
+         curve_modifiers(true),
+         view_modifiers(),
+         method_modifier("manual"),
+         calibration_modifiers(),
+         {{"encode", join(ToneAlgo::display_encodings(), "|"), "of the result (srgb)"},
+          {"primaries", "rec709|image", "that a curve works in and the result has (rec709)"},
+          {"clamp", "0|1", "the result of a curve to 0 to 1 (1)"},
+          {"unpremult", "0|1", "divide by alpha before, multiply after (0)"}},
+         pixel_modifiers()});
+}
+
+} // namespace
+
+std::vector<Command> tone_commands() {
+    return {
+        {{{"calibrate"}, {}, 1, 1, Group::Color},
+         concatenated({method_modifier("manual"), calibration_modifiers(), pixel_modifiers()}),
+         "Multiply the colour by an exposure that is measured",
+         run_calibrate},
+        {{{"tonemap"}, {}, 1, 1, Group::Color},
+         tonemap_modifiers(),
+         "HDR to a display, by a tone curve or an OpenColorIO view",
+         run_tonemap},
+        {{{"exportlut"}, {"FILE"}, 0, 0, Group::Write},
+         exportlut_modifiers(),
+         "Write a tone curve or a view as ." + join(ToneAlgo::lut_formats(), ", ."),
+         run_exportlut},
+        {{{"tonecurves"}, {}, 0, 0, Group::Print},
+         {{"table", "0|1", "as numbers: stops, and the light of each curve (0)"}},
+         "Print all tone curves: parameters, formulas, sources",
+         run_tonecurves},
+    };
+}
+
+} // namespace tonetool::measure

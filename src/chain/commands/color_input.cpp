@@ -1,0 +1,143 @@
+#include "chain/commands/color_input.h"
+
+#include <filesystem>
+
+#include "chain/commands/check_part.h"
+#include "text/error.h"
+#include "tonetool/color_tags.h"
+
+namespace tonetool::measure {
+
+namespace {
+
+void check_header(const Image& image, const OIIO::ImageSpec& header, const PixelOptions& options) {
+    ColorChoice choice;
+    std::string why;
+    if (!ToneAlgo::find_color(header, options, choice, why)) {
+        throw CommandError("\"" + image.name() + "\": " + why);
+    }
+}
+
+void refuse_all(const Image& image) {
+    if (image.part_count() > 1 || image.part().mip_levels() > 1) {
+        throw CommandError("\"" + image.name() + "\" has " + std::to_string(image.part_count()) +
+                           " subimage(s) of " + std::to_string(image.part().mip_levels()) +
+                           " MIP level(s), of which one is compared: not with -a (valid: without "
+                           "-a, a command for each subimage with layer=)");
+    }
+}
+
+std::string left_out(const Image& image, const PartChoice& choice) {
+    const std::string chosen =
+        choice.picture.empty() ? "subimage " + std::to_string(choice.part) : choice.picture;
+    return "\"" + image.name() + "\": beside " + chosen +
+           ", pictures are not looked at: " + join(choice.left_out, ", ") +
+           " (layer= chooses one, or --subimage)";
+}
+
+} // namespace
+
+std::vector<OIIO::ImageSpec> headers_of(const Image& image) {
+    std::vector<OIIO::ImageSpec> headers;
+    for (const PartPtr& part : image.parts()) {
+        headers.push_back(part->header());
+    }
+    return headers;
+}
+
+bool same_file(const Image& a, size_t part_of_a, const Image& b, size_t part_of_b) {
+    std::error_code ignored;
+    const bool one_file =
+        a.part(part_of_a).from_file() && b.part(part_of_b).from_file() &&
+        (a.name() == b.name() || std::filesystem::equivalent(a.name(), b.name(), ignored));
+    return part_of_a == part_of_b && (one_file || (a.lineage != 0 && a.lineage == b.lineage));
+}
+
+void tell_encoding(Session& session, const Call& call, const Image& image,
+                   const OIIO::ImageSpec& header, const PixelOptions& options) {
+    const std::string where = call.row().label(), named = "\"" + image.name() + "\": ";
+    const double gamma = options.from.empty() ? stated_gamma(header) : 0;
+    if (gamma > 0 && header.find_attribute("oiio:Gamma")) {
+        session.report(where + ": " + named + "its gamma of " + format_number(gamma) +
+                       " is applied instead of sRGB's curve");
+    }
+    if (const double exposure = stated_exposure(header); exposure != 1) {
+        session.report(where + ": " + named + "its EXPOSURE of " + format_number(exposure) +
+                       " is divided out");
+    }
+    if (const auto profile = unapplied_profile(header); profile && options.from.empty()) {
+        session.warning(where, named + "its ICC profile (" + *profile +
+                                   ") is not applied: the colours are read as those of sRGB "
+                                   "(from= says what they are)");
+    }
+}
+
+void check_nothing_left_out(const Image& image) {
+    if (!image.left_out.empty()) {
+        throw CommandError("\"" + image.name() +
+                           "\": a command before this one has left out parts with a picture: " +
+                           join({image.left_out.begin(), image.left_out.end()}, ", ") +
+                           " (valid: --subimage NAME behind the file, to choose one, or -a)");
+    }
+}
+
+Part& color_part(Session& session, const Call& call, const Image& image,
+                 const PixelOptions& options) {
+    const bool compares = call.row().group == Group::Compare;
+    if (compares && session.all_subimages && options.layer.empty()) {
+        refuse_all(image);
+    }
+    const bool judged = compares && (call.has("fail") || call.has("warn") || result_of(session));
+    if (judged) {
+        check_nothing_left_out(image);
+    }
+    PartChoice choice;
+    std::string why;
+    if (!ToneAlgo::find_part(headers_of(image), options, choice, why)) {
+        throw CommandError("\"" + image.name() + "\": " + why);
+    }
+    if (!choice.left_out.empty()) {
+        const std::string text = left_out(image, choice);
+        if (judged) {
+            throw CommandError(text);
+        }
+        session.warning(call.row().label(), text);
+    }
+    Part& part = image.part(size_t(choice.part));
+    if (compares && part.mip_levels() > 1) {
+        session.warning(call.row().label(),
+                        "\"" + image.name() + "\": of its " + std::to_string(part.mip_levels()) +
+                            " MIP levels the largest is looked at (--selectmip chooses another, "
+                            "--diff compares all)");
+    }
+    return part;
+}
+
+Part& checked_part(Session& session, const Call& call, const Image& image,
+                   const PixelOptions& options) {
+    Part& part = color_part(session, call, image, options);
+    OIIO::ImageSpec header = part.header();
+    if (part.integer_encoded()) {
+        header.format = part.format().value_or(DataFormat{OIIO::TypeUInt8, {}, 0}).type;
+    }
+    check_header(image, header, options);
+    // A tag must be a known one also where the library would take an integer file's for sRGB.
+    if (header.find_attribute("oiio:ColorSpace") && header.format != OIIO::TypeFloat) {
+        header.set_format(OIIO::TypeFloat);
+        check_header(image, header, options);
+    }
+    tell_encoding(session, call, image, part.header(), options);
+    return part;
+}
+
+OIIO::ImageBuf color_input(Session& session, const Call& call, const Image& image,
+                           const PixelOptions& options) {
+    return checked_part(session, call, image, options).color_view();
+}
+
+OIIO::ImageBuf color_source(Session& session, const Call& call, const Image& image,
+                            const PixelOptions& options) {
+    return checked_part(session, call, image, options).color_source();
+}
+
+} // namespace tonetool::measure

@@ -1,0 +1,25 @@
+// The commands of this room, written in the words of the chain.
+#pragma once
+
+#include <vector>
+
+#include "chain/session/call.h"
+#include "chain/session/session.h"
+
+namespace tonetool::measure {
+
+using namespace chain;
+
+std::vector<Command> compare_commands();
+std::vector<Command> diff_commands();
+std::vector<Command> qc_commands();
+std::vector<Command> exposure_commands();
+std::vector<Command> tone_commands();
+std::vector<Command> cgtmo_commands();
+std::vector<Command> light_commands();
+std::vector<Command> memory_commands();
+
+/// All of them.
+std::vector<Command> commands();
+
+} // namespace tonetool::measure

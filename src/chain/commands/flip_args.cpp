@@ -1,0 +1,387 @@
+#include "chain/commands/flip_args.h"
+
+#include <OpenImageIO/sysutil.h>
+#include <algorithm>
+
+#include "chain/commands/frame_pictures.h"
+#include "chain/commands/tone_args.h"
+#include "text/error.h"
+
+namespace tonetool::measure {
+
+namespace {
+
+const Range stops_range{-1000, 1000};
+const Range luminance_range{1e-30, 1e30};
+
+std::string choices(const Strings& names) {
+    return join(names, "|");
+}
+
+void read_size(const Call& call, PairOptions& options) {
+    bool resize = call.flag("resize", false);
+    bool crop = call.flag("crop", false);
+    if (resize && crop) {
+        throw CommandError("resize=1 and crop=1 exclude each other (valid: one of them)");
+    }
+    options.size = resize ? SizePolicy::Resize : (crop ? SizePolicy::Crop : SizePolicy::Match);
+}
+
+void read_screen(const Call& call, FlipOptions& options) {
+    auto distance = call.number("distance", {1e-6, 1e6});
+    auto width = call.number("width", {1e-6, 1e6});
+    auto pixels = call.number("pixels", {1, 1e7});
+    if (options.ppd && (distance || width || pixels)) {
+        throw CommandError("ppd= goes without distance=, width= and pixels= (valid: either)");
+    }
+    options.distance = distance.value_or(options.distance);
+    options.width = width.value_or(options.width);
+    options.pixels_across = pixels.value_or(options.pixels_across);
+}
+
+template <class Options>
+void read_exposures(const Call& call, Options& options, double least = 1) {
+    options.start_exposure = call.number("startExposure", stops_range);
+    options.stop_exposure = call.number("stopExposure", stops_range);
+    if (options.start_exposure && options.stop_exposure &&
+        *options.start_exposure > *options.stop_exposure) {
+        throw CommandError("startExposure " + *call.text("startExposure") +
+                           " is above stopExposure " + *call.text("stopExposure"));
+    }
+    options.num_exposures = call.integer("numExposures", {least, 1024});
+}
+
+// fail= and warn= of a command.
+class LimitReader {
+public:
+    LimitReader(const Call& call, const Measures& measures, Strings& pooled)
+        : m_call(call),
+          m_measures(measures),
+          m_pooled(pooled) {}
+
+    Limits read() {
+        (void)m_call.flag("print", true);
+        const auto quantity = m_call.text("quantity");
+        if (quantity && !m_call.has("fail") && !m_call.has("warn")) {
+            throw CommandError("quantity= needs fail= or warn=");
+        }
+        m_default = quantity ? resolved(*quantity) : m_measures.names.front();
+        if (m_call.has("above")) {
+            (void)resolved("above");
+        }
+        read_list("fail", &Limit::fail);
+        read_list("warn", &Limit::warn);
+        if (quantity && !m_used_default) {
+            throw CommandError("quantity= is of a limit without a name (valid: fail=X, or "
+                               "fail=QUANTITY=X without quantity=)");
+        }
+        return m_limits;
+    }
+
+private:
+    using Member = std::optional<double> Limit::*;
+
+    void read_list(const std::string& key, Member member) {
+        if (!m_call.has(key)) {
+            return;
+        }
+        for (const std::string& word : split(*m_call.text(key), ',')) {
+            const size_t equals = word.find('=');
+            const bool named = equals != std::string::npos;
+            m_used_default = m_used_default || !named;
+            Limit& limit = limit_of(named ? resolved(word.substr(0, equals)) : m_default);
+            if (limit.*member) {
+                throw CommandError(key + "=" + *m_call.text(key) + " has two limits of " +
+                                   limit.quantity + " (valid: one of each quantity)");
+            }
+            limit.*member = number(key, word.substr(named ? equals + 1 : 0), limit.quantity);
+        }
+    }
+
+    double number(const std::string& key, const std::string& text,
+                  const std::string& quantity) const {
+        const Scale scale = scale_of(quantity);
+        const double limit = checked_number(key, text, {scale.low, scale.high});
+        const double idle = scale.higher_is_better ? scale.low : scale.high;
+        if (limit == idle) {
+            throw CommandError(
+                key + "=" + text + " can never " + key + ": " + quantity + " is " +
+                (scale.higher_is_better ? "never below " : "never above ") + format_number(idle) +
+                " (valid: " +
+                (scale.higher_is_better
+                     ? "above " + format_number(scale.low) + " to " + format_number(scale.high)
+                     : format_number(scale.low) + " to below " + format_number(scale.high)) +
+                ")");
+        }
+        return limit;
+    }
+
+    Scale scale_of(const std::string& quantity) const {
+        return quantity.compare(0, above.size(), above) == 0 ? Scale() : m_measures.scale(quantity);
+    }
+
+    // Of above=E, or of a quantity above0.2: an error that some pixel can be above.
+    void check_error_above(const std::string& text, double error) const {
+        const Scale scale = m_measures.scale("max");
+        if (error >= scale.high) {
+            throw CommandError(above + "=" + text + ": no error is above it (valid: 0 to below " +
+                               format_number(scale.high) + ")");
+        }
+    }
+
+    // The name that the summary has for it.
+    std::string resolved(const std::string& name) {
+        const auto& names = m_measures.names;
+        if (std::find(names.begin(), names.end(), name) != names.end()) {
+            return name;
+        }
+        const auto known = !m_measures.map ? std::nullopt
+                           : name == above ? std::optional<std::string>(above + error_above())
+                                           : ToneAlgo::flip_quantity_name(name);
+        if (!known) {
+            throw CommandError("unknown quantity \"" + name + "\"" + meant(name, m_measures.names) +
+                               " (valid: " + join(listed(), ", ") + ")");
+        }
+        if (known->compare(0, above.size(), above) == 0) {
+            const std::string error = known->substr(above.size());
+            check_error_above(error, parse_number(error).value());
+        }
+        m_pooled.push_back(*known);
+        return *known;
+    }
+
+    Strings listed() const {
+        Strings names = m_measures.names;
+        if (m_measures.map) {
+            names.insert(names.end(), {"pNN", "above"});
+        }
+        return names;
+    }
+
+    // The number of above=E as the name of the quantity has it.
+    std::string error_above() const {
+        const auto text = m_call.text("above");
+        if (!text) {
+            throw CommandError("the quantity above needs above=E, the error (valid: "
+                               "above=0.2:fail=above=0.01, or fail=above0.2=0.01)");
+        }
+        const Scale scale = m_measures.scale("max");
+        const double error = checked_number("above", *text, {0, scale.high});
+        check_error_above(*text, error);
+        return ToneAlgo::flip_quantity_name(above + format_apart(error, 0))
+            .value()
+            .substr(above.size());
+    }
+
+    Limit& limit_of(const std::string& quantity) {
+        for (Limit& limit : m_limits) {
+            if (limit.quantity == quantity) {
+                return limit;
+            }
+        }
+        m_limits.push_back({quantity, {}, {}});
+        return m_limits.back();
+    }
+
+    const std::string above = "above";
+    const Call& m_call;
+    const Measures& m_measures;
+    Strings& m_pooled;
+    std::string m_default;
+    bool m_used_default = false;
+    Limits m_limits;
+};
+
+} // namespace
+
+std::vector<Modifier> pixel_modifiers() {
+    return {
+        {"layer", "NAME", "layer whose R,G,B are used, \"ViewLayer.Combined\""},
+        {"from", "SPACE", "colour space of the pixels: " + join(ToneAlgo::color_spaces(), ", ")}};
+}
+
+std::vector<Modifier> pair_modifiers() {
+    return concatenated(
+        {pixel_modifiers(),
+         {{"resize", "0|1", "resize the test image to the reference's display window"},
+          {"crop", "0|1", "compare only where the display windows meet"},
+          {"alpha", "ignore|error",
+           "what becomes of alpha: error: its difference joins the map"}}});
+}
+
+std::vector<Modifier> viewing_modifiers() {
+    return {{"ppd", "X", "pixels per degree of visual angle; or the three numbers below"},
+            {"distance", "METRES", "viewing distance (0.7)"},
+            {"width", "METRES", "width of the screen (0.7)"},
+            {"pixels", "N", "width of the screen in pixels (3840)"}};
+}
+
+std::vector<Modifier> hdr_modifiers() {
+    return concatenated(
+        {{{"tonemapper", "NAME", "tone curve (aces): " + join(ToneAlgo::flip_tonemappers(), ", ")}},
+         curve_modifiers(false, true),
+         view_modifiers(),
+         {{"encoding", "srgb|gamma2.2|rec1886|gamma2.6|linear",
+           "of the view's result (its display's)"},
+          {"peak", "X", "light in cd/m2 that counts as white, for HDR displays"},
+          {"exact", "0|1", "the view by OpenColorIO itself instead of a table made from it (0)"},
+          {"startExposure", "STOPS", "first exposure (from the reference)"},
+          {"stopExposure", "STOPS", "last exposure (from the reference)"},
+          {"numExposures", "N", "number of exposures (from their range)"},
+          {"maxluminance", "X", "instead of the reference's maximum luminance"},
+          {"medianluminance", "X", "instead of the reference's median luminance"}}});
+}
+
+std::vector<Modifier> threshold_modifiers(const Measures& measures, const std::string& unless) {
+    std::vector<Modifier> rows = {
+        {"fail", "X|QUANTITY=X,...",
+         "exit status 3 unless the quantity is " + unless +
+             (measures.map ? "; p99.9 and max find local faults, which the mean does not" : "")},
+        {"warn", "X|QUANTITY=X,...", "a warning unless the quantity is " + unless},
+        {"quantity", choices(measures.names) + (measures.map ? "|pNN|above" : ""),
+         "what a limit without a name tests (the first)" +
+             std::string(measures.map ? "; pNN: any percentile, p99.95" : "")}};
+    if (measures.map) {
+        rows.push_back({"above", "E",
+                        "of the quantity above: the share of pixels whose error is "
+                        "above E; also by name, fail=above0.2=0.01"});
+    }
+    rows.push_back({"print", "0|1", "print the summary (1)"});
+    return rows;
+}
+
+std::vector<Modifier> concatenated(const std::vector<std::vector<Modifier>>& lists) {
+    std::vector<Modifier> all;
+    for (const std::vector<Modifier>& list : lists) {
+        all.insert(all.end(), list.begin(), list.end());
+    }
+    return all;
+}
+
+PixelOptions pixel_options(const Call& call, const std::string& prefix) {
+    return {call.text(prefix + "layer").value_or(""), call.text(prefix + "from").value_or("")};
+}
+
+void read_view_spaces(const std::optional<ViewOptions>& view, PixelOptions& pixels) {
+    if (view) {
+        pixels.config =
+            view->config.empty() ? std::string(OIIO::Sysutil::getenv("OCIO")) : view->config;
+        pixels.context = view->context;
+    }
+}
+
+void read_pair_options(const Session& session, const Call& call, PairOptions& options) {
+    options.memory = session.memory - std::min(session.memory, shown_bytes(session, call));
+    options.pixels = pixel_options(call);
+    read_size(call, options);
+    bool error = call.choice("alpha", {"ignore", "error"}).value_or("ignore") == "error";
+    options.alpha = error ? AlphaPolicy::Error : AlphaPolicy::Ignore;
+}
+
+void read_flip_options(const Session& session, const Call& call, bool screen,
+                       FlipOptions& options) {
+    read_pair_options(session, call, options);
+    options.ppd = call.number("ppd", {1, 1000});
+    if (screen) {
+        read_screen(call, options);
+    }
+}
+
+void read_hdr_options(const Session& session, const Call& call, HdrFlipOptions& options) {
+    check_one_way(call, "tonemapper");
+    options.view = view_options(session, call);
+    read_view_spaces(options.view, options.pixels);
+    options.curve = curve_options(call, "tonemapper");
+    options.encoding =
+        call.choice("encoding", {"srgb", "gamma2.2", "rec1886", "gamma2.6", "linear"}).value_or("");
+    options.peak = call.number("peak", {1, 10000});
+    options.exact = call.flag("exact", false);
+    if (!options.view && (call.has("encoding") || call.has("peak") || call.has("exact"))) {
+        throw CommandError("encoding=, peak= and exact= need display= or view=");
+    }
+    read_exposures(call, options);
+    options.max_luminance = call.number("maxluminance", luminance_range);
+    options.median_luminance = call.number("medianluminance", luminance_range);
+}
+
+Limits limits_of(const Call& call, const Measures& measures, Strings& pooled) {
+    return LimitReader(call, measures, pooled).read();
+}
+
+std::vector<Modifier> error_modifiers() {
+    Measures measures;
+    measures.names.insert(measures.names.begin(), "METRIC");
+    return concatenated({{{"metric", choices(ToneAlgo::error_metrics()), "which error"},
+                          {"eps", "X", "of smape, rmae, relmse (0.01)"},
+                          {"peak", "X", "of psnr (1)"},
+                          {"startExposure", "STOPS", "of mpsnr: first exposure, as in hdrflip"},
+                          {"stopExposure", "STOPS", "its last exposure"},
+                          {"numExposures", "N", "number of its exposures"}},
+                         pair_modifiers(),
+                         threshold_modifiers(measures, "at most X (psnr, mpsnr: at least X dB)")});
+}
+
+ErrorOptions error_options(const Session& session, const Call& call) {
+    ErrorOptions options;
+    read_pair_options(session, call, options);
+    options.metric = call.choice("metric", ToneAlgo::error_metrics()).value_or("");
+    if (options.metric.empty()) {
+        throw CommandError("needs metric= (valid: " + join(ToneAlgo::error_metrics(), ", ") + ")");
+    }
+    const std::pair<const char*, Strings> keys[] = {{"eps", {"smape", "rmae", "relmse"}},
+                                                    {"peak", {"psnr"}},
+                                                    {"startExposure", {"mpsnr"}},
+                                                    {"stopExposure", {"mpsnr"}},
+                                                    {"numExposures", {"mpsnr"}}};
+    for (const auto& [key, of] : keys) {
+        if (call.has(key) && std::find(of.begin(), of.end(), options.metric) == of.end()) {
+            throw CommandError(std::string(key) + "= goes with metric=" + join(of, ", ") +
+                               ", not with " + options.metric);
+        }
+    }
+    options.eps = call.number("eps", {1e-12, 1e12}).value_or(options.eps);
+    options.peak = call.number("peak", {1e-12, 1e12}).value_or(options.peak);
+    read_exposures(call, options);
+    return options;
+}
+
+std::vector<Modifier> flipdiff_modifiers() {
+    return {
+        {"hdr", "0|1", "HDR-FLIP (1), or LDR-FLIP"},
+        {"maxluminance", "X",
+         "luminance that the first exposure suits (2.0); 0: exposures "
+         "from the reference"},
+        {"medianluminance", "X", "luminance that the last exposure suits (0.18)"},
+        {"startExposure", "STOPS", "first exposure"},
+        {"stopExposure", "STOPS", "last exposure"},
+        {"numExposures", "N", "number of exposures; 0: from their range"},
+        {"ppd", "X", "pixels per degree of visual angle (67.02)"},
+        {"tonemapper", "NAME", "tone curve (aces): " + join(ToneAlgo::flip_tonemappers(), ", ")},
+        {"colormap", "NAME", "push the map in these colours, as --colormap"},
+        {"layer", "NAME", "layer whose R,G,B are used"},
+        {"from", "SPACE", "colour space of the pixels"},
+        {"print", "0|1", "print the summary (1)"},
+        {"fail", "X", "exit status 3 unless the largest error is at most X (0 to below 1)"}};
+}
+
+HdrFlipOptions flipdiff_options(const Session& session, const Call& call) {
+    HdrFlipOptions options;
+    options.memory = session.memory - std::min(session.memory, shown_bytes(session, call));
+    options.pixels = pixel_options(call);
+    options.ppd = call.number("ppd", {1, 1000}).value_or(67.02);
+    options.curve.name =
+        call.choice("tonemapper", ToneAlgo::flip_tonemappers()).value_or(options.curve.name);
+    read_exposures(call, options, 0);
+    if (options.num_exposures == 0) {
+        options.num_exposures.reset();
+    }
+    double maximum = call.number("maxluminance", {-1e30, 1e30}).value_or(2.0);
+    double median = call.number("medianluminance", {-1e30, 1e30}).value_or(0.18);
+    if (maximum > 0) {
+        options.max_luminance = maximum;
+        options.median_luminance = median > 0 ? std::optional<double>(median) : std::nullopt;
+    }
+    return options;
+}
+
+} // namespace tonetool::measure

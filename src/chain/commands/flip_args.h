@@ -1,0 +1,66 @@
+// The modifiers of the commands that compare, and the library's options made from them.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "chain/commands/commands.h"
+#include "tonetool/tonetool.h"
+
+namespace tonetool::measure {
+
+/// When a quantity of the summary fails or warns.
+struct Limit {
+    std::string quantity;
+    std::optional<double> fail, warn;
+};
+/// Of different quantities: all must hold.
+using Limits = std::vector<Limit>;
+
+/// Between which values a quantity lies; a limit that no value can miss is an error.
+struct Scale {
+    double low = 0, high = 1;
+    bool higher_is_better = false;
+};
+
+/// What fail= and warn= may be of.
+struct Measures {
+    Strings names = ToneAlgo::flip_quantities(); ///< the first is the default
+    bool map = true;                             ///< and pNN and above of an error map
+    std::function<Scale(const std::string& quantity)> scale = [](const std::string&) {
+        return Scale();
+    };
+};
+
+// Lists of modifiers, to be put together into rows.
+std::vector<Modifier> pixel_modifiers();   ///< layer, from
+std::vector<Modifier> pair_modifiers();    ///< and resize, crop, alpha
+std::vector<Modifier> viewing_modifiers(); ///< ppd, distance, width, pixels
+std::vector<Modifier> hdr_modifiers();     ///< tone curve and exposures
+/// fail, warn, quantity, print, and above where there is a map; `unless` says what keeps from
+/// failing.
+std::vector<Modifier> threshold_modifiers(const Measures& measures = {},
+                                          const std::string& unless = "at most X (0 to 1)");
+std::vector<Modifier> concatenated(const std::vector<std::vector<Modifier>>& lists);
+
+/// layer and from, or "ldrlayer" and "ldrfrom" with the prefix "ldr".
+PixelOptions pixel_options(const Call& call, const std::string& prefix = "");
+/// `from` may name spaces of the view's configuration.
+void read_view_spaces(const std::optional<ViewOptions>& view, PixelOptions& pixels);
+void read_pair_options(const Session& session, const Call& call, PairOptions& options);
+/// `screen`: distance, width and pixels describe the screen; else only ppd does.
+void read_flip_options(const Session& session, const Call& call, bool screen, FlipOptions& options);
+void read_hdr_options(const Session& session, const Call& call, HdrFlipOptions& options);
+/// fail= and warn=: a number, or quantity=number with commas between them. What has to be pooled
+/// for them is added to `pooled`.
+Limits limits_of(const Call& call, const Measures& measures, Strings& pooled);
+std::vector<Modifier> error_modifiers();
+ErrorOptions error_options(const Session& session, const Call& call);
+
+/// OpenImageIO 3.2's names and defaults.
+std::vector<Modifier> flipdiff_modifiers();
+HdrFlipOptions flipdiff_options(const Session& session, const Call& call);
+
+} // namespace tonetool::measure

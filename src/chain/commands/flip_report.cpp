@@ -1,0 +1,203 @@
+#include "chain/commands/flip_report.h"
+
+#include "chain/commands/check_part.h"
+#include "text/error.h"
+
+namespace tonetool::measure {
+
+namespace {
+
+std::string at(int x, int y) {
+    return " at " + std::to_string(x) + "," + std::to_string(y);
+}
+
+void add_side(Lines& lines, const std::string& side, const std::string& file,
+              const FlipSide& found) {
+    lines.add(side, file);
+    lines.add(side + "-layer", found.layer.empty() ? "R,G,B" : found.layer);
+    lines.add(side + "-space", found.space);
+    lines.add(side + "-nonfinite", found.nonfinite);
+    lines.add(side + "-negative", found.negative);
+    lines.add(side + "-uncovered", found.uncovered);
+}
+
+void add_tone(Lines& lines, const FlipSummary& summary) {
+    lines.add("tonemapper", summary.tonemapper);
+    if (summary.tonemapper == "coeffs") {
+        Strings numbers;
+        for (double k : summary.coeffs) {
+            numbers.push_back(format_number(k));
+        }
+        lines.add("coeffs", join(numbers, ","));
+    }
+    for (const auto& [name, value] : summary.parameters) {
+        lines.add("curve-" + name, value);
+    }
+    if (summary.baked) {
+        lines.add("bake-error", "max " + format_number(summary.bake_error_max) + " mean " +
+                                    format_number(summary.bake_error_mean));
+    }
+}
+
+template <class Summary>
+void add_exposures(Lines& lines, const Summary& summary) {
+    if (!summary.exposures.empty()) {
+        lines.add("exposures", "start " + format_number(summary.exposures.front()) + " stop " +
+                                   format_number(summary.exposures.back()) + " count " +
+                                   std::to_string(summary.exposures.size()));
+    }
+    lines.add_positive("max-luminance", summary.max_luminance);
+    if (summary.median_luminance > 0) {
+        lines.add("median-luminance", format_number(summary.median_luminance) +
+                                          (summary.median_of_lit ? " of lit pixels" : ""));
+    }
+}
+
+void add_pool(Lines& lines, const FlipPool& pool) {
+    for (const std::string& name : ToneAlgo::flip_quantities()) {
+        std::string value = format_number(ToneAlgo::flip_quantity(pool, name).value());
+        std::string where = name == "min"   ? at(pool.min_x, pool.min_y)
+                            : name == "max" ? at(pool.max_x, pool.max_y)
+                                            : "";
+        lines.add(name, value + where);
+    }
+    for (const auto& [name, value] : pool.further) {
+        lines.add(name, value);
+    }
+}
+
+void add_pair(Lines& lines, const PairSummary& summary, const std::string& reference,
+              const std::string& test) {
+    add_side(lines, "reference", reference, summary.reference);
+    add_side(lines, "test", test, summary.test);
+    lines.add("nonfinite-in-both", summary.nonfinite_both);
+    lines.add("nonfinite-unlike", summary.nonfinite_unlike);
+    lines.add("alpha-ignored", summary.alpha_ignored);
+    lines.add("pixels", summary.pool.pixels);
+}
+
+void add_found(Lines& lines, const PairSummary& summary) {
+    if (summary.alpha_compared) {
+        lines.add("alpha-mean", summary.alpha_mean);
+        lines.add("alpha-max",
+                  format_number(summary.alpha_max) + at(summary.alpha_max_x, summary.alpha_max_y));
+    }
+    add_pool(lines, summary.pool);
+}
+
+bool holds(const sequence::Threshold& threshold, double limit) {
+    return threshold.higher_is_better ? threshold.value >= limit : threshold.value <= limit;
+}
+
+std::string compared(const sequence::Threshold& threshold, double limit) {
+    const bool up = threshold.higher_is_better, good = holds(threshold, limit);
+    return threshold.quantity + " " + format_apart(threshold.value, limit) +
+           (good ? (up ? " >= " : " <= ") : (up ? " < " : " > ")) +
+           format_apart(limit, threshold.value);
+}
+
+// What the limits say of a pair.
+struct Sentences {
+    Strings failed, warned, passed;
+
+    void add(const sequence::Threshold& threshold) {
+        if (threshold.fail) {
+            (holds(threshold, *threshold.fail) ? passed : failed)
+                .push_back(compared(threshold, *threshold.fail));
+        }
+        if (threshold.warn && !holds(threshold, *threshold.warn)) {
+            warned.push_back(compared(threshold, *threshold.warn));
+        } else if (threshold.warn && !threshold.fail) {
+            passed.push_back(compared(threshold, *threshold.warn));
+        }
+    }
+};
+
+} // namespace
+
+std::string summary_text(const std::string& label, const FlipSummary& summary,
+                         const std::string& first, const std::string& second) {
+    Lines lines(label);
+    add_pair(lines, summary, first, second);
+    lines.add("ppd", summary.ppd);
+    if (summary.hdr) {
+        add_tone(lines, summary);
+        add_exposures(lines, summary);
+    }
+    add_found(lines, summary);
+    return lines.text;
+}
+
+std::string summary_text(const std::string& label, const ErrorSummary& summary,
+                         const std::string& first, const std::string& second) {
+    Lines lines(label);
+    add_pair(lines, summary, first, second);
+    lines.add_positive("eps", summary.eps);
+    lines.add_positive("peak", summary.peak);
+    add_exposures(lines, summary);
+    lines.add(summary.metric, summary.value);
+    add_found(lines, summary);
+    return lines.text;
+}
+
+std::string summary_text(const std::string& label, const TmqiSummary& summary,
+                         const std::string& first, const std::string& second) {
+    Lines lines(label);
+    add_side(lines, "hdr", first, summary.hdr);
+    add_side(lines, "ldr", second, summary.ldr);
+    for (const std::string& name : ToneAlgo::tmqi_quantities()) {
+        lines.add(name, ToneAlgo::tmqi_quantity(summary.score, name).value());
+    }
+    for (size_t i = 0; i < summary.score.scales.size(); ++i) {
+        lines.add("S" + std::to_string(i + 1), summary.score.scales[i]);
+    }
+    lines.add("ldr-mean", summary.score.mean);
+    lines.add("ldr-deviation", summary.score.deviation);
+    return lines.text;
+}
+
+void record(Session& session, const Call& call, sequence::Measurement measurement, size_t test) {
+    if (result_of(session)) {
+        measurement.command = call.row().label();
+        measurement.reference = call.images.front()->name();
+        measurement.test = call.images.at(test + 1)->name();
+        result_of(session)->measurements.push_back(std::move(measurement));
+    }
+}
+
+bool judge(Session& session, const Call& call, const Limits& limits,
+           const std::function<Measured(const std::string& quantity)>& measure,
+           const std::optional<sequence::Position>& worst, size_t test) {
+    if (limits.empty()) {
+        return false;
+    }
+    Sentences said;
+    std::vector<sequence::Threshold> thresholds;
+    for (const Limit& limit : limits) {
+        const Measured measured = measure(limit.quantity);
+        thresholds.push_back(
+            {limit.quantity, measured.value, measured.higher_is_better, limit.fail, limit.warn});
+        said.add(thresholds.back());
+    }
+    if (result_of(session)) {
+        result_of(session)->measurements.back().thresholds = thresholds;
+    }
+    const std::string label = call.row().label();
+    const std::string where =
+        worst ? ", worst pixel " + std::to_string(worst->x) + "," + std::to_string(worst->y) : "";
+    const std::string file = " (" + call.images.at(test + 1)->name() + ")";
+    if (!said.warned.empty()) {
+        session.warning(label, join(said.warned, ", ") + where + file);
+    }
+    if (!said.failed.empty()) {
+        ++session.failures;
+        session.print(label + ": FAIL " + join(said.failed, ", ") + where + file);
+    } else if (!said.warned.empty()) {
+        session.report(label + ": WARNING " + join(said.warned, ", ") + where + file);
+    } else {
+        session.report(label + ": PASS " + join(said.passed, ", ") + file);
+    }
+    return !said.failed.empty();
+}
+
+} // namespace tonetool::measure

@@ -1,0 +1,69 @@
+#include "chain/commands/frame_pictures.h"
+
+#include <algorithm>
+
+#include "chain/commands/check_part.h"
+#include "chain/commands/color_input.h"
+#include "sequence/report/report_store.h"
+
+namespace tonetool::measure {
+
+namespace {
+
+bool is_read(const OIIO::ImageBuf* image) {
+    return !image || image->storage() != OIIO::ImageBuf::IMAGECACHE;
+}
+
+} // namespace
+
+uint64_t shown_bytes(const Session& session, const Call& call) {
+    uint64_t bytes = 0;
+    for (const ImagePtr& image : call.images) {
+        bytes += image->part().header().image_pixels() * 4 * sizeof(float);
+    }
+    const bool fits = session.memory == 0 || bytes <= session.memory / 3;
+    return painter_of(session) && fits ? bytes : 0;
+}
+
+OIIO::ImageBuf shown_input(Session& session, const Call& call, const Image& image,
+                           const PixelOptions& options) {
+    if (shown_bytes(session, call) == 0) {
+        return color_source(session, call, image, options);
+    }
+    Part& part = checked_part(session, call, image, options);
+    ColorChoice choice;
+    std::string why;
+    if (!ToneAlgo::find_color(part.header(), options, choice, why)) {
+        return part.color_view();
+    }
+    const int alpha = choice.a < 0 ? choice.r : choice.a;
+    return part.color_view(std::min({choice.r, choice.g, choice.b, alpha}),
+                           std::max({choice.r, choice.g, choice.b, alpha}) + 1);
+}
+
+void show(Session& session, const Call& call, sequence::PictureRequest request) {
+    if (!painter_of(session)) {
+        return;
+    }
+    sequence::FramePainter& painter = *painter_of(session);
+    const std::string nothing = call.row().label() + ": no pictures for the report: ";
+    if (!is_read(request.reference) || !is_read(request.test)) {
+        session.report(nothing + "the images do not fit into --memory");
+        return;
+    }
+    sequence::FrameResult so_far = *result_of(session);
+    sequence::judge(so_far);
+    request.full = painter.store.wants_full(so_far) && painter.wants(request);
+    for (const sequence::Measurement& measured : so_far.measurements) {
+        if (measured.worst && request.full) {
+            request.spots.push_back(*measured.worst);
+        }
+    }
+    try {
+        painter.take(sequence::draw_pictures(request), request);
+    } catch (const std::exception& problem) {
+        session.report(nothing + problem.what());
+    }
+}
+
+} // namespace tonetool::measure

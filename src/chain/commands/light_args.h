@@ -1,0 +1,15 @@
+// Modifiers of the lights of a scene, for all commands that have them.
+#pragma once
+
+#include <vector>
+
+#include "chain/commands/commands.h"
+#include "tonetool/lights.h"
+
+namespace tonetool::measure {
+
+/// lights=, lightunit=, index=, groups=.
+std::vector<Modifier> light_modifiers();
+LightOptions light_options(const Call& call);
+
+} // namespace tonetool::measure

@@ -1,0 +1,156 @@
+#include "chain/commands/tone_args.h"
+
+#include <algorithm>
+
+#include "text/error.h"
+
+namespace tonetool::measure {
+
+namespace {
+
+// One row per name of a parameter; several curves may have it.
+struct Parameter {
+    std::string name, help;
+    Strings curves;
+};
+
+std::vector<Parameter> parameters(bool flip = false) {
+    std::vector<Parameter> all;
+    for (const ToneCurveInfo& curve : ToneAlgo::tone_curves()) {
+        for (const ToneCurveParameter& parameter : curve.parameters) {
+            auto same = [&](const Parameter& p) { return p.name == parameter.name; };
+            auto at = std::find_if(all.begin(), all.end(), same);
+            if (at == all.end()) {
+                at = all.insert(all.end(), {parameter.name, parameter.help, {}});
+            }
+            double value = flip ? parameter.flip_value : parameter.value;
+            at->curves.push_back(curve.name + " " + format_number(value));
+        }
+    }
+    return all;
+}
+
+// What white= asks to be measured: "max", "p99.9".
+bool is_measured(const std::string& white) {
+    return white == "max" || (!white.empty() && white[0] == 'p');
+}
+
+} // namespace
+
+std::vector<Modifier> curve_modifiers(bool measured, bool flip) {
+    std::vector<Modifier> rows;
+    for (const Parameter& p : parameters(flip)) {
+        bool white = measured && p.name == "white";
+        rows.push_back({p.name, white ? "X|max|pN" : "X",
+                        p.help + (white ? ", or the image's maximum or percentile" : "") + " (" +
+                            join(p.curves, ", ") + ")"});
+    }
+    rows.push_back(
+        {"coeffs", "K0,K1,K2,K3,K4,K5", "curve (k0 x2 + k1 x + k2) / (k3 x2 + k4 x + k5)"});
+    rows.push_back({"on", "rgb|luminance", "what the curve is applied to (as it is meant)"});
+    rows.push_back({"saturation", "X", "of curves on luminance, 0 to 4 (1)"});
+    return rows;
+}
+
+CurveOptions curve_options(const Call& call, const std::string& key) {
+    CurveOptions options;
+    auto name = call.choice(key, ToneAlgo::tone_curve_names());
+    options.coeffs = call.numbers("coeffs", 6);
+    if (name && !options.coeffs.empty()) {
+        throw CommandError(key + "= and coeffs= exclude each other (valid: one of them)");
+    }
+    options.name = name.value_or(options.name);
+    for (const Parameter& p : parameters()) {
+        auto value = call.text(p.name);
+        if (value && !(p.name == "white" && is_measured(*value))) {
+            // What is valid depends on the curve.
+            options.parameters[p.name] = *call.number(p.name, {-1e30, 1e30});
+        }
+    }
+    options.on = call.choice("on", {"rgb", "luminance"}).value_or("");
+    options.saturation = call.number("saturation", {0, 4}).value_or(1.0);
+    return options;
+}
+
+std::vector<Modifier> view_modifiers() {
+    return {{"display", "NAME", "display of the OpenColorIO configuration (its default)"},
+            {"view", "NAME", "view of that display (its default)"},
+            {"looks", "LOOKS", "instead of the view's own looks: \"+a,-b\""},
+            {"context", "NAME=VALUE,...", "context variables of the configuration"}};
+}
+
+std::optional<ViewOptions> view_options(const Session& session, const Call& call) {
+    ViewOptions options;
+    options.config = session.color_config;
+    options.display = call.text("display").value_or("");
+    options.view = call.text("view").value_or("");
+    options.looks = call.text("looks").value_or("");
+    for (const std::string& pair : split(call.text("context").value_or(""), ',')) {
+        size_t equals = pair.find('=');
+        if (equals != std::string::npos && equals > 0) {
+            options.context.emplace_back(pair.substr(0, equals), pair.substr(equals + 1));
+        } else if (!pair.empty()) {
+            throw CommandError("context \"" + pair + "\" is not NAME=VALUE");
+        }
+    }
+    if (call.has("display") || call.has("view")) {
+        return options;
+    }
+    if (call.has("looks") || call.has("context")) {
+        throw CommandError("looks= and context= need display= or view=");
+    }
+    return std::nullopt;
+}
+
+void check_one_way(const Call& call, const std::string& key) {
+    if (!call.has("display") && !call.has("view")) {
+        return;
+    }
+    Strings of_curves{key};
+    for (const Modifier& modifier : curve_modifiers(false)) {
+        of_curves.push_back(modifier.key);
+    }
+    for (const std::string& name : of_curves) {
+        if (call.has(name)) {
+            throw CommandError(name + "= is of tone curves and does not go with a view "
+                                      "(valid: either)");
+        }
+    }
+}
+
+std::vector<Modifier> calibration_modifiers() {
+    return {{"stops", "X", "exposure in stops, added to what is measured (0)"},
+            {"key", "X", "what the geometric mean becomes, with mean (0.18)"},
+            {"level", "N", "local means over 2^N x 2^N cells; 0: one for the image (0)"},
+            {"epsilon", "X", "added to luminances before their logarithm (1e-6)"},
+            {"skipblack", "0|1", "black pixels are not measured (0)"},
+            {"skiptransparent", "0|1", "pixels of alpha 0 are not measured (0)"}};
+}
+
+CalibrationOptions calibration_options(const Call& call) {
+    CalibrationOptions options;
+    auto method = call.choice("method", {"manual", "mean", "auto"}).value_or("manual");
+    options.method = method == "mean"   ? CalibrationMethod::Mean
+                     : method == "auto" ? CalibrationMethod::AutoKey
+                                        : CalibrationMethod::Manual;
+    if (call.has("key") && options.method != CalibrationMethod::Mean) {
+        throw CommandError("key= is of a calibration by mean, this one is " + method);
+    }
+    options.stops = call.number("stops", {-126, 126}).value_or(options.stops);
+    options.key = call.number("key", {1e-4, 100}).value_or(options.key);
+    options.level = call.integer("level", {0, 20}).value_or(options.level);
+    options.epsilon = call.number("epsilon", {1e-30, 1}).value_or(options.epsilon);
+    options.skip_black = call.flag("skipblack", false);
+    options.skip_transparent = call.flag("skiptransparent", false);
+    return options;
+}
+
+std::optional<double> white_percentile(const Call& call) {
+    auto white = call.text("white");
+    if (!white || !is_measured(*white)) {
+        return std::nullopt;
+    }
+    return *white == "max" ? 100.0 : checked_number("white=p", white->substr(1), {0.001, 100});
+}
+
+} // namespace tonetool::measure

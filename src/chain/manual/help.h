@@ -1,0 +1,27 @@
+// --help, printed from the registry.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "chain/language/registry.h"
+
+namespace tonetool::manual {
+
+using chain::Command;
+
+/// How the program is called, in a few lines.
+std::string usage_text();
+/// All commands by group.
+std::string help_text();
+/// One command with its modifiers.
+std::string help_text(const Command& row);
+/// The whole registry as "man" (troff), "bash" or "zsh" (completion), "json"; a CommandError for
+/// any other format.
+std::string registry_text(const std::string& format);
+bool is_registry_format(const std::string& format);
+
+/// The row of --help.
+std::vector<Command> commands();
+
+} // namespace tonetool::manual

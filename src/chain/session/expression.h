@@ -1,0 +1,17 @@
+// "{TOP.width/2}": values of images, variables and the frame, put into words.
+#pragma once
+
+#include <string>
+
+#include "chain/session/session.h"
+
+namespace tonetool::chain {
+
+/// The most that a word may be with the values in it.
+inline constexpr size_t most_bytes_of_a_word = 1 << 20;
+
+/// The word with each {...} replaced by its value. What is not understood is a CommandError; with
+/// --compat it is reported and the text stays.
+std::string with_values(Session& session, const std::string& word);
+
+} // namespace tonetool::chain

@@ -1,0 +1,123 @@
+// Commands that make an image from images: one kernel each, run over subimages and MIP levels.
+#pragma once
+
+#include <OpenImageIO/imagebufalgo.h>
+#include <functional>
+
+#include "chain/images/windows.h"
+#include "chain/session/call.h"
+#include "chain/session/session.h"
+#include "text/error.h"
+
+namespace tonetool::chain {
+
+namespace IBA = OIIO::ImageBufAlgo;
+using files::Geometry;
+using files::parsed_size;
+using files::Size;
+using Floats = std::vector<float>;
+inline constexpr Range any_number_at_all{-3.4e38, 3.4e38};
+inline constexpr Range any_integer{-2147483648.0, 2147483647.0};
+
+/// What a kernel works on: one MIP level of one subimage of the images that were popped, with the
+/// arguments and modifiers as it needs them.
+struct Op {
+    Session& session;
+    const Call& call;
+    OIIO::ImageBuf& dst;
+    std::vector<const OIIO::ImageBuf*> src;
+    int subimage = 0;
+    bool unchanged = false; ///< set by a kernel that has nothing to do
+
+    const OIIO::ImageBuf& a() const { return *src.at(0); }
+    const OIIO::ImageBuf& b() const { return *src.at(1); }
+    const OIIO::ImageBuf& c() const { return *src.at(2); }
+
+    float number(size_t argument) const {
+        return float(call.number_argument(argument, any_number_at_all));
+    }
+    float number(const std::string& key, float otherwise) const {
+        return float(call.number(key, any_number_at_all).value_or(double(otherwise)));
+    }
+    int integer(size_t argument) const { return call.integer_argument(argument, any_integer); }
+    int integer(const std::string& key, int otherwise) const {
+        return call.integer(key, any_integer).value_or(otherwise);
+    }
+    bool flag(const std::string& key, bool otherwise = false) const {
+        return call.flag(key, otherwise);
+    }
+    std::string text(const std::string& key, const std::string& otherwise = "") const;
+    /// "V" for all channels, or "V,V,...", the rest of them `rest`.
+    Floats per_channel(const std::string& what, const std::string& list, float rest) const;
+    /// The same of so many values instead of one for each channel.
+    Floats per_value(const std::string& what, const std::string& list, float rest,
+                     size_t count) const;
+    Floats constants(float rest) const { return per_channel("VALUES", call.argument(0), rest); }
+    Floats values(const std::string& key, float rest) const;
+    /// Numbers with commas between them.
+    Floats list(const std::string& what, const std::string& words) const;
+};
+
+using Kernel = bool (*)(Op&);
+
+/// Which of an image's parts a command makes: without -a the first subimage only.
+enum class Scope { Largest, Levels };
+
+/// A command that pops some images and pushes the one that its kernel makes.
+struct OpRow {
+    const char* usage; ///< "resize GEOM"
+    int images;
+    std::string help;
+    Kernel kernel;
+    std::string modifiers = {};   ///< lines of "key=hint: help"
+    Scope scope = Scope::Largest; ///< Levels: with -a MIP levels stay
+    std::string operation = "-";  ///< as Call::operation; "-": the name with a dash
+};
+/// The same row with another Call::operation, "" if the image keeps its name.
+inline OpRow named(std::string operation, OpRow row) {
+    row.operation = std::move(operation);
+    return row;
+}
+std::vector<Command> op_rows(Group group, const std::vector<OpRow>& rows);
+
+/// A command that changes headers and no pixels.
+struct HeaderRow {
+    const char* usage;
+    const char* help;
+    void (*edit)(OIIO::ImageSpec&, const Call&, Session&);
+    std::string modifiers = {};
+};
+std::vector<Command> header_rows(Group group, const std::vector<HeaderRow>& rows);
+
+/// A command of any other kind, from "label NAME".
+Command free_row(Group group, const std::string& usage, int pops, int pushes,
+                 const std::string& help, Run run, const std::string& modifiers = {});
+
+/// The subimages that -a, allsubimages= and subimages= choose.
+struct Chosen {
+    size_t count = 1; ///< subimages of the result
+    std::vector<bool> active;
+};
+Chosen chosen_subimages(const Session& session, const Call& call, const Image& image);
+
+/// Runs a kernel over those subimages of call.images and pushes the result.
+void run_kernel(Session& session, const Call& call, const Kernel& kernel, Scope scope);
+
+/// The image with other headers.
+ImagePtr with_headers(const Image& image, const Chosen& chosen,
+                      const std::function<void(OIIO::ImageSpec&)>& edit);
+
+/// files::adjust_window for the command. False where --compat let something pass.
+bool adjust_window(Session& session, const Call& call, const std::string& text, Geometry allowed,
+                   OIIO::ROI& window);
+
+/// Takes that many images from the stack (0: all there are), the deepest first.
+std::vector<ImagePtr> take_images(Session& session, size_t count);
+
+/// --noise and --pattern noise: onto the pixels of dst.
+bool add_noise(Op& op, bool to_blank);
+std::string noise_modifiers();
+
+void append(std::vector<Command>& all, std::vector<Command> more);
+
+} // namespace tonetool::chain

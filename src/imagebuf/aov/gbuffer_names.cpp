@@ -1,0 +1,197 @@
+// Which layers of an image are the guides, by the names renderers give them.
+#include <OpenImageIO/strutil.h>
+#include <algorithm>
+
+#include "imagebuf/aov/aov_layers.h"
+#include "imagebuf/aov/gbuffer.h"
+#include "imagebuf/pixels/names.h"
+
+namespace tonetool {
+namespace {
+
+using OIIO::ImageSpec;
+using OIIO::Strutil::starts_with;
+using Layers = std::vector<const AovLayer*>;
+
+enum Guide { Position, Normal, Albedo, Depth, kGuides };
+constexpr const char* kGuideNames[kGuides] = {"position", "normal", "albedo", "depth"};
+
+constexpr AovKind kKinds[kGuides] = {AovKind::Position, AovKind::Normal, AovKind::Albedo,
+                                     AovKind::Depth};
+constexpr int kWeakRank = 100, kNoRank = 1000;
+
+bool is_vray(const ImageSpec& spec, const std::vector<AovLayer>& layers) {
+    const auto says_so = [](const OIIO::ParamValue& p) {
+        return starts_with(lower_case(p.name().string()), "vray");
+    };
+    const auto is_named_so = [](const AovLayer& l) {
+        return starts_with(l.pass, "vray") || starts_with(l.pass, "lightselect");
+    };
+    const std::string software = plain_word(spec.get_string_attribute("Software"));
+    return software.find("vray") != std::string::npos ||
+           std::any_of(spec.extra_attribs.begin(), spec.extra_attribs.end(), says_so) ||
+           std::any_of(layers.begin(), layers.end(), is_named_so);
+}
+
+bool usable(Guide guide, const AovLayer& layer) {
+    return guide == Depth ? layer.scalar() >= 0 : layer.triple() != nullptr;
+}
+
+// 0 for the best name, kNoRank for none of this guide.
+int rank_of(Guide guide, const AovLayer& layer, bool vray) {
+    const bool plain_z = guide == Depth && layer.plain && layer.has_lone_z();
+    const std::string pass = plain_z ? "z" : bare_pass(layer.pass);
+    if (!usable(guide, layer) || (guide == Albedo && pass == "diffuse" && !vray))
+        return kNoRank;
+    const auto& passes = guide_passes(kKinds[guide]);
+    const auto at = std::find(passes.begin(), passes.end(), pass);
+    if (at != passes.end())
+        return int(at - passes.begin());
+    // A Z among the colours of a picture, and Mitsuba's distance, which the user named.
+    const bool beside_color = layer.has_rgb() && layer.has_lone_z();
+    return guide == Depth && (beside_color || layer.t >= 0) ? kWeakRank : kNoRank;
+}
+
+// How a layer is called in texts: the plain Z of an image by its channel.
+std::string shown(Guide guide, const AovLayer& layer, const ImageSpec& spec) {
+    if (layer.plain && guide == Depth)
+        return std::string(spec.channel_name(layer.scalar()));
+    return layer.name.empty() ? "R,G,B" : layer.name;
+}
+
+struct Finder {
+    const ImageSpec& spec;
+    std::vector<AovLayer> layers;
+    bool vray = false;
+    std::string home;
+
+    std::string show(Guide guide, const Layers& list) const {
+        std::vector<std::string> names;
+        for (const AovLayer* layer : list)
+            names.push_back(shown(guide, *layer, spec));
+        return OIIO::Strutil::join(names, ", ");
+    }
+
+    Layers best(Guide guide, const std::string& of_home) const {
+        Layers out;
+        int lowest = kNoRank;
+        for (const AovLayer& layer : layers) {
+            const int rank = layer.home == of_home ? rank_of(guide, layer, vray) : kNoRank;
+            if (rank < lowest)
+                out.clear();
+            lowest = std::min(lowest, rank);
+            if (rank == lowest && rank < kNoRank)
+                out.push_back(&layer);
+        }
+        return out;
+    }
+
+    int guides_of(const std::string& of_home) const {
+        int count = 0;
+        for (int guide = 0; guide < kGuides; ++guide)
+            count += !best(Guide(guide), of_home).empty();
+        return count;
+    }
+
+    void find_home(const GuideOptions& options, std::vector<std::string>& notes);
+    bool named(Guide guide, const std::string& name, const AovLayer*& found,
+               std::string& error) const;
+};
+
+// Guides of another view layer are of another geometry: all come from one. The picture's is the
+// one; without guides there, that with the most of them.
+void Finder::find_home(const GuideOptions& options, std::vector<std::string>& notes) {
+    const bool plain_picture = std::any_of(
+        layers.begin(), layers.end(), [](const AovLayer& l) { return l.plain && l.has_rgb(); });
+    home = split_layer(options.beauty).home;
+    if ((!options.beauty.empty() || plain_picture) && guides_of(home) > 0)
+        return;
+    std::vector<std::string> homes;
+    for (const AovLayer& layer : layers)
+        if (guides_of(layer.home) > 0 &&
+            std::find(homes.begin(), homes.end(), layer.home) == homes.end())
+            homes.push_back(layer.home);
+    if (homes.empty())
+        return;
+    home = *std::max_element(homes.begin(), homes.end(), [&](const auto& a, const auto& b) {
+        return guides_of(a) < guides_of(b);
+    });
+    if (homes.size() > 1)
+        notes.push_back(std::to_string(homes.size()) + " view layers have guides; those of \"" +
+                        home + "\" are taken");
+}
+
+// A layer by its full name, in any case, or by its last part.
+bool Finder::named(Guide guide, const std::string& name, const AovLayer*& found,
+                   std::string& error) const {
+    Layers exact, any_case, by_pass, at_home;
+    std::vector<std::string> valid;
+    for (const AovLayer& layer : layers) {
+        if (!usable(guide, layer))
+            continue;
+        const std::string full = shown(guide, layer, spec);
+        valid.push_back(full);
+        if (full == name)
+            exact.push_back(&layer);
+        if (lower_case(full) == lower_case(name))
+            any_case.push_back(&layer);
+        if (!layer.pass.empty() && layer.pass == plain_word(name))
+            by_pass.push_back(&layer);
+    }
+    const Layers& all = !exact.empty() ? exact : !any_case.empty() ? any_case : by_pass;
+    std::copy_if(all.begin(), all.end(), std::back_inserter(at_home),
+                 [&](const AovLayer* layer) { return layer->home == home; });
+    const Layers& list = all.size() > 1 && !at_home.empty() ? at_home : all;
+    if (list.empty())
+        error = unknown_name(std::string(kGuideNames[guide]) + " layer", name, valid);
+    else if (list.size() > 1)
+        error = std::string(kGuideNames[guide]) + " layer \"" + name + "\" could be one of " +
+                show(guide, list) + "; pass one of them";
+    else
+        found = list[0];
+    return found != nullptr;
+}
+
+GuideChannels channels_of(Guide guide, const AovLayer& layer, const ImageSpec& spec) {
+    GuideChannels out;
+    out.layer = shown(guide, layer, spec);
+    if (guide == Depth)
+        out.channel[0] = layer.scalar();
+    else
+        std::copy_n(layer.triple(), 3, out.channel);
+    return out;
+}
+
+} // namespace
+
+bool find_gbuffer(const ImageSpec& spec, const GuideOptions& options, GBufferNames& names,
+                  std::string& error) {
+    names = {};
+    Finder finder{spec, aov_layers(spec), false, ""};
+    finder.vray = is_vray(spec, finder.layers);
+    finder.find_home(options, names.notes);
+    const std::string* wanted[kGuides] = {&options.position, &options.normal, &options.albedo,
+                                          &options.depth};
+    std::optional<GuideChannels>* out[kGuides] = {&names.position, &names.normal, &names.albedo,
+                                                  &names.depth};
+    for (int i = 0; i < kGuides; ++i) {
+        const auto guide = Guide(i);
+        const AovLayer* found = nullptr;
+        if (*wanted[i] == "none")
+            continue;
+        if (!wanted[i]->empty()) {
+            if (!finder.named(guide, *wanted[i], found, error))
+                return false;
+        } else if (const Layers best = finder.best(guide, finder.home); !best.empty()) {
+            found = best[0];
+            if (best.size() > 1)
+                names.notes.push_back(std::string(kGuideNames[i]) + " could be one of " +
+                                      finder.show(guide, best) + "; the first is taken");
+        }
+        if (found)
+            *out[i] = channels_of(guide, *found, spec);
+    }
+    return true;
+}
+
+} // namespace tonetool

@@ -1,0 +1,92 @@
+// From the rows of an ImageBuf to planes of colour.
+#pragma once
+
+#include <OpenImageIO/imagebuf.h>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "imagebuf/pixels/colorimetry.h"
+#include "imagebuf/pixels/planes.h"
+#include "imagebuf/pixels/row_source.h"
+#include "tonetool/pixels.h"
+
+namespace tonetool {
+
+/// Reads the colour of a region band by band. Pixels outside the data window are black (alpha 0).
+/// Non-finite pixels become black and are marked, negative components become 0 and are counted.
+class ColorReader {
+public:
+    /// Alpha, where it is not asked for, is told from another by ColorCounts::alpha_digest; before
+    /// open().
+    void watch_alpha() { m_watch = true; }
+    /// Looks at the header only. The image must live as long as this does.
+    bool open(const OIIO::ImageBuf& image, const PixelOptions& options, OIIO::ROI region,
+              bool want_alpha, int nthreads, std::string& error);
+
+    const ColorChoice& choice() const { return m_choice; }
+    const OIIO::ROI& window() const { return m_window; }
+    /// Bytes that one row of the region takes in the planes.
+    size_t row_bytes() const;
+    /// Read in small steps and hold nothing in between.
+    void be_frugal() { m_frugal = true; }
+    /// What reading so holds beside the planes while it reads, by estimate, and in between.
+    size_t frugal_bytes() const;
+    size_t kept_bytes() const { return m_source.kept_bytes(); }
+
+    /// Planes that hold no row yet.
+    ColorPlanes planes() const;
+    /// Makes `planes` hold these rows: those that it has stay, the others are read.
+    bool read(int begin, int end, ColorPlanes& planes, std::string& error);
+
+private:
+    // Rows as they come from the source, one buffer per run of channels.
+    struct Stage {
+        int begin = 0;
+        std::vector<std::vector<float>> runs;
+    };
+
+    // A row of the planes.
+    struct Row {
+        float* plane[3];
+        float* alpha; ///< may be null
+        uint8_t* nonfinite;
+        uint64_t* beside;
+        size_t place; ///< of its first pixel in the region
+        void blacken(size_t from, size_t to) const;
+    };
+
+    bool fill(int begin, int end, ColorPlanes& planes, std::string& error);
+    bool fill_from_file(int begin, int end, ColorPlanes& planes, std::string& error);
+    bool fetch(int begin, int end, Stage& stage, std::string& error);
+    void clean_row(int y, const Stage& stage, ColorPlanes& planes, ColorCounts& counts) const;
+    void clean(const Row& row, size_t from, size_t to, int y, const Stage& stage,
+               ColorCounts& counts) const;
+    void clean_pixel(const Row& row, size_t x, const float (&stored)[3], const float* alpha,
+                     const float* converted, ColorCounts& counts) const;
+    std::vector<float> convert(const float* const (&in)[3], const size_t (&step)[3],
+                               size_t count) const;
+    const float* staged(const Stage& stage, int y, size_t which) const;
+    size_t step_bytes() const;
+
+    struct Place {
+        size_t run = 0;
+        int channel = 0, stride = 0; ///< within the run; stride 0: there is no such channel
+    };
+
+    RowSource m_source;
+    ColorChoice m_choice;
+    ColorSpace m_space;
+    OIIO::ROI m_region, m_window;
+    bool m_alpha = false, m_watch = false, m_frugal = false;
+    int m_nthreads = 0;
+    int64_t m_uncovered = 0;
+    Place m_place[4];
+    Stage m_stage;
+};
+
+/// The whole region at once.
+bool read_planes(const OIIO::ImageBuf& image, const PixelOptions& options, OIIO::ROI region,
+                 bool want_alpha, int nthreads, ColorPlanes& out, std::string& error);
+
+} // namespace tonetool

@@ -1,0 +1,29 @@
+// A tone curve of the public options as the numbers that kernels run on.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "kernels/curve.h"
+#include "tonetool/tonemap.h"
+
+namespace tonetool {
+
+struct CurvePlan {
+    std::string name; ///< of the registry, or "coeffs"
+    std::map<std::string, double> parameters;
+    std::string on; ///< "rgb", "luminance" or "color"
+    kernels::CurveNumbers numbers;
+    kernels::CurveUse use;
+    std::vector<double> coeffs() const; ///< six, or none
+};
+
+/// With HDR-FLIP's defaults if `flip`. Each name and value is checked here, once.
+bool plan_curve(const CurveOptions& options, bool flip, CurvePlan& plan, std::string& error);
+
+/// Whether a curve of the registry has a parameter of that name.
+bool has_parameter(const CurveOptions& options, const std::string& name);
+
+} // namespace tonetool

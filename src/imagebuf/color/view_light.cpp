@@ -1,0 +1,215 @@
+// Display light of a view: what its code values shine on the display, in Rec.709.
+#include "imagebuf/color/view_light.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "imagebuf/color/view_config.h"
+#include "imagebuf/pixels/colorimetry.h"
+#include "imagebuf/pixels/guard.h"
+
+namespace tonetool {
+namespace {
+
+using OIIO::Strutil::fmt::format;
+
+constexpr ptrdiff_t kPixelsAtOnce = 512;
+// Display light of code value 1, above which a display is of high dynamic range: SDR is 1, HLG 10,
+// PQ 100. OpenColorIO's displays have a luminance of 1 for 100 cd/m2.
+constexpr double kSdrLight = 1.5, kReferenceWhite = 100;
+constexpr double kLeastPeak = 1, kMostPeak = 10000;
+constexpr const char* kReference = "tonetool display reference";
+constexpr const char* kEncodings[] = {"srgb", "rec1886", "gamma2.2", "gamma2.6", "linear"};
+
+std::string encodings() {
+    return OIIO::Strutil::join(
+        std::vector<std::string>(std::begin(kEncodings), std::end(kEncodings)), ", ");
+}
+
+ocio::TransformRcPtr power(double exponent) {
+    const auto transform = ocio::ExponentTransform::Create();
+    const double values[4] = {exponent, exponent, exponent, 1};
+    transform->setValue(values);
+    transform->setNegativeStyle(ocio::NEGATIVE_MIRROR);
+    return transform;
+}
+
+ocio::TransformRcPtr srgb_decoding() {
+    const auto transform = ocio::ExponentWithLinearTransform::Create();
+    const double gamma[4] = {2.4, 2.4, 2.4, 1}, offset[4] = {0.055, 0.055, 0.055, 0};
+    transform->setGamma(gamma);
+    transform->setOffset(offset);
+    return transform;
+}
+
+// Code values to Rec.709 light; null for an unknown name.
+ocio::TransformRcPtr decoding(const std::string& encoding) {
+    if (encoding == "srgb")
+        return srgb_decoding();
+    if (encoding == "linear")
+        return ocio::MatrixTransform::Create();
+    return encoding == "rec1886"    ? power(2.4)
+           : encoding == "gamma2.2" ? power(2.2)
+           : encoding == "gamma2.6" ? power(2.6)
+                                    : nullptr;
+}
+
+// From the display's code values to its reference, XYZ with D65 white.
+ocio::TransformRcPtr to_display_reference(ChosenView& chosen) {
+    const auto role = known_space(chosen, ocio::ROLE_INTERCHANGE_DISPLAY);
+    const bool known = role && role->getReferenceSpaceType() == ocio::REFERENCE_SPACE_DISPLAY;
+    if (!known) {
+        const auto space = ocio::ColorSpace::Create(ocio::REFERENCE_SPACE_DISPLAY);
+        space->setName(kReference);
+        const ocio::ConfigRcPtr config = chosen.config->createEditableCopy();
+        config->addColorSpace(space);
+        chosen.config = config;
+    }
+    const auto transform = ocio::ColorSpaceTransform::Create();
+    transform->setSrc(chosen.space.c_str());
+    transform->setDst(known ? role->getName() : kReference);
+    return transform;
+}
+
+bool check_peak(const ChosenView& chosen, const ocio::TransformRcPtr& to_reference,
+                std::string& error) {
+    ocio::ConstCPUProcessorRcPtr processor;
+    if (!make_processor(chosen, to_reference, processor, error))
+        return false;
+    float white[3] = {1, 1, 1};
+    processor->applyRGB(white);
+    if (white[1] > 0 && double(white[1]) <= kSdrLight)
+        return true;
+    error = format("display \"{}\" is of high dynamic range: its code value 1 is light of {:.5g} "
+                   "cd/m2, and HDR-FLIP compares light up to a white; pass peak=, the cd/m2 that "
+                   "count as 1 ({} to {}; 100 is the white of an SDR view), or choose an SDR view",
+                   chosen.display, double(white[1]) * kReferenceWhite, kLeastPeak, kMostPeak);
+    return false;
+}
+
+// Appends what turns the view's code values into light.
+bool add_display(const DisplayLightOptions& options, ChosenView& chosen,
+                 const ocio::GroupTransformRcPtr& group, std::string& error) {
+    const double scale = options.peak ? kReferenceWhite / *options.peak : 1;
+    if (!options.encoding.empty()) {
+        const auto decode = decoding(options.encoding);
+        if (!decode) {
+            error = "unknown encoding \"" + options.encoding + "\"; valid: " + encodings();
+            return false;
+        }
+        group->appendTransform(decode);
+        const Matrix3 same{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
+        group->appendTransform(matrix_transform(same, scale));
+        return true;
+    }
+    if (!chosen.display_space) {
+        error = format("view \"{}\" of display \"{}\" ends in \"{}\", a scene-referred colour "
+                       "space, which does not say what light its code values are; pass encoding= "
+                       "one of: {}",
+                       chosen.view, chosen.display, chosen.space, encodings());
+        return false;
+    }
+    const auto to_reference = to_display_reference(chosen);
+    if (!options.peak && !check_peak(chosen, to_reference, error))
+        return false;
+    group->appendTransform(to_reference);
+    group->appendTransform(matrix_transform(xyz_to_rec709(), scale));
+    return true;
+}
+
+// Appends the view, from linear Rec.709.
+bool add_view(const ChosenView& chosen, const std::string& from,
+              const ocio::GroupTransformRcPtr& group, std::string& error) {
+    const SceneBridge bridge = find_bridge(chosen, from);
+    if (bridge.space.empty()) {
+        error =
+            format("configuration \"{}\" does not say which space is linear Rec.709: it needs a "
+                   "scene-referred colour space with one of the names or aliases {}, or the "
+                   "role {} (ACES2065-1) or {}; or pass from=, one of its spaces: {}",
+                   chosen.file, OIIO::Strutil::join(interchange_names("rec709"), ", "),
+                   ocio::ROLE_INTERCHANGE_SCENE, ocio::ROLE_INTERCHANGE_DISPLAY,
+                   OIIO::Strutil::join(scene_spaces(chosen), ", "));
+        return false;
+    }
+    const auto to_bridge = matrix_transform(bridge.to_rec709, 1);
+    to_bridge->setDirection(ocio::TRANSFORM_DIR_INVERSE);
+    group->appendTransform(to_bridge);
+    group->appendTransform(
+        std::const_pointer_cast<ocio::Transform>(through_view(chosen, bridge.space)));
+    return true;
+}
+
+bool make_light(const DisplayLightOptions& options, ChosenView& chosen,
+                ocio::ConstCPUProcessorRcPtr& processor, std::string& error) {
+    if (options.peak && !(*options.peak >= kLeastPeak && *options.peak <= kMostPeak)) {
+        error = format("peak is {}: must be {} to {} cd/m2", *options.peak, kLeastPeak, kMostPeak);
+        return false;
+    }
+    const auto group = ocio::GroupTransform::Create();
+    return choose_view(options.view, chosen, error) &&
+           add_view(chosen, options.from, group, error) &&
+           add_display(options, chosen, group, error) &&
+           make_processor(chosen, group, processor, error);
+}
+
+} // namespace
+
+void DisplayLight::State::light(float* rgb, ptrdiff_t count) const {
+    if (count <= 0)
+        return;
+    ocio::PackedImageDesc pixels(rgb, long(count), 1, 3);
+    processor->apply(pixels);
+}
+
+bool DisplayLight::open(const DisplayLightOptions& options, std::string& error) {
+    return contained(error, [&](std::string& why) {
+        const QuietOcio quiet;
+        ChosenView chosen;
+        const auto state = std::make_shared<State>();
+        if (!make_light(options, chosen, state->processor, why))
+            return false;
+        state->name = chosen.display + "/" + chosen.view;
+        m_state = state;
+        return true;
+    });
+}
+
+std::string DisplayLight::name() const {
+    return m_state->name;
+}
+
+LightSource DisplayLight::source() const {
+    return [state = m_state](float* rgb, ptrdiff_t count) { state->light(rgb, count); };
+}
+
+kernels::ToneRows DisplayLight::exact() const {
+    return [state = m_state](const float* const in[3], float* const out[3], ptrdiff_t count,
+                             float scale) {
+        float rgb[3 * kPixelsAtOnce];
+        for (ptrdiff_t start = 0; start < count; start += kPixelsAtOnce) {
+            const ptrdiff_t n = std::min(kPixelsAtOnce, count - start);
+            for (ptrdiff_t i = 0; i < n; ++i)
+                for (ptrdiff_t c = 0; c < 3; ++c)
+                    rgb[3 * i + c] = std::min(in[c][start + i] * scale, kernels::kLargestExposed);
+            state->light(rgb, n);
+            // NaN becomes 0.
+            for (ptrdiff_t i = 0; i < n; ++i)
+                for (ptrdiff_t c = 0; c < 3; ++c)
+                    out[c][start + i] = rgb[3 * i + c] > 0 ? std::min(rgb[3 * i + c], 1.0f) : 0.0f;
+        }
+    };
+}
+
+std::vector<double> DisplayLight::greys(const std::vector<double>& values) const {
+    std::vector<float> rgb(3 * values.size());
+    for (size_t i = 0; i < rgb.size(); ++i)
+        rgb[i] = float(std::min(values[i / 3], double(kernels::kLargestExposed)));
+    m_state->light(rgb.data(), ptrdiff_t(values.size()));
+    std::vector<double> out(values.size());
+    for (size_t i = 0; i < values.size(); ++i)
+        for (size_t c = 0; c < 3; ++c)
+            out[i] += kernels::kLuminance[c] * double(rgb[3 * i + c]);
+    return out;
+}
+
+} // namespace tonetool

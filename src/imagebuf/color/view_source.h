@@ -1,0 +1,14 @@
+// Colour spaces of OpenColorIO configurations as what images are stored in.
+#pragma once
+
+#include <string>
+
+#include "imagebuf/pixels/colorimetry.h"
+#include "tonetool/pixels.h"
+
+namespace tonetool {
+
+/// The space that `options.from` names in the configuration `options.config`, to linear Rec.709.
+bool config_space(const PixelOptions& options, ColorSpace& space, std::string& error);
+
+} // namespace tonetool

@@ -1,0 +1,120 @@
+// The public functions of include/tonetool/errors.h.
+#include "tonetool/errors.h"
+
+#include <OpenImageIO/strutil.h>
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "imagebuf/compare/annotate.h"
+#include "imagebuf/compare/flip_run.h"
+#include "imagebuf/pixels/deliver.h"
+#include "imagebuf/pixels/guard.h"
+
+namespace tonetool {
+namespace {
+
+using metrics::ErrorKind;
+using OIIO::ImageBuf;
+using OIIO::ROI;
+using OIIO::Strutil::fmt::format;
+
+struct Metric {
+    const char* name;
+    ErrorKind kind;
+    bool eps, decibels;
+};
+
+constexpr Metric kMetrics[] = {{"smape", ErrorKind::Symmetric, true, false},
+                               {"rmae", ErrorKind::RelativeAbsolute, true, false},
+                               {"relmse", ErrorKind::RelativeSquared, true, false},
+                               {"mse", ErrorKind::Squared, false, false},
+                               {"mae", ErrorKind::Absolute, false, false},
+                               {"psnr", ErrorKind::Squared, false, true},
+                               {"mpsnr", ErrorKind::Exposed, false, true}};
+
+const Metric* find_metric(const std::string& name, std::string& error) {
+    for (const Metric& metric : kMetrics)
+        if (name == metric.name)
+            return &metric;
+    error = "unknown metric \"" + name +
+            "\"; valid: " + OIIO::Strutil::join(ToneAlgo::error_metrics(), ", ");
+    return nullptr;
+}
+
+// Beyond these the squares leave what a double tells apart.
+bool check_range(double value, const char* name, std::string& error) {
+    constexpr double low = 1e-12, high = 1e12;
+    if (value >= low && value <= high)
+        return true;
+    error = format("{} is {}: must be {} to {}", name, value, low, high);
+    return false;
+}
+
+ErrorSummary summarize(const Metric& metric, const ErrorOptions& options, FlipSummary&& found) {
+    ErrorSummary s;
+    static_cast<PairSummary&>(s) = std::move(static_cast<PairSummary&>(found));
+    s.metric = metric.name;
+    s.eps = metric.eps ? options.eps : 0;
+    s.decibels = metric.decibels;
+    if (metric.kind == ErrorKind::Exposed) {
+        s.exposures = std::move(found.exposures);
+        s.max_luminance = found.max_luminance;
+        s.median_luminance = found.median_luminance;
+        s.median_of_lit = found.median_of_lit;
+    } else if (metric.decibels) {
+        s.peak = options.peak;
+    }
+    const double largest = s.peak > 0 ? s.peak : 1;
+    s.value = metric.decibels ? 10 * std::log10(largest * largest / s.pool.mean) : s.pool.mean;
+    return s;
+}
+
+bool measure(ImageBuf& dst, const ImageBuf& reference, const ImageBuf& test,
+             const ErrorOptions& options, ErrorSummary* summary, ROI roi, int nthreads,
+             std::string& error) {
+    const Metric* metric = find_metric(options.metric, error);
+    FlipPlan plan;
+    std::vector<ImageBuf> maps;
+    std::vector<FlipResult> results;
+    if (!metric || !check_range(options.eps, "eps", error) ||
+        !check_range(options.peak, "peak", error) ||
+        !plan_errors(options, {metric->kind, options.eps}, metric->kind == ErrorKind::Exposed, plan,
+                     error) ||
+        !run_flip(plan, reference, {&test}, {&dst}, roi, nthreads, maps, results, error))
+        return false;
+    ErrorSummary found = summarize(*metric, options, std::move(results[0].summary));
+    annotate(maps[0].specmod(), found);
+    deliver(dst, std::move(maps[0]), "Error:");
+    if (summary)
+        *summary = std::move(found);
+    return true;
+}
+
+} // namespace
+
+namespace ToneAlgo {
+
+bool error_map(ImageBuf& dst, const ImageBuf& reference, const ImageBuf& test,
+               const ErrorOptions& options, ErrorSummary* summary, ROI roi, int nthreads) {
+    return guarded(dst, "error_map", [&](std::string& error) {
+        return measure(dst, reference, test, options, summary, roi, nthreads, error);
+    });
+}
+
+ImageBuf error_map(const ImageBuf& reference, const ImageBuf& test, const ErrorOptions& options,
+                   ErrorSummary* summary, ROI roi, int nthreads) {
+    ImageBuf dst;
+    error_map(dst, reference, test, options, summary, roi, nthreads);
+    return dst;
+}
+
+std::vector<std::string> error_metrics() {
+    std::vector<std::string> names;
+    for (const Metric& metric : kMetrics)
+        names.emplace_back(metric.name);
+    return names;
+}
+
+} // namespace ToneAlgo
+} // namespace tonetool

@@ -1,0 +1,353 @@
+#include "imagebuf/compare/pair.h"
+
+#include <Imath/half.h>
+#include <OpenImageIO/imagebufalgo.h>
+#include <OpenImageIO/strutil.h>
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <limits>
+
+#include "imagebuf/aov/color_names.h"
+#include "imagebuf/pixels/allocation.h"
+#include "imagebuf/pixels/bands.h"
+#include "imagebuf/pixels/names.h"
+#include "imagebuf/pixels/oiio_compat.h"
+#include "imagebuf/pixels/upright.h"
+
+namespace tonetool {
+namespace {
+
+using OIIO::ImageBuf;
+using OIIO::ROI;
+namespace IBA = OIIO::ImageBufAlgo;
+
+std::string window_text(const ROI& r) {
+    return OIIO::Strutil::fmt::format("{}x{}{:+}{:+}", r.width(), r.height(), r.xbegin, r.ybegin);
+}
+
+// Of a region that is compared at once: 32 times an 8K frame.
+constexpr double kMostPixels = 1 << 30;
+
+// A tag that stretches the picture on a screen, but not its pixels.
+std::vector<std::string> differing_tags(const OIIO::ImageSpec& reference,
+                                        const OIIO::ImageSpec& test) {
+    const char* const tag = "PixelAspectRatio";
+    const float r = reference.get_float_attribute(tag, 1), t = test.get_float_attribute(tag, 1);
+    if (r == t)
+        return {};
+    return {OIIO::Strutil::fmt::format(
+        "{} is {} in the reference and {} in the test: compared as stored", tag, r, t)};
+}
+
+std::string last_word(const std::string& layer) {
+    return lower_case(layer.substr(layer.rfind('.') + 1));
+}
+
+// Whether two layers are the same by their names: renderers have their own for the beauty.
+bool alike(const std::string& a, const std::string& b) {
+    const auto beauty = [](const std::string& name) {
+        return name.empty() || is_beauty_name(name);
+    };
+    return last_word(a) == last_word(b) || (beauty(a) && beauty(b));
+}
+
+std::string layer_text(const std::string& layer) {
+    return layer.empty() ? "R,G,B" : layer;
+}
+
+// The planes as an image of R, G, B (and A): linear Rec.709, NaN where they are not finite.
+ImageBuf interleaved(const ColorPlanes& planes, const ROI& full) {
+    const bool alpha = !planes.alpha.empty();
+    const size_t channels = alpha ? 4 : 3;
+    OIIO::ImageSpec spec(planes.width(), planes.region.height(), int(channels), OIIO::TypeFloat);
+    spec.x = planes.region.xbegin;
+    spec.y = planes.region.ybegin;
+    ImageBuf image = allocated_image(spec);
+    image.set_roi_full(full);
+    auto* pixels = static_cast<float*>(image.localpixels());
+    for (size_t i = 0; i < planes.nonfinite.size(); ++i) {
+        for (size_t p = 0; p < 3; ++p)
+            pixels[i * channels + p] =
+                planes.nonfinite[i] ? std::numeric_limits<float>::quiet_NaN() : planes.plane[p][i];
+        if (alpha)
+            pixels[i * channels + 3] = planes.alpha[i];
+    }
+    return image;
+}
+
+int64_t pixels_of(const ColorPlanes& planes) {
+    return int64_t(planes.width()) * planes.region.height();
+}
+
+// What resizing holds at most: planes and image, or images with and without holes before and after.
+uint64_t resize_bytes(const ROI& from, const ROI& to, bool alpha) {
+    const auto pixels = [](const ROI& r) { return uint64_t(r.width()) * uint64_t(r.height()); };
+    const uint64_t pixel = (alpha ? 4 : 3) * sizeof(float);
+    return std::max(pixels(from) * (2 * pixel + 1), 2 * pixel * (pixels(from) + pixels(to)));
+}
+
+// The finite components beside those that are not (ColorPlanes::beside): two floats, or a hash.
+bool same_numbers(uint64_t a, uint64_t b) {
+    if (a == b)
+        return true;
+    const auto same = [](uint64_t x, uint64_t y) {
+        const auto bits_x = uint32_t(x), bits_y = uint32_t(y);
+        float v = 0, w = 0;
+        std::memcpy(&v, &bits_x, sizeof v);
+        std::memcpy(&w, &bits_y, sizeof w);
+        return v == w || float(Imath::half(v)) == w || v == float(Imath::half(w));
+    };
+    return same(a >> 32, b >> 32) && same(a, b);
+}
+
+bool resize_fits(const ROI& from, const ROI& to, const PairOptions& options, std::string& error) {
+    const uint64_t least = kSetAside + resize_bytes(from, to, options.alpha == AlphaPolicy::Error);
+    if (options.memory == 0 || least <= options.memory)
+        return true;
+    error = "memory is " + size_text(options.memory) +
+            ": resizing takes the whole test image, which needs at least " + size_text(least);
+    return false;
+}
+
+} // namespace
+
+ROI plane_of(ROI r) {
+    r.zbegin = 0;
+    r.zend = 1;
+    r.chbegin = 0;
+    r.chend = 1;
+    return r;
+}
+
+bool same_window(const ROI& a, const ROI& b) {
+    return a.xbegin == b.xbegin && a.xend == b.xend && a.ybegin == b.ybegin && a.yend == b.yend;
+}
+
+bool check_orientation(const ImageBuf& reference, const ImageBuf& test, std::string& error) {
+    const int r = orientation_of(reference.spec()), t = orientation_of(test.spec());
+    if (r == t)
+        return true;
+    error = OIIO::Strutil::fmt::format(
+        "the Orientation of the reference is {}, that of the test {}: the pictures are not turned "
+        "alike; turn them upright first (--autoorient before the files, --reorient behind one, or "
+        "ImageBufAlgo::reorient)",
+        r, t);
+    return false;
+}
+
+bool compared_region(const ImageBuf& reference, const ImageBuf& test, SizePolicy size, ROI& region,
+                     std::string& error) {
+    const ROI ref_full = reference.roi_full(), test_full = test.roi_full();
+    if (size != SizePolicy::Crop && !same_window(ref_full, test_full)) {
+        error = "the reference's display window is " + window_text(ref_full) + ", the test's " +
+                window_text(test_full) + "; they must be the same, or ask for resize= or crop=";
+        return false;
+    }
+    region = plane_of(OIIO::roi_union(reference.roi(), test.roi()));
+    if (size == SizePolicy::Crop) {
+        region = OIIO::roi_intersection(region, plane_of(ref_full));
+        region = OIIO::roi_intersection(region, plane_of(test_full));
+    }
+    if (region.xbegin >= region.xend || region.ybegin >= region.yend) {
+        error = "nothing to compare: the display windows " + window_text(ref_full) + " and " +
+                window_text(test_full) + " do not overlap";
+        return false;
+    }
+    // In double: corrupt windows overflow everything else.
+    const double pixels =
+        (double(region.xend) - region.xbegin) * (double(region.yend) - region.ybegin);
+    if (pixels <= kMostPixels)
+        return true;
+    error = OIIO::Strutil::fmt::format("the union of the data windows has {} pixels, more than {}; "
+                                       "crop=1 compares the display window only",
+                                       pixels, kMostPixels);
+    return false;
+}
+
+bool FittedTest::open(const ImageBuf& reference, const ImageBuf& test, const PairOptions& options,
+                      int nthreads, std::string& error) {
+    if (!check_readable(reference, "reference", error) || !check_readable(test, "test", error))
+        return false;
+    m_test = m_came = &test;
+    m_pixels = options.pixels;
+    ColorChoice of_reference;
+    for (const ImageBuf* image : {&reference, &test}) {
+        of_reference = m_choice;
+        if (!ToneAlgo::find_color(deciding_spec(*image), options.pixels, m_choice, error)) {
+            error = side_name(image == &test ? "test" : "reference", *image) + error;
+            return false;
+        }
+    }
+    // One that lost its other channels would pass where colours are pale.
+    if (of_reference.grey() != m_choice.grey()) {
+        const bool lost = m_choice.grey();
+        error =
+            side_name(lost ? "test" : "reference", lost ? test : reference) +
+            "has one channel, the other image has R,G,B: a grey picture is compared with a grey "
+            "one (--ch Y,Y,Y makes three channels of it)";
+        return false;
+    }
+    if (!check_orientation(reference, test, error))
+        return false;
+    m_notes = differing_tags(reference.spec(), test.spec());
+    if (!alike(of_reference.layer, m_choice.layer))
+        m_notes.push_back("the layer of the reference is " + layer_text(of_reference.layer) +
+                          ", that of the test " + layer_text(m_choice.layer));
+    const ROI window = reference.roi_full();
+    if (options.size == SizePolicy::Resize && !same_window(window, test.roi_full()) &&
+        !resize(window, options, nthreads, error))
+        return false;
+    if (!compared_region(reference, *m_test, options.size, m_region, error))
+        return false;
+    note_cropped(window);
+    return true;
+}
+
+// A crop is asked for, but hardly one that leaves most of the picture out.
+void FittedTest::note_cropped(const ROI& window) {
+    const double compared = double(m_region.width()) * m_region.height();
+    const double whole = double(window.width()) * window.height();
+    if (compared < whole / 2)
+        m_notes.push_back(OIIO::Strutil::fmt::format(
+            "only {} of the {} pixels of the reference's display window are compared", compared,
+            whole));
+}
+
+// Only what is compared, in linear light and without its non-finite pixels, which stay what they
+// are where they were instead of spreading through the filter.
+bool FittedTest::resize(const ROI& window, const PairOptions& options, int nthreads,
+                        std::string& error) {
+    const bool alpha = options.alpha == AlphaPolicy::Error;
+    ColorReader reader;
+    if (!resize_fits(m_test->roi(), window, options, error))
+        return false;
+    if (!reader.open(*m_test, m_pixels, plane_of(m_test->roi()), alpha, nthreads, error)) {
+        error = with_side(name(), error);
+        return false;
+    }
+    if (options.memory > 0)
+        reader.be_frugal();
+    ColorPlanes planes = reader.planes();
+    if (!reader.read(planes.region.ybegin, planes.region.yend, planes, error)) {
+        error = with_side(name(), error);
+        return false;
+    }
+    if (!fill_window(planes, window, nthreads, error))
+        return false;
+    m_test = &m_resized;
+    m_pixels = {"", "rec709"};
+    return true;
+}
+
+bool FittedTest::fill_window(const ColorPlanes& planes, ROI window, int nthreads,
+                             std::string& error) {
+    ImageBuf color = interleaved(planes, m_test->roi_full());
+    const bool holey = planes.counts.nonfinite > 0;
+    const ImageBuf with_holes = holey ? color : ImageBuf();
+    window.chbegin = 0;
+    window.chend = color.nchannels();
+    ImageBuf holes;
+    // Mending looks at pixels that it has mended: one thread, or the bits depend on the order.
+    if ((holey && !IBA::fixNonFinite(color, with_holes, IBA::NONFINITE_BOX3, nullptr, {}, 1)) ||
+        !oiio::resize(m_resized, color, "", window, nthreads) ||
+        (holey && !IBA::resample(holes, with_holes, false, window, nthreads))) {
+        error = "resizing the test image: " + color.geterror() + m_resized.geterror() +
+                holes.geterror();
+        return false;
+    }
+    for (ImageBuf::Iterator<float> p(m_resized); holey && !p.done(); ++p)
+        if (std::isnan(holes.getchannel(p.x(), p.y(), 0, 0)))
+            p[0] = std::numeric_limits<float>::quiet_NaN();
+    return true;
+}
+
+uint64_t FittedTest::held_bytes() const {
+    return resized() ? m_resized.spec().image_bytes() : 0;
+}
+
+bool FittedTest::open_reader(bool alpha, int nthreads, ColorReader& reader,
+                             std::string& error) const {
+    if (reader.open(*m_test, m_pixels, m_region, alpha, nthreads, error))
+        return true;
+    error = with_side(name(), error);
+    return false;
+}
+
+ColorPlanes FittedTest::planes(const ColorReader& reader) const {
+    ColorPlanes planes = reader.planes();
+    planes.choice.layer = m_choice.layer;
+    planes.choice.space = m_choice.space;
+    planes.choice.display_encoded = m_choice.display_encoded;
+    planes.knows_kinds = !resized();
+    return planes;
+}
+
+FlipSide side_of(const ColorPlanes& planes) {
+    return {planes.choice.layer, planes.choice.space, planes.counts.nonfinite,
+            planes.counts.negative, planes.uncovered_count};
+}
+
+void warn_of_holes(const FlipSide& side, const std::string& who,
+                   std::vector<std::string>& warnings) {
+    if (side.nonfinite > 0)
+        warnings.push_back(std::to_string(side.nonfinite) + " pixel(s) of " + who +
+                           " are NaN or Inf");
+    if (side.uncovered > 0)
+        warnings.push_back(std::to_string(side.uncovered) + " compared pixel(s) lie outside " +
+                           who + "'s data window");
+}
+
+bool check_covered(const ColorPlanes& planes, const std::string& who, std::string& error) {
+    if (planes.uncovered_count < pixels_of(planes))
+        return true;
+    error = who + "'s data window covers none of the compared pixels: there is nothing to compare";
+    return false;
+}
+
+bool check_finite(const ColorPlanes& planes, const std::string& who, std::string& error) {
+    if (planes.counts.nonfinite + planes.uncovered_count < pixels_of(planes))
+        return true;
+    error = who + " has no finite pixel: there is nothing to compare";
+    return false;
+}
+
+bool nonfinite_alike(const ColorPlanes& r, size_t at, const ColorPlanes& t, size_t where) {
+    if (!r.knows_kinds || !t.knows_kinds)
+        return true;
+    if (r.nonfinite[at] != t.nonfinite[where])
+        return false;
+    const bool has_alpha = !r.alpha.empty() && !t.alpha.empty();
+    if (has_alpha && r.alpha[at] != t.alpha[where])
+        return false;
+    const bool one_space =
+        r.choice.space == t.choice.space && r.choice.display_encoded == t.choice.display_encoded;
+    return !one_space || same_numbers(r.beside[at], t.beside[where]);
+}
+
+NonfiniteBoth mend_nonfinite(ColorPlanes& r, ColorPlanes& t, int begin, int end) {
+    NonfiniteBoth both;
+    if (r.counts.nonfinite == 0 && t.counts.nonfinite == 0)
+        return both;
+    for (size_t i = r.at(begin); i < r.at(end); ++i) {
+        if (!r.nonfinite[i] && !t.nonfinite[i])
+            continue;
+        if (r.nonfinite[i] && t.nonfinite[i]) {
+            ++(nonfinite_alike(r, i, t, i) ? both.alike : both.unlike);
+            continue;
+        }
+        ColorPlanes& bad = r.nonfinite[i] ? r : t;
+        const ColorPlanes& good = r.nonfinite[i] ? t : r;
+        for (size_t p = 0; p < 3; ++p)
+            bad.plane[p][i] = good.plane[p][i];
+    }
+    return both;
+}
+
+void unmend(ColorPlanes& planes) {
+    for (size_t i = 0; planes.counts.nonfinite > 0 && i < planes.nonfinite.size(); ++i)
+        for (size_t p = 0; planes.nonfinite[i] && p < 3; ++p)
+            planes.plane[p][i] = 0;
+}
+
+} // namespace tonetool

@@ -1,0 +1,20 @@
+// The quantities of an error map by their names.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "metrics/pooling.h"
+#include "tonetool/numbers.h"
+
+namespace tonetool {
+
+/// What the named quantities need beside the usual pool. False, with what is valid, for a name that
+/// is none.
+bool plan_pool(const std::vector<std::string>& names, metrics::PoolRequest& request,
+               std::string& error);
+
+/// The names of what was found, in the place of flip_quantity()'s.
+void name_further(const metrics::PoolRequest& request, FlipPool& pool);
+
+} // namespace tonetool

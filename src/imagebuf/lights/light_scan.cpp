@@ -1,0 +1,186 @@
+#include "imagebuf/lights/light_scan.h"
+
+#include <OpenImageIO/strutil.h>
+#include <algorithm>
+#include <cmath>
+
+#include "imagebuf/color/luminance_plane.h"
+#include "imagebuf/pixels/parallel.h"
+#include "metrics/luminance.h"
+#include "metrics/order_statistics.h"
+
+namespace tonetool {
+namespace {
+
+using OIIO::Strutil::fmt::format;
+
+// Shares of the light: of a pixel's, to be among those that light it; of the picture's, that groups
+// may miss.
+constexpr double kContributes = 0.01, kAdditive = 0.05;
+
+void luminances(const ColorPlanes& planes, int y, float* out) {
+    const float* rgb[3];
+    planes.row(planes.region.xbegin, y, rgb);
+    metrics::luminance_row(rgb[0], rgb[1], rgb[2], out, planes.width());
+}
+
+} // namespace
+
+bool LightScan::open(const OIIO::ImageBuf& image, const PixelOptions& beauty,
+                     const std::vector<LightGroup>& groups, OIIO::ROI region, int nthreads,
+                     std::string& error) {
+    m_image = &image;
+    m_pixels = beauty;
+    m_region = region;
+    m_nthreads = nthreads;
+    m_readers = std::vector<ColorReader>(groups.size());
+    if (!m_beauty.open(image, beauty, region, false, nthreads, error))
+        return false;
+    for (size_t g = 0; g < groups.size(); ++g) {
+        const PixelOptions pixels{groups[g].layer, beauty.from};
+        if (!m_readers[g].open(image, pixels, region, false, nthreads, error))
+            return false;
+        m_groups.push_back({groups[g], 0, 0});
+    }
+    return true;
+}
+
+// The largest component of the picture. Where it was clamped, many pixels have it.
+bool LightScan::find_ceiling(std::string& error) {
+    ColorPlanes planes = m_beauty.planes();
+    for (int y = m_region.ybegin; y < m_region.yend; y += kLuminanceRows)
+        if (!m_beauty.read(y, std::min(y + kLuminanceRows, m_region.yend), planes, error))
+            return false;
+    m_ceiling = planes.counts.largest;
+    return true;
+}
+
+bool LightScan::read_band(int begin, int end, std::string& error) {
+    if (!m_beauty.read(begin, end, m_beauty_planes, error))
+        return false;
+    for (size_t g = 0; g < m_readers.size(); ++g)
+        if (!m_readers[g].read(begin, end, m_planes[g], error))
+            return false;
+    return true;
+}
+
+bool LightScan::run(const Sink& sink, std::string& error) {
+    if (!find_ceiling(error))
+        return false;
+    m_beauty_planes = m_beauty.planes();
+    m_planes.clear();
+    for (const ColorReader& reader : m_readers)
+        m_planes.push_back(reader.planes());
+    for (int begin = m_region.ybegin; begin < m_region.yend; begin += kLuminanceRows) {
+        const int end = std::min(begin + kLuminanceRows, m_region.yend);
+        if (!read_band(begin, end, error))
+            return false;
+        std::vector<Row> rows(size_t(end - begin));
+        make_parallel(m_nthreads)(end - begin, [&](int64_t i) {
+            std::vector<int> indices(size_t(m_region.width()));
+            scan_row(begin + int(i), rows[size_t(i)], indices.data());
+            if (sink)
+                sink(begin + int(i), indices.data());
+        });
+        for (const Row& row : rows)
+            add(row);
+    }
+    return true;
+}
+
+void LightScan::scan_row(int y, Row& row, int* indices) const {
+    const size_t count = m_groups.size(), width = size_t(m_region.width());
+    std::vector<float> all((count + 1) * width);
+    std::vector<const float*> light(count);
+    for (size_t g = 0; g < count; ++g) {
+        light[g] = all.data() + g * width;
+        luminances(m_planes[g], y, all.data() + g * width);
+    }
+    float* picture = all.data() + count * width;
+    luminances(m_beauty_planes, y, picture);
+    const float* rgb[3];
+    m_beauty_planes.row(m_region.xbegin, y, rgb);
+    const uint8_t* nonfinite = m_beauty_planes.nonfinite.data() + m_beauty_planes.at(y);
+    row.pixels.resize(count);
+    row.maxima.resize(count);
+    for (size_t x = 0; x < width; ++x) {
+        double total = 0;
+        for (size_t g = 0; g < count; ++g) {
+            total += light[g][x];
+            row.maxima[g] = std::max(row.maxima[g], double(light[g][x]));
+        }
+        indices[x] = choose(light.data(), x, total);
+        if (indices[x] >= 0)
+            ++row.pixels[size_t(indices[x])];
+        else
+            ++row.unlit;
+        if (nonfinite[x] || std::max({rgb[0][x], rgb[1][x], rgb[2][x]}) >= m_ceiling)
+            continue;
+        row.beauty_light += picture[x];
+        row.group_light += total;
+        row.off += std::abs(total - picture[x]);
+    }
+}
+
+int LightScan::choose(const float* const* light, size_t x, double total) const {
+    int best = -1;
+    for (size_t g = 0; total > 0 && g < m_groups.size(); ++g) {
+        const bool counts = m_values.empty() || light[g][x] > kContributes * total;
+        if (counts && (best < 0 || goes_before(g, size_t(best), light, x)))
+            best = int(g);
+    }
+    return best;
+}
+
+bool LightScan::goes_before(size_t a, size_t b, const float* const* light, size_t x) const {
+    if (!m_values.empty() && m_values[a] != m_values[b])
+        return m_values[a] && (!m_values[b] || *m_values[a] > *m_values[b]);
+    return light[a][x] > light[b][x];
+}
+
+void LightScan::add(const Row& row) {
+    for (size_t g = 0; g < m_groups.size(); ++g) {
+        m_groups[g].pixels += row.pixels[g];
+        m_groups[g].maximum = std::max(m_groups[g].maximum, row.maxima[g]);
+    }
+    m_unlit += row.unlit;
+    m_beauty_light += row.beauty_light;
+    m_group_light += row.group_light;
+    m_off += row.off;
+}
+
+bool LightScan::percentile(size_t group, double share, double& value, std::string& error) const {
+    const PixelOptions pixels{m_groups[group].group.layer, m_pixels.from};
+    ColorReader reader;
+    if (!reader.open(*m_image, pixels, m_region, false, m_nthreads, error))
+        return false;
+    ColorPlanes planes = reader.planes();
+    PagedArray<float> luminance;
+    if (!read_luminance(reader, planes, m_nthreads, luminance, error))
+        return false;
+    const metrics::OrderStatistics order(luminance.data(), m_region.width(), m_region.height(),
+                                         m_region.width(), make_parallel(m_nthreads));
+    value = order.find({metrics::Wanted::percentile(share)})[0];
+    return true;
+}
+
+bool LightScan::additive() const {
+    return difference() <= kAdditive;
+}
+
+std::vector<std::string> LightScan::warnings() const {
+    std::vector<std::string> out;
+    int64_t nonfinite = 0;
+    for (const ColorPlanes& planes : m_planes)
+        nonfinite += planes.counts.nonfinite;
+    if (nonfinite > 0)
+        out.push_back(
+            format("{} pixel(s) of the light groups are not finite and count as black", nonfinite));
+    if (!additive())
+        out.push_back(format("the light groups do not add up to the picture: their light is {:.3g} "
+                             "of its, and pixels differ by {:.3g} (at most {} is expected)",
+                             sum(), difference(), kAdditive));
+    return out;
+}
+
+} // namespace tonetool

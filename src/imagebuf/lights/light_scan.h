@@ -1,0 +1,78 @@
+// The light of every group in every pixel.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "imagebuf/aov/light_groups.h"
+#include "imagebuf/color/color_reader.h"
+
+namespace tonetool {
+
+struct ScannedGroup {
+    LightGroup group;
+    int64_t pixels = 0; ///< it was chosen in
+    double maximum = 0; ///< largest luminance; 0: it is black
+};
+
+/// Reads the groups of an image band by band and tells which lights each pixel.
+class LightScan {
+public:
+    /// Gets the indices of a row, -1 for none; several rows at the same time.
+    using Sink = std::function<void(int y, const int* indices)>;
+
+    /// `beauty` as the picture is read. The image must live as long as this does.
+    bool open(const OIIO::ImageBuf& image, const PixelOptions& beauty,
+              const std::vector<LightGroup>& groups, OIIO::ROI region, int nthreads,
+              std::string& error);
+    /// Instead of the largest contribution: of the groups with more than 1 % of a pixel's light
+    /// that of the largest value; without a value it comes after all others.
+    void rank_by(std::vector<std::optional<double>> values) { m_values = std::move(values); }
+    bool run(const Sink& sink, std::string& error);
+
+    /// Nearest rank over all pixels of the region.
+    bool percentile(size_t group, double share, double& value, std::string& error) const;
+
+    const std::vector<ScannedGroup>& groups() const { return m_groups; }
+    int64_t unlit() const { return m_unlit; }
+    /// As in LightIndexSummary.
+    double sum() const { return m_beauty_light > 0 ? m_group_light / m_beauty_light : 0; }
+    double difference() const { return m_beauty_light > 0 ? m_off / m_beauty_light : 0; }
+    bool additive() const;
+    /// What a user should know: groups that do not add up, pixels that are no numbers.
+    std::vector<std::string> warnings() const;
+
+private:
+    struct Row {
+        std::vector<int64_t> pixels;
+        std::vector<double> maxima;
+        int64_t unlit = 0;
+        double beauty_light = 0, group_light = 0, off = 0;
+    };
+
+    bool find_ceiling(std::string& error);
+    bool read_band(int begin, int end, std::string& error);
+    void scan_row(int y, Row& row, int* indices) const;
+    int choose(const float* const* light, size_t x, double total) const;
+    bool goes_before(size_t a, size_t b, const float* const* light, size_t x) const;
+    void add(const Row& row);
+
+    const OIIO::ImageBuf* m_image = nullptr;
+    PixelOptions m_pixels;
+    OIIO::ROI m_region;
+    int m_nthreads = 0;
+    ColorReader m_beauty;
+    ColorPlanes m_beauty_planes;
+    std::vector<ColorReader> m_readers;
+    std::vector<ColorPlanes> m_planes;
+    std::vector<std::optional<double>> m_values;
+    float m_ceiling = 0;
+
+    std::vector<ScannedGroup> m_groups;
+    int64_t m_unlit = 0;
+    double m_beauty_light = 0, m_group_light = 0, m_off = 0;
+};
+
+} // namespace tonetool

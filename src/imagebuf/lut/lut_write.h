@@ -1,0 +1,23 @@
+// Look-up tables as the text of files. Only lut*.cpp include this.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "imagebuf/lut/lut_ops.h"
+
+namespace tonetool {
+
+/// What files say of themselves, a line each.
+struct LutRemarks {
+    std::string title, input, output;
+    std::string shaper; ///< a formula of x; empty: the file takes the input itself
+    std::string taken() const { return shaper.empty() ? input : input + ", x, as " + shaper; }
+};
+
+bool holds_scene_light(const std::string& format); ///< clf, ctf
+/// False, with an error, where the format cannot hold such steps.
+bool check_format(const std::string& format, const LutSource& source, std::string& error);
+std::string lut_text(const std::string& format, const LutSteps& steps, const LutRemarks& remarks);
+
+} // namespace tonetool

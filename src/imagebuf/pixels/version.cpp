@@ -1,0 +1,9 @@
+#include "tonetool/export.h"
+
+namespace tonetool {
+
+const char* version() noexcept {
+    return TONETOOL_VERSION;
+}
+
+} // namespace tonetool

@@ -1,0 +1,99 @@
+#include "imagebuf/qc/qc_header.h"
+
+#include <OpenImageIO/hash.h>
+#include <OpenImageIO/strutil.h>
+#include <algorithm>
+#include <set>
+
+#include "imagebuf/pixels/planes.h"
+
+namespace tonetool {
+namespace {
+
+using OIIO::ImageBuf;
+using OIIO::ImageSpec;
+
+// Longer values of metadata (manifests, transforms of thousands of objects) are kept as a hash.
+constexpr size_t kLongest = 120;
+constexpr int kElements = 4096;
+
+std::string kept_value(const std::string& value) {
+    if (value.size() <= kLongest)
+        return value;
+    OIIO::SHA1 hash(value.data(), value.size());
+    return OIIO::Strutil::fmt::format("{} characters, SHA-1 {}", value.size(), hash.digest());
+}
+
+std::string part_name(const ImageSpec& spec, size_t part) {
+    for (const char* key : {"oiio:subimagename", "name"})
+        if (const std::string name = spec.get_string_attribute(key); !name.empty())
+            return name;
+    return part == 0 ? "" : "part" + std::to_string(part);
+}
+
+bool is_depth(const AovLayer& layer) {
+    return layer.has_lone_z() || kind_of_layer(layer.token) == AovKind::Depth;
+}
+
+} // namespace
+
+QcPart part_facts(const ImageBuf& image) {
+    const ImageSpec& spec = image.spec();
+    QcPart part;
+    part.name = part_name(spec, 0);
+    part.data = {spec.x, spec.y, spec.width, spec.height};
+    part.display = {spec.full_x, spec.full_y, spec.full_width, spec.full_height};
+    part.compression = spec.get_string_attribute("compression");
+    for (const OIIO::ParamValue& value : spec.extra_attribs) {
+        const std::string name(value.name().string());
+        if (name != "compression")
+            part.metadata[name] = kept_value(value.get_string(kElements));
+    }
+    return part;
+}
+
+ImageSpec joined_spec(const std::vector<const ImageBuf*>& parts) {
+    ImageSpec joined = deciding_spec(*parts.front());
+    std::set<std::string> taken(joined.channelnames.begin(), joined.channelnames.end());
+    for (size_t p = 1; p < parts.size(); ++p) {
+        const ImageSpec& spec = parts[p]->spec();
+        for (const std::string& own : spec.channelnames) {
+            std::string name = own;
+            if (taken.count(name) > 0 || name.find('.') == std::string::npos)
+                name = part_name(spec, p) + "." + own;
+            if (!taken.insert(name).second)
+                name = "part" + std::to_string(p) + "." + name;
+            joined.channelnames.push_back(name);
+        }
+    }
+    joined.nchannels = int(joined.channelnames.size());
+    joined.channelformats.clear();
+    return joined;
+}
+
+std::vector<std::pair<std::string, std::string>>
+channel_facts(const ImageSpec& joined, const std::vector<const ImageBuf*>& parts) {
+    std::vector<std::pair<std::string, std::string>> channels;
+    for (const ImageBuf* part : parts) {
+        const bool native = part->nativespec().nchannels == part->nchannels();
+        const ImageSpec& spec = native ? part->nativespec() : part->spec();
+        for (int c = 0; c < spec.nchannels; ++c)
+            channels.emplace_back(joined.channelnames[channels.size()],
+                                  spec.channelformat(c).c_str());
+    }
+    return channels;
+}
+
+std::string layer_kind(const AovLayer& layer, const ColorChoice& picture,
+                       const std::vector<LightGroup>& groups) {
+    const auto same = [&](const LightGroup& group) { return group.layer == layer.name; };
+    if (std::find(layer.channels.begin(), layer.channels.end(), picture.r) != layer.channels.end())
+        return "picture";
+    if (std::any_of(groups.begin(), groups.end(), same))
+        return "light";
+    if (is_depth(layer))
+        return "depth";
+    return layer.has_rgb() ? "color" : "data";
+}
+
+} // namespace tonetool

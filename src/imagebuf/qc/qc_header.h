@@ -1,0 +1,26 @@
+// What a dailies check looks at in headers, and the parts of a file as if they were one image.
+#pragma once
+
+#include <OpenImageIO/imagebuf.h>
+#include <vector>
+
+#include "imagebuf/aov/aov_layers.h"
+#include "imagebuf/aov/light_groups.h"
+#include "tonetool/qc.h"
+
+namespace tonetool {
+
+QcPart part_facts(const OIIO::ImageBuf& image);
+
+/// The channels of all parts in one header: those of later parts that have plain names, or names
+/// that are taken, bear the name of their part.
+OIIO::ImageSpec joined_spec(const std::vector<const OIIO::ImageBuf*>& parts);
+/// Name and type of each of them.
+std::vector<std::pair<std::string, std::string>>
+channel_facts(const OIIO::ImageSpec& joined, const std::vector<const OIIO::ImageBuf*>& parts);
+
+/// "picture", "light", "color", "depth", "data".
+std::string layer_kind(const AovLayer& layer, const ColorChoice& picture,
+                       const std::vector<LightGroup>& groups);
+
+} // namespace tonetool

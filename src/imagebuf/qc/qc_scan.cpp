@@ -1,0 +1,348 @@
+#include "imagebuf/qc/qc_scan.h"
+
+#include <OpenImageIO/hash.h>
+#include <OpenImageIO/strutil.h>
+#include <algorithm>
+
+#include "imagebuf/pixels/parallel.h"
+#include "imagebuf/qc/qc_header.h"
+
+namespace tonetool {
+namespace {
+
+using metrics::Spike;
+using OIIO::ImageBuf;
+using OIIO::ROI;
+
+constexpr size_t kStep = size_t(32) << 20;
+constexpr double kRec709[3] = {0.2126, 0.7152, 0.0722}; // luminance, ITU-R BT.709
+
+std::string fingerprint(const void* data, size_t bytes) {
+    const auto hash = OIIO::farmhash::Fingerprint128(static_cast<const char*>(data), bytes);
+    return OIIO::Strutil::fmt::format("{:016x}{:016x}", hash.first, hash.second);
+}
+
+} // namespace
+
+bool QcScan::open(const std::vector<const ImageBuf*>& parts, const QcOptions& options, int nthreads,
+                  std::string& error) {
+    m_nthreads = nthreads;
+    m_spec = joined_spec(parts);
+    std::string no_picture;
+    if (!find_picture(m_spec, options.pixels, m_choice, m_space, no_picture)) {
+        // Layers of data are looked at without one.
+        if (!options.pixels.layer.empty() || !holds_only_data(m_spec)) {
+            error = no_picture;
+            return false;
+        }
+        m_choice = {};
+        m_space = {};
+    }
+    if ((has_picture() &&
+         !choose_light_groups(m_spec, m_choice.layer, options.groups, m_groups, error)) ||
+        !open_parts(parts, error))
+        return false;
+    for (size_t c = 0; c < 3; ++c)
+        for (size_t p = 0; p < 3; ++p)
+            m_weights[c] += kRec709[p] * m_space.to_rec709[p][c];
+    list_layers();
+    place_cells();
+    if (has_picture())
+        m_largest_begin = m_spikes_done = picture_window().ybegin;
+    return true;
+}
+
+bool QcScan::open_parts(const std::vector<const ImageBuf*>& parts, std::string& error) {
+    for (const ImageBuf* image : parts) {
+        Part& part = m_parts.emplace_back();
+        part.window = image->roi();
+        part.channels = image->nchannels();
+        if (!part.source.open(*image, {{0, part.channels}}, error))
+            return false;
+    }
+    if (!has_picture())
+        return true;
+    const size_t picture = place_of(m_choice.r).part;
+    if (place_of(m_choice.g).part != picture || place_of(m_choice.b).part != picture) {
+        error = "red, green and blue of the picture are in different parts of the file";
+        return false;
+    }
+    return true;
+}
+
+QcScan::Place QcScan::place_of(int channel) const {
+    Place place{0, channel};
+    while (place.channel >= m_parts[place.part].channels)
+        place.channel -= m_parts[place.part++].channels;
+    return place;
+}
+
+// Whether a channel is part of what its layer is about: beside R, G, B, and beside the one channel
+// of a grey picture, other channels are layers of their own. "Z" is no colour.
+bool QcScan::belongs(const AovLayer& layer, int channel) const {
+    if (layer.has_rgb())
+        return std::find(layer.rgb, layer.rgb + 3, channel) != layer.rgb + 3;
+    const auto& all = layer.channels;
+    const bool grey = std::find(all.begin(), all.end(), m_choice.r) != all.end();
+    return !grey || channel == m_choice.r;
+}
+
+void QcScan::list_layers() {
+    for (const AovLayer& from : aov_layers(m_spec)) {
+        Layer layer{from.plain && from.has_rgb() ? "" : from.name,
+                    layer_kind(from, m_choice, m_groups),
+                    place_of(from.first).part,
+                    {},
+                    {},
+                    {}};
+        const auto is_alpha = [&](int channel) { return channel == from.alpha && from.count > 1; };
+        for (int channel : from.channels) {
+            if (is_alpha(channel) && place_of(channel).part == layer.part)
+                layer.alpha = place_of(channel).channel;
+            if (is_alpha(channel) || !belongs(from, channel))
+                continue;
+            const auto* color = std::find(from.rgb, from.rgb + 3, channel);
+            layer.channels.push_back(place_of(channel).channel);
+            layer.weights.push_back(from.has_rgb() ? m_weights[color - from.rgb] : 1.0);
+        }
+        for (double& weight : layer.weights)
+            weight /= from.has_rgb() ? 1.0 : double(layer.weights.size());
+        m_layers.push_back(std::move(layer));
+        for (int channel : from.channels)
+            if (!is_alpha(channel) && !belongs(from, channel))
+                m_layers.push_back(lone_layer(channel));
+    }
+}
+
+QcScan::Layer QcScan::lone_layer(int channel) const {
+    const std::string name(m_spec.channel_name(channel));
+    OIIO::ImageSpec one(1, 1, 1, OIIO::TypeFloat);
+    one.channelnames = {name};
+    const Place place = place_of(channel);
+    return {name, layer_kind(aov_layers(one).front(), {}, {}), place.part, {place.channel}, {1.0},
+            {}};
+}
+
+bool QcScan::run(std::string& error) {
+    int first = m_parts[0].window.ybegin, last = m_parts[0].window.yend;
+    for (const Part& part : m_parts) {
+        first = std::min(first, part.window.ybegin);
+        last = std::max(last, part.window.yend);
+    }
+    for (int begin = first; begin < last;) {
+        const int end = std::min(begin + m_parts[0].source.rows_at_once(begin, kStep), last);
+        if (!read_band(begin, end, error))
+            return false;
+        std::vector<Row> rows(size_t(end - begin));
+        make_parallel(m_nthreads)(end - begin,
+                                  [&](int64_t i) { scan_row(begin + int(i), rows[size_t(i)]); });
+        for (int y = begin; y < end; ++y)
+            add(y, rows[size_t(y - begin)]);
+        if (has_picture())
+            scan_spikes(end == last);
+        begin = end;
+    }
+    return true;
+}
+
+bool QcScan::read_band(int begin, int end, std::string& error) {
+    for (Part& part : m_parts) {
+        part.begin = std::clamp(begin, part.window.ybegin, part.window.yend);
+        part.end = std::clamp(end, part.begin, part.window.yend);
+        const size_t row = size_t(part.window.width()) * size_t(part.channels);
+        part.pixels.resize(row * size_t(part.end - part.begin));
+        if (part.begin < part.end &&
+            !part.source.read(part.begin, part.end, 0, part.pixels.data(), error))
+            return false;
+    }
+    return true;
+}
+
+// Null where the part has no such row.
+metrics::ChannelRow QcScan::row_of(size_t which, int y) const {
+    const Part& part = m_parts[which];
+    if (y < part.begin || y >= part.end)
+        return {};
+    const size_t row = size_t(part.window.width()) * size_t(part.channels);
+    return {part.pixels.data() + row * size_t(y - part.begin), part.channels, part.window.width(),
+            part.window.xbegin, y};
+}
+
+void QcScan::scan_row(int y, Row& row) const {
+    row.layers.resize(m_layers.size());
+    for (size_t i = 0; i < m_layers.size(); ++i) {
+        const metrics::ChannelRow pixels = row_of(m_layers[i].part, y);
+        if (pixels.pixels)
+            row.layers[i] =
+                scan_layer(pixels, m_layers[i].channels, m_layers[i].weights, m_layers[i].alpha);
+    }
+    if (m_choice.a >= 0) {
+        const Place alpha = place_of(m_choice.a);
+        const metrics::ChannelRow pixels = row_of(alpha.part, y);
+        if (pixels.pixels)
+            row.alpha = scan_range(pixels, alpha.channel, -QcPicture::kAlphaSlack,
+                                   1 + QcPicture::kAlphaSlack);
+    }
+    if (has_picture())
+        scan_picture_row(y, row);
+}
+
+void QcScan::scan_picture_row(int y, Row& row) const {
+    const Place place = place_of(m_choice.r);
+    const metrics::ChannelRow pixels = row_of(place.part, y);
+    if (!pixels.pixels)
+        return;
+    const int channels[3] = {place.channel, place_of(m_choice.g).channel,
+                             place_of(m_choice.b).channel};
+    std::vector<float> rgb(size_t(pixels.width) * 3);
+    for (size_t x = 0; x < size_t(pixels.width); ++x)
+        for (size_t c = 0; c < 3; ++c)
+            rgb[3 * x + c] = pixels.pixels[x * size_t(pixels.stride) + size_t(channels[c])];
+    row.hash = fingerprint(rgb.data(), rgb.size() * sizeof(float));
+    if (!m_groups.empty() && !m_space.encoded())
+        scan_groups(y, rgb, row);
+    scan_alpha(y, rgb, row);
+    if (m_space.encoded() || m_space.scale != 1)
+        for (float& v : rgb)
+            v = float(m_space.light(double(v), 1));
+    row.picture = metrics::scan_picture(rgb.data(), pixels.width, m_weights, m_cell_of.data(),
+                                        size_t(QcPicture::kWide));
+}
+
+// Lit pixels, and those of them that alpha hides.
+void QcScan::scan_alpha(int y, const std::vector<float>& rgb, Row& row) const {
+    if (m_choice.a < 0)
+        return;
+    const Place place = place_of(m_choice.a);
+    const metrics::ChannelRow alpha = row_of(place.part, y);
+    const ROI& window = picture_window();
+    for (int64_t x = 0; 3 * size_t(x) < rgb.size(); ++x) {
+        const float* pixel = &rgb[3 * size_t(x)];
+        if (!(std::max({pixel[0], pixel[1], pixel[2]}) > 0))
+            continue;
+        ++row.lit;
+        const int64_t at = window.xbegin + x - alpha.x;
+        if (alpha.pixels && at >= 0 && at < alpha.width &&
+            alpha.pixels[at * alpha.stride + place.channel] == 0)
+            row.unseen.add({window.xbegin + x, y, 0});
+    }
+}
+
+// Where a group has no pixel it has no light.
+void QcScan::scan_groups(int y, const std::vector<float>& rgb, Row& row) const {
+    const ROI& window = picture_window();
+    std::vector<double> light(rgb.size());
+    for (const LightGroup& group : m_groups)
+        for (size_t c = 0; c < 3; ++c) {
+            const Place place = place_of(group.channel[c]);
+            const metrics::ChannelRow pixels = row_of(place.part, y);
+            if (!pixels.pixels)
+                continue;
+            const int64_t from = std::max<int64_t>(window.xbegin, pixels.x);
+            const int64_t to = std::min<int64_t>(window.xend, pixels.x + pixels.width);
+            for (int64_t x = from; x < to; ++x)
+                light[size_t(3 * (x - window.xbegin)) + c] +=
+                    pixels.pixels[(x - pixels.x) * pixels.stride + place.channel];
+        }
+    for (size_t x = 0; 3 * x < rgb.size(); ++x) {
+        const float picture[3] = {rgb[3 * x], rgb[3 * x + 1], rgb[3 * x + 2]};
+        const double groups[3] = {light[3 * x], light[3 * x + 1], light[3 * x + 2]};
+        row.groups.add(picture, groups, window.xbegin + int64_t(x), y);
+    }
+}
+
+void QcScan::add(int y, const Row& row) {
+    for (size_t i = 0; i < m_layers.size(); ++i)
+        m_layers[i].scan.add(row.layers[i]);
+    m_alpha.add(row.alpha);
+    m_lit += row.lit;
+    m_unseen.add(row.unseen);
+    m_group_scan.add(row.groups);
+    m_hashes += row.hash;
+    if (!row.picture.largest.empty()) {
+        m_largest.push_back(row.picture.largest);
+        add_cells(y, row.picture.cells);
+    }
+}
+
+std::string QcScan::hash() const {
+    return fingerprint(m_hashes.data(), m_hashes.size());
+}
+
+void QcScan::scan_spikes(bool last) {
+    const ROI& window = picture_window();
+    const int held = m_largest_begin + int(m_largest.size());
+    const int end = last ? held : held - Spike::kReach;
+    std::vector<std::vector<Spike>> found(size_t(std::max(end - m_spikes_done, 0)));
+    make_parallel(m_nthreads)(int64_t(found.size()), [&](int64_t i) {
+        const int y = m_spikes_done + int(i);
+        const float* rows[2 * Spike::kReach + 1];
+        for (int dy = -Spike::kReach; dy <= Spike::kReach; ++dy) {
+            const int at = y + dy;
+            rows[dy + Spike::kReach] = at >= m_largest_begin && at < held
+                                           ? m_largest[size_t(at - m_largest_begin)].data()
+                                           : nullptr;
+        }
+        metrics::find_spikes(rows, window.width(), window.xbegin, y, found[size_t(i)]);
+    });
+    for (const std::vector<Spike>& row : found) {
+        m_spike_count += int64_t(row.size());
+        m_spikes.insert(m_spikes.end(), row.begin(), row.end());
+    }
+    metrics::keep_largest(m_spikes, QcPicture::kSpikes);
+    m_spikes_done = std::max(end, m_spikes_done);
+    while (!m_largest.empty() && m_largest_begin < m_spikes_done - Spike::kReach) {
+        m_largest.pop_front();
+        ++m_largest_begin;
+    }
+}
+
+void QcScan::place_cells() {
+    m_cells.assign(size_t(QcPicture::kWide) * QcPicture::kHigh, 0);
+    m_peaks.assign(m_cells.size(), 0);
+    m_missing.assign(m_cells.size(), 0);
+    if (!has_picture())
+        return;
+    const ROI& window = picture_window();
+    for (int x = window.xbegin; x < window.xend; ++x) {
+        const int64_t at = int64_t(x) - m_spec.full_x;
+        const bool inside = at >= 0 && at < m_spec.full_width;
+        m_cell_of.push_back(inside ? int(at * QcPicture::kWide / m_spec.full_width) : -1);
+    }
+}
+
+void QcScan::add_cells(int y, const metrics::CellRow& cells) {
+    const int64_t at = int64_t(y) - m_spec.full_y;
+    if (at < 0 || at >= m_spec.full_height)
+        return;
+    const auto first = size_t(at * QcPicture::kHigh / m_spec.full_height) * QcPicture::kWide;
+    for (size_t x = 0; x < size_t(QcPicture::kWide); ++x) {
+        m_cells[first + x] += cells.sum[x];
+        m_peaks[first + x] = std::max(m_peaks[first + x], double(cells.largest[x]));
+        m_missing[first + x] += cells.missing[x];
+    }
+}
+
+// How many columns (or rows) of `size` fall into a cell of `cells`.
+static int64_t in_cell(int cell, int64_t size, int64_t cells) {
+    const auto begin = [&](int64_t c) { return (c * size + cells - 1) / cells; };
+    return begin(cell + 1) - begin(cell);
+}
+
+int64_t QcScan::display_pixels(int cell_x, int cell_y) const {
+    return in_cell(cell_x, m_spec.full_width, QcPicture::kWide) *
+           in_cell(cell_y, m_spec.full_height, QcPicture::kHigh);
+}
+
+std::vector<double> QcScan::cell_means() const {
+    std::vector<double> means(m_cells.size());
+    for (int y = 0; y < QcPicture::kHigh; ++y)
+        for (int x = 0; x < QcPicture::kWide; ++x) {
+            const auto at = size_t(y) * QcPicture::kWide + size_t(x);
+            const int64_t pixels = display_pixels(x, y) - m_missing[at];
+            means[at] = pixels > 0 ? m_cells[at] / double(pixels) : 0;
+        }
+    return means;
+}
+
+} // namespace tonetool

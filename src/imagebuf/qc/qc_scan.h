@@ -1,0 +1,114 @@
+// One pass over all channels of a file.
+#pragma once
+
+#include <deque>
+#include <string>
+#include <vector>
+
+#include "imagebuf/aov/aov_layers.h"
+#include "imagebuf/aov/light_groups.h"
+#include "imagebuf/pixels/colorimetry.h"
+#include "imagebuf/pixels/row_source.h"
+#include "metrics/fault_scan.h"
+#include "tonetool/qc.h"
+
+namespace tonetool {
+
+class QcScan {
+public:
+    struct Layer {
+        std::string name, kind;
+        size_t part = 0;
+        std::vector<int> channels; ///< in the part, without alpha
+        std::vector<double> weights;
+        metrics::LayerScan scan;
+        int alpha = -1; ///< in the part; -1 if it has none
+    };
+
+    /// The images must live as long as this does.
+    bool open(const std::vector<const OIIO::ImageBuf*>& parts, const QcOptions& options,
+              int nthreads, std::string& error);
+    bool run(std::string& error);
+
+    const OIIO::ImageSpec& spec() const { return m_spec; } ///< of all parts together
+    const ColorChoice& choice() const { return m_choice; }
+    const std::vector<Layer>& layers() const { return m_layers; }
+    const std::vector<LightGroup>& groups() const { return m_groups; }
+    const metrics::RangeScan& alpha() const { return m_alpha; }
+    const metrics::GroupScan& group_scan() const { return m_group_scan; }
+    const std::vector<metrics::Spike>& spikes() const { return m_spikes; }
+    int64_t spike_count() const { return m_spike_count; }
+    std::string hash() const;
+    std::vector<double> cell_means() const;
+    const std::vector<double>& cell_peaks() const { return m_peaks; }
+    bool has_picture() const { return m_choice.r >= 0; }
+    /// Pixels of the picture that are lit, and those of them whose alpha is 0.
+    int64_t lit() const { return m_lit; }
+    const metrics::Hits& unseen() const { return m_unseen; }
+
+private:
+    struct Part {
+        RowSource source;
+        OIIO::ROI window;
+        int channels = 0;
+        int begin = 0, end = 0; ///< rows that are held
+        std::vector<float> pixels;
+    };
+    struct Place {
+        size_t part = 0;
+        int channel = 0;
+    };
+    struct Row {
+        std::vector<metrics::LayerScan> layers;
+        metrics::RangeScan alpha;
+        metrics::PictureRow picture;
+        metrics::GroupScan groups;
+        std::string hash;
+        int64_t lit = 0;
+        metrics::Hits unseen;
+    };
+
+    bool open_parts(const std::vector<const OIIO::ImageBuf*>& parts, std::string& error);
+    void list_layers();
+    bool belongs(const AovLayer& layer, int channel) const;
+    Layer lone_layer(int channel) const;
+    void scan_alpha(int y, const std::vector<float>& rgb, Row& row) const;
+    void place_cells();
+    Place place_of(int channel) const;
+    const OIIO::ROI& picture_window() const { return m_parts[place_of(m_choice.r).part].window; }
+
+    bool read_band(int begin, int end, std::string& error);
+    metrics::ChannelRow row_of(size_t part, int y) const;
+    void scan_row(int y, Row& row) const;
+    void scan_picture_row(int y, Row& row) const;
+    void scan_groups(int y, const std::vector<float>& rgb, Row& row) const;
+    void add(int y, const Row& row);
+    void scan_spikes(bool last);
+    void add_cells(int y, const metrics::CellRow& cells);
+    int64_t display_pixels(int cell_x, int cell_y) const;
+
+    std::deque<Part> m_parts;
+    OIIO::ImageSpec m_spec;
+    ColorChoice m_choice;
+    ColorSpace m_space;
+    double m_weights[3] = {0, 0, 0};
+    std::vector<LightGroup> m_groups;
+    std::vector<Layer> m_layers;
+    std::vector<int> m_cell_of; ///< of the columns of the picture's data window
+    int m_nthreads = 0;
+
+    metrics::RangeScan m_alpha;
+    int64_t m_lit = 0;
+    metrics::Hits m_unseen;
+    metrics::GroupScan m_group_scan;
+    std::string m_hashes;
+    std::vector<double> m_cells, m_peaks;
+    std::vector<int64_t> m_missing;
+    std::deque<std::vector<float>> m_largest; ///< rows of the picture that spikes may still need
+    int m_largest_begin = 0;                  ///< the first of them
+    int m_spikes_done = 0;                    ///< the first row that was not searched
+    std::vector<metrics::Spike> m_spikes;
+    int64_t m_spike_count = 0;
+};
+
+} // namespace tonetool

@@ -1,0 +1,190 @@
+#include "imagebuf/tone/calibrate.h"
+
+#include <OpenImageIO/strutil.h>
+#include <cmath>
+#include <limits>
+
+#include "imagebuf/color/luminance_plane.h"
+#include "imagebuf/pixels/checks.h"
+#include "imagebuf/pixels/guard.h"
+#include "imagebuf/pixels/parallel.h"
+#include "imagebuf/pixels/row_source.h"
+#include "metrics/order_statistics.h"
+
+namespace tonetool {
+namespace {
+
+using OIIO::ImageBuf;
+using OIIO::ROI;
+using OIIO::Strutil::fmt::format;
+
+bool check(const CalibrationOptions& options, const ImageBuf& image, std::string& error) {
+    const OIIO::ImageSpec& spec = image.spec();
+    const int most = tonemap::LocalMeans::most_levels(spec.width, spec.height);
+    if (options.level < 0 || options.level > most) {
+        error = format("level is {}: must be 0 to {} for an image of {} x {} pixels", options.level,
+                       most, spec.width, spec.height);
+        return false;
+    }
+    if (options.level > 0 && options.method == CalibrationMethod::Manual) {
+        error = "local means need a calibration by means: method mean or auto";
+        return false;
+    }
+    return in_range(options.stops, -126, 126, "stops", error) &&
+           in_range(options.key, 1e-4, 100, "key", error) &&
+           in_range(options.epsilon, 1e-30, 1, "epsilon", error) &&
+           (!options.white_percentile ||
+            in_range(*options.white_percentile, 0.001, 100, "white percentile", error));
+}
+
+// Pixels that are not to be in the statistics become NaN.
+void leave_out(const CalibrationOptions& options, const ColorPlanes& planes,
+               std::vector<float>& luminance) {
+    for (size_t i = 0; i < luminance.size(); ++i)
+        if ((options.skip_black && luminance[i] == 0) ||
+            (options.skip_transparent && planes.choice.a >= 0 && planes.alpha.data()[i] == 0))
+            luminance[i] = std::numeric_limits<float>::quiet_NaN();
+}
+
+} // namespace
+
+bool Calibration::make(const ImageBuf& image, const PixelOptions& pixels,
+                       const CalibrationOptions& options, int nthreads, std::string& error) {
+    m_options = options;
+    m_region = image.roi();
+    m_summary = {};
+    if (!check(options, image, error))
+        return false;
+    m_summary.exposure = options.stops;
+    m_factor = float(std::exp2(options.stops));
+    const bool measured =
+        options.method != CalibrationMethod::Manual || options.white_percentile.has_value();
+    return !measured || measure(image, pixels, nthreads, error);
+}
+
+double Calibration::factor_of(double mean) const {
+    double factor = std::exp2(m_options.stops);
+    if (m_options.method == CalibrationMethod::Mean)
+        factor *= tonemap::gain(m_options.key, mean);
+    else if (m_options.method == CalibrationMethod::AutoKey)
+        factor *= tonemap::gain(tonemap::auto_key(mean), mean);
+    return factor;
+}
+
+bool Calibration::measure(const ImageBuf& image, const PixelOptions& pixels, int nthreads,
+                          std::string& error) {
+    ColorReader reader;
+    const bool alpha = m_options.skip_transparent;
+    if (!reader.open(image, pixels, m_region, alpha, nthreads, error))
+        return false;
+    ColorPlanes planes = reader.planes();
+    PagedArray<float> plane;
+    if (!reader.read(m_region.ybegin, m_region.yend, planes, error) ||
+        !read_luminance(reader, planes, nthreads, plane, error))
+        return false;
+    std::vector<float> luminance(plane.data(), plane.data() + luminance_bytes(m_region) / 4);
+    leave_out(m_options, planes, luminance);
+    auto means = std::make_unique<tonemap::LocalMeans>(luminance.data(), m_region.width(),
+                                                       m_region.height(), m_options.level,
+                                                       m_options.epsilon, make_parallel(nthreads));
+    m_summary.pixels = means->pixels();
+    if (m_summary.pixels == 0) {
+        error = "no pixel is left for the statistics (non-finite, black and transparent ones are "
+                "left out as asked)";
+        return false;
+    }
+    if (m_options.method != CalibrationMethod::Manual) {
+        m_summary.mean = means->mean();
+        m_summary.key = m_options.method == CalibrationMethod::Mean
+                            ? m_options.key
+                            : tonemap::auto_key(m_summary.mean);
+        m_summary.exposure = std::log2(factor_of(m_summary.mean));
+        m_factor = float(factor_of(m_summary.mean));
+    }
+    if (m_options.level > 0)
+        m_means = std::move(means);
+    if (m_options.white_percentile)
+        find_white(luminance, nthreads);
+    return true;
+}
+
+void Calibration::find_white(std::vector<float>& luminance, int nthreads) {
+    const auto parallel = make_parallel(nthreads);
+    const auto width = size_t(m_region.width());
+    parallel(m_region.height(), [&](int64_t y) {
+        std::vector<float> factors(width);
+        row(m_region.ybegin + int(y), m_region.xbegin, m_region.xend, factors.data());
+        for (size_t x = 0; x < width; ++x)
+            luminance[size_t(y) * width + x] *= factors[x];
+    });
+    const metrics::OrderStatistics order(luminance.data(), m_region.width(), m_region.height(),
+                                         m_region.width(), parallel);
+    m_summary.white =
+        order.find({metrics::Wanted::percentile(*m_options.white_percentile / 100)})[0];
+}
+
+void Calibration::row(int y, int xbegin, int xend, float* out) const {
+    if (uniform()) {
+        std::fill(out, out + (xend - xbegin), m_factor);
+        return;
+    }
+    std::vector<double> means(size_t(m_region.width()));
+    m_means->row(y - m_region.ybegin, means.data());
+    for (int x = xbegin; x < xend; ++x)
+        out[x - xbegin] = float(factor_of(means[size_t(x - m_region.xbegin)]));
+}
+
+namespace {
+
+bool scaled(ImageBuf& dst, const ImageBuf& src, const CalibrationOptions& options,
+            const PixelOptions& pixels, ROI roi, int nthreads, CalibrationSummary* summary,
+            std::string& error) {
+    ColorChoice choice;
+    Calibration calibration;
+    if (!check_readable(src, "source", error) ||
+        !ToneAlgo::find_color(deciding_spec(src), pixels, choice, error))
+        return false;
+    if (choice.display_encoded) {
+        error = "the image is display-encoded (" + choice.space +
+                "): calibration needs linear values; convert it first or pass from=";
+        return false;
+    }
+    if (options.white_percentile) {
+        error = "white is of tone curves: it belongs to tonemap";
+        return false;
+    }
+    ROI part;
+    ImageBuf out;
+    if (!part_of(src, roi, part, error) ||
+        !calibration.make(src, pixels, options, nthreads, error) ||
+        !copy_pixels(out, src, part, nthreads, error))
+        return false;
+    const OIIO::ImageSpec& spec = out.spec();
+    auto* data = static_cast<float*>(out.localpixels());
+    make_parallel(nthreads)(spec.height, [&](int64_t y) {
+        std::vector<float> factors(static_cast<size_t>(spec.width));
+        calibration.row(spec.y + int(y), spec.x, spec.x + spec.width, factors.data());
+        float* pixel = data + y * spec.width * spec.nchannels;
+        for (float factor : factors) {
+            for (int c : channels_of(choice))
+                pixel[c] *= factor;
+            pixel += spec.nchannels;
+        }
+    });
+    if (summary)
+        *summary = calibration.summary();
+    dst = std::move(out);
+    return true;
+}
+
+} // namespace
+
+bool ToneAlgo::calibrate(ImageBuf& dst, const ImageBuf& src, const CalibrationOptions& calibration,
+                         const PixelOptions& options, CalibrationSummary* summary, ROI roi,
+                         int nthreads) {
+    return guarded(dst, "calibrate", [&](std::string& error) {
+        return scaled(dst, src, calibration, options, roi, nthreads, summary, error);
+    });
+}
+
+} // namespace tonetool

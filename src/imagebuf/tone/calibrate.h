@@ -1,0 +1,41 @@
+// Calibration of images: statistics to exposures.
+#pragma once
+
+#include <OpenImageIO/imagebuf.h>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "tonemap/calibration.h"
+#include "tonetool/tonemap.h"
+
+namespace tonetool {
+
+/// What an image's colour is to be multiplied by.
+class Calibration {
+public:
+    /// Checks the options, measures where that is needed.
+    bool make(const OIIO::ImageBuf& image, const PixelOptions& pixels,
+              const CalibrationOptions& options, int nthreads, std::string& error);
+
+    const CalibrationSummary& summary() const { return m_summary; }
+    /// One factor for all pixels.
+    bool uniform() const { return m_means == nullptr; }
+    float factor() const { return m_factor; }
+    /// Factors of the pixels [xbegin, xend) of a row of the image.
+    void row(int y, int xbegin, int xend, float* out) const;
+
+private:
+    bool measure(const OIIO::ImageBuf& image, const PixelOptions& pixels, int nthreads,
+                 std::string& error);
+    double factor_of(double mean) const;
+    void find_white(std::vector<float>& luminance, int nthreads);
+
+    CalibrationOptions m_options;
+    CalibrationSummary m_summary;
+    OIIO::ROI m_region;
+    float m_factor = 1;
+    std::unique_ptr<tonemap::LocalMeans> m_means;
+};
+
+} // namespace tonetool

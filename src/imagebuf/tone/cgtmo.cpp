@@ -1,0 +1,234 @@
+// The public functions of include/tonetool/cgtmo.h.
+#include "tonetool/cgtmo.h"
+
+#include <OpenImageIO/strutil.h>
+#include <algorithm>
+#include <memory>
+
+#include "imagebuf/color/color_reader.h"
+#include "imagebuf/pixels/guard.h"
+#include "imagebuf/pixels/parallel.h"
+#include "imagebuf/pixels/row_source.h"
+#include "imagebuf/tone/cgtmo_guides.h"
+#include "imagebuf/tone/cgtmo_plan.h"
+#include "imagebuf/tone/scene_stats.h"
+
+namespace tonetool {
+namespace {
+
+using OIIO::ImageBuf;
+using OIIO::ImageSpec;
+using OIIO::ROI;
+using OIIO::Strutil::fmt::format;
+
+// One call: what is checked, read and measured, then the operator, in place.
+class LocalMapping {
+public:
+    LocalMapping(const ImageBuf& src, const CgTmoOptions& options, int nthreads)
+        : m_src(src),
+          m_options(options),
+          m_nthreads(nthreads),
+          m_region(src.roi()) {}
+
+    bool run(ImageBuf& dst, ROI roi, std::string& error) {
+        if (!check_readable(m_src, "source", error) || !plan_local(m_options, m_plan, error))
+            return false;
+        ROI part;
+        if (!part_of(m_src, roi, part, error) || !read_color(error) || !measure(error) ||
+            !map(part, error))
+            return false;
+        ImageBuf out;
+        if (!copy_pixels(out, m_src, part, m_nthreads, error))
+            return false;
+        place(out);
+        tag(out.specmod());
+        dst = std::move(out);
+        return true;
+    }
+
+    CgTmoSummary summary;
+
+private:
+    bool read_color(std::string& error) {
+        if (!m_reader.open(m_src, m_options.pixels, m_region, false, m_nthreads, error))
+            return false;
+        m_planes = m_reader.planes();
+        if (!m_reader.read(m_region.ybegin, m_region.yend, m_planes, error))
+            return false;
+        summary.layer = m_planes.choice.layer;
+        summary.space = m_planes.choice.space;
+        summary.nonfinite = m_planes.counts.nonfinite;
+        summary.negative = m_planes.counts.negative;
+        if (summary.nonfinite > 0)
+            summary.warnings.push_back(
+                format("{} pixel(s) are not finite and became black", summary.nonfinite));
+        return true;
+    }
+
+    // Lwa and Lmax.
+    bool measure(std::string& error) {
+        SceneStats scene;
+        if (!measure_scene(m_src, m_options, m_reader, m_planes, m_nthreads, scene, error))
+            return false;
+        summary.adaptation = m_plan.what.curve.adaptation = scene.adaptation;
+        summary.maximum = m_plan.what.curve.maximum = scene.maximum;
+        summary.adaptation_from = scene.adaptation_from;
+        summary.maximum_from = scene.maximum_from;
+        summary.maximum_light = scene.maximum_light;
+        summary.light_index = scene.light_index;
+        summary.warnings.insert(summary.warnings.end(), scene.warnings.begin(),
+                                scene.warnings.end());
+        m_luminance = std::move(scene.luminance);
+        return true;
+    }
+
+    // The colours of a part of the region become display light. What it takes is gone afterwards,
+    // before the result needs memory.
+    bool map(const ROI& part, std::string& error) {
+        LocalGuides guides(m_src, m_options, m_region, m_nthreads);
+        kernels::GuidePlanes image;
+        image.stride = image.width = m_region.width();
+        image.height = m_region.height();
+        if (m_plan.filter == BaseFilter::Guided) {
+            if (!guides.read(m_plan.what, summary, error))
+                return false;
+            image = guides.view();
+        }
+        summary.samples = m_plan.samples;
+        const kernels::Window window{part.xbegin - m_region.xbegin, part.ybegin - m_region.ybegin,
+                                     part.width(), part.height()};
+        if (m_plan.filter == BaseFilter::Wls || m_plan.show != LocalShow::Picture)
+            map_on_base(image, window);
+        else
+            map_at_once(image, window);
+        m_luminance = {};
+        return true;
+    }
+
+    tonemap::LocalOutput output(const kernels::Window& window) {
+        const ptrdiff_t stride = m_region.width();
+        tonemap::LocalOutput out;
+        out.stride = stride;
+        for (size_t c = 0; c < 3; ++c)
+            out.rgb[c] = m_planes.plane[c].data() + window.y0 * stride + window.x0;
+        return out;
+    }
+
+    void take_logarithms(kernels::GuidePlanes& image, const kernels::ParallelFor& parallel) {
+        tonemap::take_logarithms(m_plan.what, m_luminance.data(), m_region.width(),
+                                 m_region.height(), parallel);
+        image.value = m_luminance.data();
+    }
+
+    void map_at_once(kernels::GuidePlanes& image, const kernels::Window& window) {
+        const auto parallel = make_parallel(m_nthreads);
+        take_logarithms(image, parallel);
+        tonemap::tone_map_guided(m_plan.what, m_planes.view(), image,
+                                 taps_of(m_plan, m_options.sigma), window, output(window),
+                                 parallel);
+    }
+
+    void map_on_base(kernels::GuidePlanes& image, const kernels::Window& window) {
+        const auto parallel = make_parallel(m_nthreads);
+        PagedArray<float> kept;
+        tonemap::LocalBase base;
+        if (m_plan.filter == BaseFilter::Wls) {
+            // It has no window: the base is that of the whole image.
+            const ptrdiff_t width = m_region.width();
+            tonemap::wls_base(m_plan.wls, m_luminance.data(), int(width), m_region.height(),
+                              m_luminance.data());
+            base = {m_luminance.data() + window.y0 * width + window.x0, width};
+        } else {
+            kept.resize(size_t(window.width) * size_t(window.height));
+            take_logarithms(image, parallel);
+            tonemap::guided_base(m_plan.what, image, taps_of(m_plan, m_options.sigma), window,
+                                 kept.data(), window.width, parallel);
+            base = {kept.data(), window.width};
+        }
+        const tonemap::LocalOutput to = output(window);
+        if (m_plan.show == LocalShow::Picture)
+            return tonemap::tone_map_local(m_plan.what, m_planes.view(), base, window, to,
+                                           parallel);
+        // The first plane stands for all three.
+        tonemap::local_part(m_plan.what, m_planes.view(), base, window,
+                            m_plan.show == LocalShow::Base ? tonemap::LocalPart::Base
+                                                           : tonemap::LocalPart::Detail,
+                            to.rgb[0], to.stride, parallel);
+    }
+
+    // What was made of the pixels of `out` into its colour channels.
+    void place(ImageBuf& out) const {
+        const ImageSpec& spec = out.spec();
+        const int to[3] = {m_planes.choice.r, m_planes.choice.g, m_planes.choice.b};
+        auto* pixels = static_cast<float*>(out.localpixels());
+        make_parallel(m_nthreads)(spec.height, [&](int64_t y) {
+            const float* rgb[3];
+            m_planes.row(spec.x, spec.y + int(y), rgb);
+            if (m_plan.show != LocalShow::Picture)
+                rgb[1] = rgb[2] = rgb[0];
+            float* pixel = pixels + y * spec.width * spec.nchannels;
+            for (int x = 0; x < spec.width; ++x, pixel += spec.nchannels)
+                for (size_t c = 0; c < 3; ++c)
+                    pixel[to[c]] = finished(rgb[c][x]);
+        });
+    }
+
+    float finished(float v) const {
+        if (m_plan.show != LocalShow::Picture)
+            return v;
+        v = v > 0 ? v : 0;
+        return m_plan.encode(m_options.clamp ? std::min(v, 1.0f) : v);
+    }
+
+    void tag(ImageSpec& spec) const {
+        const bool picture = m_plan.show == LocalShow::Picture;
+        retag(spec, space_of_encoding(picture ? m_options.encode : "none"));
+        spec.attribute("tonemap:layer", summary.layer);
+        const std::pair<const char*, std::string> texts[] = {
+            {"tonemap:curve", "cgtmo"},
+            {"tonemap:show", m_options.show},
+            {"tonemap:position", summary.position},
+            {"tonemap:normal", summary.normal},
+            {"tonemap:albedo", summary.albedo},
+            {"tonemap:adaptation_from", summary.adaptation_from},
+            {"tonemap:maximum_from", summary.maximum_from},
+            {"tonemap:maximum_light", summary.maximum_light}};
+        for (const auto& [name, text] : texts)
+            if (!text.empty())
+                spec.attribute(name, text);
+        spec.attribute("tonemap:adaptation", float(summary.adaptation));
+        spec.attribute("tonemap:maximum", float(summary.maximum));
+    }
+
+    const ImageBuf& m_src;
+    const CgTmoOptions& m_options;
+    int m_nthreads;
+    ROI m_region;
+    LocalPlan m_plan;
+    ColorReader m_reader;
+    ColorPlanes m_planes;
+    PagedArray<float> m_luminance;
+};
+
+} // namespace
+
+bool ToneAlgo::cg_tmo(ImageBuf& dst, const ImageBuf& src, const CgTmoOptions& options,
+                      CgTmoSummary* summary, ROI roi, int nthreads) {
+    return guarded(dst, "cg_tmo", [&](std::string& error) {
+        LocalMapping mapping(src, options, nthreads);
+        if (!mapping.run(dst, roi, error))
+            return false;
+        if (summary)
+            *summary = mapping.summary;
+        return true;
+    });
+}
+
+ImageBuf ToneAlgo::cg_tmo(const ImageBuf& src, const CgTmoOptions& options, CgTmoSummary* summary,
+                          ROI roi, int nthreads) {
+    ImageBuf dst;
+    cg_tmo(dst, src, options, summary, roi, nthreads);
+    return dst;
+}
+
+} // namespace tonetool

@@ -1,0 +1,267 @@
+#include "imagebuf/tone/cgtmo_guides.h"
+
+#include <OpenImageIO/strutil.h>
+#include <algorithm>
+#include <cmath>
+
+#include "imagebuf/aov/camera.h"
+#include "imagebuf/pixels/checks.h"
+#include "imagebuf/pixels/parallel.h"
+#include "imagebuf/tone/cgtmo_plan.h"
+#include "tonemap/footprint.h"
+
+namespace tonetool {
+namespace {
+
+using OIIO::ImageBuf;
+using OIIO::Strutil::fmt::format;
+
+// Blender's default, and not far from what others have.
+constexpr double kUsualView = 40;
+
+struct Slot {
+    const char* name;
+    std::string GuideOptions::*asked;
+    std::optional<GuideChannels> GBufferNames::*found;
+};
+constexpr Slot kSlots[] = {{"position", &GuideOptions::position, &GBufferNames::position},
+                           {"normal", &GuideOptions::normal, &GBufferNames::normal},
+                           {"albedo", &GuideOptions::albedo, &GBufferNames::albedo},
+                           {"depth", &GuideOptions::depth, &GBufferNames::depth}};
+
+// Nothing but one guide.
+GuideOptions only(const Slot& slot, const std::string& layer) {
+    GuideOptions out{"none", "none", "none", "none", ""};
+    out.*slot.asked = layer;
+    return out;
+}
+
+void append(std::vector<std::string>& to, const std::vector<std::string>& from) {
+    to.insert(to.end(), from.begin(), from.end());
+}
+
+} // namespace
+
+bool LocalGuides::find_in_files(GuideOptions& asked, GBufferNames& names,
+                                std::string& error) const {
+    for (const Slot& slot : kSlots) {
+        const std::string file = asked.*slot.asked;
+        if (!is_file(file))
+            continue;
+        auto image = std::make_shared<ImageBuf>(file);
+        GBufferNames there;
+        if (!image->init_spec(file, 0, 0)) {
+            error = format("{} file \"{}\": {}", slot.name, file, image->geterror());
+            return false;
+        }
+        if (!find_gbuffer(image->spec(), only(slot, ""), there, error))
+            return false;
+        auto& found = there.*slot.found;
+        // A file of one layer needs no name for it.
+        if (!found && !find_gbuffer(image->spec(), only(slot, "R,G,B"), there, error)) {
+            error = format("{} file \"{}\" has no {} layer", slot.name, file, slot.name);
+            return false;
+        }
+        found->file = std::move(image);
+        found->layer = file;
+        names.*slot.found = found;
+        asked.*slot.asked = "none";
+    }
+    return true;
+}
+
+// Renderers that write a part for each layer.
+bool LocalGuides::find_in_parts(const GuideOptions& asked, GBufferNames& names,
+                                std::string& error) const {
+    const std::string file(m_image.name());
+    if (m_image.nsubimages() < 2 || !is_file(file))
+        return true;
+    for (int part = 0; part < m_image.nsubimages(); ++part) {
+        if (part == m_image.subimage())
+            continue;
+        auto image = std::make_shared<ImageBuf>(file, part, 0);
+        GuideOptions missing = asked;
+        for (const Slot& slot : kSlots)
+            if (names.*slot.found)
+                missing.*slot.asked = "none";
+        GBufferNames there;
+        if (!image->init_spec(file, part, 0) || !find_gbuffer(image->spec(), missing, there, error))
+            return error.empty();
+        for (const Slot& slot : kSlots)
+            if (auto& found = there.*slot.found) {
+                found->file = image;
+                names.*slot.found = found;
+            }
+    }
+    return true;
+}
+
+bool LocalGuides::find(const std::string& beauty, GBufferNames& names, std::string& error) const {
+    GuideOptions asked{m_options.position, m_options.normal, m_options.albedo, m_options.depth,
+                       beauty};
+    GBufferNames in_files;
+    if (!find_in_files(asked, in_files, error) ||
+        !find_gbuffer(m_image.spec(), asked, names, error))
+        return false;
+    for (const Slot& slot : kSlots)
+        if (in_files.*slot.found)
+            names.*slot.found = in_files.*slot.found;
+    return find_in_parts(asked, names, error);
+}
+
+bool LocalGuides::read(tonemap::LocalOperator& what, CgTmoSummary& summary, std::string& error) {
+    m_view.stride = m_view.width = m_region.width();
+    m_view.height = m_region.height();
+    GBufferNames names;
+    if (!find(summary.layer, names, error) ||
+        !read_gbuffer(m_image, names, m_region, m_nthreads, m_guides, error))
+        return false;
+    append(summary.warnings, m_guides.warnings);
+    summary.notes = names.notes;
+    if (names.depth && m_guides.has_depth())
+        summary.depth = names.depth->layer;
+    if (!m_guides.has_position() && m_guides.has_depth() && m_options.position != "none" &&
+        !position_of_depth(summary, error))
+        return false;
+    show(names, summary);
+    return stand_in(what, summary, error) && find_footprint(what, summary, error);
+}
+
+void LocalGuides::show(const GBufferNames& names, CgTmoSummary& summary) {
+    const auto use = [](const std::vector<float>(&plane)[3], const float*(&view)[3],
+                        const std::optional<GuideChannels>& found, std::string& layer) {
+        if (plane[0].empty())
+            return;
+        for (size_t c = 0; c < 3; ++c)
+            view[c] = plane[c].data();
+        if (found)
+            layer = found->layer.empty() ? "plain" : found->layer;
+    };
+    use(m_guides.position, m_view.position, names.position, summary.position);
+    use(m_guides.normal, m_view.normal, names.normal, summary.normal);
+    use(m_guides.albedo, m_view.albedo, names.albedo, summary.albedo);
+    if (!m_guides.background.empty())
+        m_view.background = m_guides.background.data();
+    summary.background = std::count_if(m_guides.background.begin(), m_guides.background.end(),
+                                       [](uint8_t b) { return b != 0; });
+}
+
+bool LocalGuides::stand_in(tonemap::LocalOperator& what, CgTmoSummary& summary,
+                           std::string& error) {
+    const std::tuple<const char*, bool> guides[] = {
+        {"position", !m_view.position[0] && m_options.position != "none"},
+        {"normal", !m_view.normal[0] && m_options.normal != "none"},
+        {"albedo", !m_view.albedo[0] && m_options.albedo != "none"}};
+    for (const auto& [name, missing] : guides) {
+        if (!missing)
+            continue;
+        const std::string lack = format("no {} among the layers", name);
+        if (m_options.strict) {
+            error = lack + "; " + name + "= names one, \"none\" does without";
+            return false;
+        }
+        summary.warnings.push_back(lack + ": its term is left out");
+    }
+    if (!m_view.position[0] && !m_view.normal[0] && !m_view.albedo[0] &&
+        what.luminance_sigma == 0) {
+        what.luminance_sigma = kLuminanceSigma;
+        summary.warnings.push_back(
+            format("without a guide only luminance tells edges: lumsigma={}", kLuminanceSigma));
+    }
+    return true;
+}
+
+// Points on the rays of a camera that looks along the depth.
+bool LocalGuides::position_of_depth(CgTmoSummary& summary, std::string& error) {
+    auto camera = find_camera(m_image.spec(), m_options.fov);
+    const std::string lack =
+        format("no position among the layers: it is made of \"{}\"", summary.depth);
+    if (m_options.strict && !camera) {
+        error = "no position among the layers, and its depth would need a field of view (fov=)";
+        return false;
+    }
+    if (!camera) {
+        camera = find_camera(m_image.spec(), kUsualView);
+        summary.warnings.push_back(
+            format("{} and a field of view of {} degrees (fov=)", lack, kUsualView));
+    } else {
+        summary.notes.push_back(lack);
+    }
+    const size_t size = m_guides.depth.size();
+    for (auto& plane : m_guides.position)
+        plane.resize(size);
+    const OIIO::ImageSpec& spec = m_image.spec();
+    const double middle_x = spec.full_x + 0.5 * spec.full_width - 0.5;
+    const double middle_y = spec.full_y + 0.5 * spec.full_height - 0.5;
+    make_parallel(m_nthreads)(m_region.height(), [&](int64_t row) {
+        for (int col = 0; col < m_region.width(); ++col) {
+            const size_t i = size_t(row) * size_t(m_region.width()) + size_t(col);
+            const double z = double(m_guides.depth[i]);
+            const double step = camera->parallel ? camera->step : camera->step * z;
+            m_guides.position[0][i] = float((m_region.xbegin + col - middle_x) * step);
+            m_guides.position[1][i] = float((m_region.ybegin + int(row) - middle_y) * step);
+            m_guides.position[2][i] = float(z);
+        }
+    });
+    summary.position = "of " + summary.depth;
+    return true;
+}
+
+bool LocalGuides::camera_footprints(std::string& error) {
+    const auto camera = find_camera(m_image.spec(), m_options.fov);
+    if (!camera) {
+        error = "footprint=camera: the image has no worldToCamera and worldToNDC; fov= gives the "
+                "horizontal field of view";
+        return false;
+    }
+    if (!camera->parallel && !camera->to_camera && !m_guides.has_depth()) {
+        error =
+            "footprint=camera: neither a depth layer nor worldToCamera tells how far pixels are";
+        return false;
+    }
+    make_parallel(m_nthreads)(m_region.height(), [&](int64_t row) {
+        for (int x = 0; x < m_region.width(); ++x) {
+            const size_t i = size_t(row) * size_t(m_region.width()) + size_t(x);
+            double z = camera->parallel ? 1 : 0;
+            if (!camera->parallel && m_guides.has_depth())
+                z = double(m_guides.depth[i]);
+            else if (!camera->parallel)
+                z = (Imath::V3d(m_guides.position[0][i], m_guides.position[1][i],
+                                m_guides.position[2][i]) *
+                     *camera->to_camera)
+                        .z;
+            m_footprints[i] = m_guides.background[i] ? 0 : float(std::abs(z) * camera->step);
+        }
+    });
+    return true;
+}
+
+bool LocalGuides::find_footprint(tonemap::LocalOperator& what, CgTmoSummary& summary,
+                                 std::string& error) {
+    if (!m_view.position[0])
+        return true;
+    if (const auto given = number_of(m_options.footprint)) {
+        summary.footprint = what.terms.footprint = *given;
+        return in_range(*given, 1e-15, 1e15, "footprint", error);
+    }
+    if (!one_of("footprint", m_options.footprint, {"pixel", "global", "camera", "a number"}, error))
+        return false;
+    m_footprints.resize(size_t(m_region.width()) * size_t(m_region.height()));
+    m_footprints.expect_all_written();
+    if (m_options.footprint == "camera") {
+        if (!camera_footprints(error))
+            return false;
+    } else {
+        tonemap::footprints(m_view,
+                            m_guides.half_positions ? tonemap::kHalfStep : tonemap::kFloatStep,
+                            m_footprints.data(), make_parallel(m_nthreads));
+    }
+    summary.footprint =
+        tonemap::median_footprint(m_footprints.data(), m_region.width(), m_region.height());
+    what.terms.footprint = summary.footprint > 0 ? summary.footprint : 1;
+    if (m_options.footprint != "global")
+        m_view.footprint = m_footprints.data();
+    return true;
+}
+
+} // namespace tonetool

@@ -1,0 +1,49 @@
+// The guides of CG-TMO: found in the image, in other parts of its file or in files of their own,
+// and what stands in for those that are not there.
+#pragma once
+
+#include <OpenImageIO/imagebuf.h>
+#include <string>
+
+#include "imagebuf/aov/gbuffer.h"
+#include "imagebuf/pixels/paged_array.h"
+#include "tonemap/local.h"
+#include "tonetool/cgtmo.h"
+
+namespace tonetool {
+
+class LocalGuides {
+public:
+    LocalGuides(const OIIO::ImageBuf& image, const CgTmoOptions& options, OIIO::ROI region,
+                int nthreads)
+        : m_image(image),
+          m_options(options),
+          m_region(region),
+          m_nthreads(nthreads) {}
+
+    /// Fills in the footprint of `what`, and the luminance term if it is all that is left.
+    bool read(tonemap::LocalOperator& what, CgTmoSummary& summary, std::string& error);
+
+    /// Planes of the region without a value; valid as long as this is.
+    const kernels::GuidePlanes& view() const { return m_view; }
+
+private:
+    bool find(const std::string& beauty, GBufferNames& names, std::string& error) const;
+    bool find_in_files(GuideOptions& asked, GBufferNames& names, std::string& error) const;
+    bool find_in_parts(const GuideOptions& asked, GBufferNames& names, std::string& error) const;
+    bool stand_in(tonemap::LocalOperator& what, CgTmoSummary& summary, std::string& error);
+    bool position_of_depth(CgTmoSummary& summary, std::string& error);
+    void show(const GBufferNames& names, CgTmoSummary& summary);
+    bool find_footprint(tonemap::LocalOperator& what, CgTmoSummary& summary, std::string& error);
+    bool camera_footprints(std::string& error);
+
+    const OIIO::ImageBuf& m_image;
+    const CgTmoOptions& m_options;
+    OIIO::ROI m_region;
+    int m_nthreads;
+    GBuffer m_guides;
+    PagedArray<float> m_footprints;
+    kernels::GuidePlanes m_view;
+};
+
+} // namespace tonetool

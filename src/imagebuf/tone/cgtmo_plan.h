@@ -1,0 +1,34 @@
+// The options of CG-TMO as numbers.
+#pragma once
+
+#include <OpenImageIO/imagebuf.h>
+#include <string>
+
+#include "imagebuf/color/tone_rows.h"
+#include "tonemap/local.h"
+#include "tonemap/wls.h"
+#include "tonetool/cgtmo.h"
+
+namespace tonetool {
+
+enum class BaseFilter { Guided, Bilateral, Wls, None };
+enum class LocalShow { Picture, Base, Detail };
+
+inline constexpr double kLuminanceSigma = 0.4; ///< in log10: Durand and Dorsey's
+
+struct LocalPlan {
+    BaseFilter filter = BaseFilter::Guided;
+    LocalShow show = LocalShow::Picture;
+    Encoding encode = nullptr;
+    tonemap::LocalOperator what; ///< without the luminances of the scene and the footprint
+    tonemap::WlsTerms wls;
+    int half = 0;    ///< of the window, in pixels
+    int samples = 0; ///< of the window; all of it where it holds no more
+};
+
+bool plan_local(const CgTmoOptions& options, LocalPlan& plan, std::string& error);
+
+/// The offsets that the filter looks at.
+kernels::TapSets taps_of(const LocalPlan& plan, double sigma);
+
+} // namespace tonetool

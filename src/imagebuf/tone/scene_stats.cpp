@@ -1,0 +1,279 @@
+#include "imagebuf/tone/scene_stats.h"
+
+#include <OpenImageIO/filesystem.h>
+#include <OpenImageIO/strutil.h>
+#include <algorithm>
+#include <cmath>
+
+#include "imagebuf/color/luminance_plane.h"
+#include "imagebuf/lights/light_maximum.h"
+#include "imagebuf/pixels/checks.h"
+#include "imagebuf/pixels/parallel.h"
+#include "metrics/order_statistics.h"
+#include "tonemap/luminance_means.h"
+
+namespace tonetool {
+namespace {
+
+using OIIO::ImageBuf;
+using OIIO::Strutil::fmt::format;
+
+constexpr double kEpsilon = 1e-6;
+// Between figures of the scene and of the image, before another unit is suspected.
+constexpr double kFar = 1000;
+
+enum Source { Lights, Groups, Env, Image, kSources };
+constexpr const char* kSourceNames[kSources] = {"lights", "groups", "env", "image"};
+constexpr const char* kSourceTitles[kSources] = {"the lights", "the light groups", "the panorama",
+                                                 "the image"};
+
+class SceneMeasure {
+public:
+    SceneMeasure(const ImageBuf& image, const CgTmoOptions& options, int nthreads, SceneStats& out)
+        : m_image(image),
+          m_options(options),
+          m_nthreads(nthreads),
+          m_out(out),
+          m_lights(image, options.pixels, options.lights, options.max_percentile, nthreads) {}
+
+    bool measure(ColorReader& reader, ColorPlanes& planes, std::string& error) {
+        if (!check(error) || !m_lights.read_table(error) || !read_panorama(error) ||
+            !read_luminance(reader, planes, m_nthreads, m_out.luminance, error))
+            return false;
+        m_region = planes.region;
+        m_means = tonemap::luminance_means(m_out.luminance.data(), m_region.width(),
+                                           m_region.height(), kEpsilon, make_parallel(m_nthreads));
+        if (!find_maximum(error) || !find_adaptation(error))
+            return false;
+        compare();
+        return true;
+    }
+
+private:
+    bool check(std::string& error);
+    bool read_panorama(std::string& error);
+    bool find_maximum(std::string& error);
+    bool maximum_from(Source source, std::string& why, std::string& error);
+    bool take_lights(Source source, std::string& why, std::string& error);
+    bool find_adaptation(std::string& error);
+    double image_mean() const;
+    double panorama_mean() const;
+    double image_maximum() const;
+    double image_percentile(metrics::Wanted wanted) const;
+    bool asked(Source source) const;
+    void compare();
+
+    const ImageBuf& m_image;
+    const CgTmoOptions& m_options;
+    int m_nthreads;
+    SceneStats& m_out;
+    LightMaximum m_lights;
+    std::optional<PanoramaStats> m_panorama;
+    std::string m_no_panorama; ///< why it is not used
+    OIIO::ROI m_region;
+    tonemap::LuminanceMeans m_means; ///< of the image
+};
+
+bool SceneMeasure::check(std::string& error) {
+    const CgTmoOptions& o = m_options;
+    if (!number_of(o.lwa) &&
+        !one_of("lwa", o.lwa, {"geometric", "harmonic", "arithmetic", "median", "a number"}, error))
+        return false;
+    if (!one_of("maximum", o.maximum, {"auto", "lights", "groups", "env", "image"}, error) ||
+        !one_of("weight", o.weight, {"solidangle", "none"}, error) ||
+        !one_of("index", o.lights.index, {"contribution", "power"}, error) ||
+        !in_range(o.max_percentile, 50, 100, "maxpercentile", error))
+        return false;
+    if (o.lmax && !(*o.lmax > 0 && std::isfinite(*o.lmax)))
+        error = format("lmax is {}: must be positive and finite", *o.lmax);
+    else if (o.lights.table.empty() && o.maximum == "lights")
+        error = "maximum=lights needs a table of lights (lights=)";
+    else if (o.lights.table.empty() && !o.lights.layer.empty() && o.lights.layer != "groups")
+        error = "lightindex= needs a table of lights (lights=)";
+    else if (!o.lights.table.empty() && o.maximum != "auto" && o.maximum != "lights")
+        error = format("maximum={} does not look at the table of lights (valid with it: auto, "
+                       "lights)",
+                       o.maximum);
+    else if (o.env.empty() && o.maximum == "env")
+        error = "maximum=env needs a panorama (env=)";
+    return error.empty();
+}
+
+bool SceneMeasure::read_panorama(std::string& error) {
+    const std::string& file = m_options.env;
+    if (file.empty())
+        return true;
+    const auto fail = [&](const std::string& why) {
+        error = format("panorama \"{}\": {}", file, why);
+        return false;
+    };
+    if (!OIIO::Filesystem::exists(file))
+        return fail("there is no such file");
+    const ImageBuf image(file);
+    PanoramaOptions options{m_options.pixels, m_options.weight};
+    ColorChoice choice;
+    std::string why;
+    // It need not have the layer that was named for the image.
+    if (!image.has_error() &&
+        !ToneAlgo::find_color(deciding_spec(image), options.pixels, choice, why))
+        options.pixels.layer.clear();
+    PanoramaStats stats;
+    if (!ToneAlgo::panorama_stats(stats, image, why, options, m_nthreads))
+        return fail(why);
+    if (stats.nonfinite + stats.uncovered > 0)
+        m_out.warnings.push_back(format("{} pixel(s) of the panorama are not finite or not there, "
+                                        "and are left out",
+                                        stats.nonfinite + stats.uncovered));
+    if (stats.max > 0)
+        m_panorama = stats;
+    else
+        m_no_panorama = format("panorama \"{}\" is black", file);
+    if (m_panorama)
+        return true;
+    if (m_options.strict) {
+        error = m_no_panorama;
+        return false;
+    }
+    m_out.warnings.push_back(m_no_panorama + " and is left out");
+    return true;
+}
+
+bool SceneMeasure::asked(Source source) const {
+    return m_options.maximum == kSourceNames[source] ||
+           (source == Lights && !m_options.lights.table.empty());
+}
+
+bool SceneMeasure::find_maximum(std::string& error) {
+    if (m_options.lmax) {
+        m_out.maximum = *m_options.lmax;
+        m_out.maximum_from = "lmax";
+        return true;
+    }
+    int first = 0;
+    for (int i = 0; i < kSources; ++i)
+        first = m_options.maximum == kSourceNames[i] ? i : first;
+    std::vector<std::string> missed;
+    for (int i = first; i < kSources; ++i) {
+        std::string why;
+        if (!maximum_from(Source(i), why, error))
+            return false;
+        if (m_out.maximum > 0) {
+            for (const std::string& reason : missed)
+                m_out.warnings.push_back(reason + ": the maximum is that of " + kSourceTitles[i]);
+            return true;
+        }
+        if (!why.empty() && m_options.strict && asked(Source(i))) {
+            error = why;
+            return false;
+        }
+        if (!why.empty() && (asked(Source(i)) || i == Groups))
+            missed.push_back(why);
+    }
+    error = "the image is black: there is nothing to tone map (or pass lmax)";
+    return false;
+}
+
+bool SceneMeasure::maximum_from(Source source, std::string& why, std::string& error) {
+    if (source == Lights || source == Groups)
+        return (source == Lights && m_options.lights.table.empty()) ||
+               take_lights(source, why, error);
+    if (source == Env && !m_panorama)
+        why = m_no_panorama;
+    else
+        m_out.maximum = source == Env ? m_panorama->max : image_maximum();
+    m_out.maximum_from = kSourceNames[source];
+    return true;
+}
+
+bool SceneMeasure::take_lights(Source source, std::string& why, std::string& error) {
+    std::optional<LightMaximum::Found> found;
+    if (!(source == Lights ? m_lights.by_table(found, why, error)
+                           : m_lights.by_groups(found, why, error)))
+        return false;
+    if (!found) {
+        // Only who asks for groups hears that there are none.
+        if (!asked(source))
+            why.clear();
+        return true;
+    }
+    if (!found->additive && !asked(source)) {
+        why = found->warnings.back();
+        return true;
+    }
+    if (m_options.strict && !found->lacks.empty()) {
+        error = found->lacks.front();
+        return false;
+    }
+    for (const auto* list : {&found->lacks, &found->warnings})
+        m_out.warnings.insert(m_out.warnings.end(), list->begin(), list->end());
+    m_out.maximum = found->luminance;
+    m_out.maximum_from = found->measured ? "groups" : "lights";
+    m_out.maximum_light = found->light;
+    m_out.light_index = found->index;
+    return true;
+}
+
+double SceneMeasure::image_percentile(metrics::Wanted wanted) const {
+    const metrics::OrderStatistics order(m_out.luminance.data(), m_region.width(),
+                                         m_region.height(), m_region.width(),
+                                         make_parallel(m_nthreads));
+    return order.count() > 0 ? order.find({wanted})[0] : 0;
+}
+
+double SceneMeasure::image_maximum() const {
+    if (m_options.max_percentile >= 100)
+        return m_means.max;
+    return image_percentile(metrics::Wanted::percentile(m_options.max_percentile / 100));
+}
+
+double SceneMeasure::image_mean() const {
+    if (m_options.lwa == "arithmetic")
+        return m_means.arithmetic;
+    if (m_options.lwa == "median")
+        return image_percentile(metrics::Wanted::rank(m_means.counted / 2));
+    return m_options.lwa == "harmonic" ? m_means.harmonic : m_means.geometric;
+}
+
+double SceneMeasure::panorama_mean() const {
+    if (m_options.lwa == "arithmetic")
+        return m_panorama->mean;
+    if (m_options.lwa == "median")
+        return m_panorama->median;
+    return m_options.lwa == "harmonic" ? m_panorama->harmonic : m_panorama->geometric;
+}
+
+bool SceneMeasure::find_adaptation(std::string& error) {
+    const auto given = number_of(m_options.lwa);
+    m_out.adaptation_from = given ? "lwa" : m_panorama ? "env" : "image";
+    m_out.adaptation = given ? *given : m_panorama ? panorama_mean() : image_mean();
+    if (m_out.adaptation > 0 && std::isfinite(m_out.adaptation))
+        return true;
+    error = format("the adaptation luminance (lwa={}) is {}: must be positive and finite",
+                   m_options.lwa, m_out.adaptation);
+    return false;
+}
+
+// Tables and panoramas in another unit, or at another exposure.
+void SceneMeasure::compare() {
+    const auto far = [](double a, double b) { return b > 0 && (a > kFar * b || b > kFar * a); };
+    if (m_out.maximum_from == "lights" && far(m_out.maximum, m_means.max))
+        m_out.warnings.push_back(format("by the table light {} has {:.6g}, the brightest pixel "
+                                        "{:.6g}: lightunit= brings them to one unit",
+                                        m_out.maximum_light, m_out.maximum, m_means.max));
+    if (m_out.adaptation_from != "env")
+        return;
+    if (const double own = image_mean(); far(m_out.adaptation, own))
+        m_out.warnings.push_back(format("the {} mean of the panorama is {:.6g}, of the image {:.6g}"
+                                        ": they should have one unit and one exposure",
+                                        m_options.lwa, m_out.adaptation, own));
+}
+
+} // namespace
+
+bool measure_scene(const ImageBuf& image, const CgTmoOptions& options, ColorReader& reader,
+                   ColorPlanes& planes, int nthreads, SceneStats& out, std::string& error) {
+    out = {};
+    return SceneMeasure(image, options, nthreads, out).measure(reader, planes, error);
+}
+
+} // namespace tonetool

@@ -1,0 +1,266 @@
+// ToneAlgo::tonemap.
+#include "tonetool/tonemap.h"
+
+#include <OpenImageIO/strutil.h>
+#include <algorithm>
+#include <cmath>
+#include <mutex>
+
+#include "imagebuf/color/curve_plan.h"
+#include "imagebuf/color/tone_rows.h"
+#include "imagebuf/color/view.h"
+#include "imagebuf/pixels/guard.h"
+#include "imagebuf/pixels/names.h"
+#include "imagebuf/pixels/parallel.h"
+#include "imagebuf/pixels/planes.h"
+#include "imagebuf/pixels/row_source.h"
+#include "imagebuf/tone/calibrate.h"
+#include "kernels/curve_rows.h"
+
+namespace tonetool {
+namespace {
+
+using OIIO::ImageBuf;
+using OIIO::ImageSpec;
+using OIIO::ROI;
+using OIIO::Strutil::fmt::format;
+
+// One call of tonemap: what is checked and found first, then the rows.
+class Mapping {
+public:
+    Mapping(const ImageBuf& src, const TonemapOptions& options, int nthreads)
+        : m_src(src),
+          m_options(options),
+          m_nthreads(nthreads) {}
+
+    bool run(ImageBuf& dst, ROI roi, std::string& error) {
+        if (!check_readable(m_src, "source", error) || !find_channels(error))
+            return false;
+        if (!(m_options.view ? open_view(error) : open_curve(error)))
+            return false;
+        ROI part;
+        ImageBuf out;
+        if (!part_of(m_src, roi, part, error) || !copy_pixels(out, m_src, part, m_nthreads, error))
+            return false;
+        map_rows(out);
+        tag(out.specmod());
+        warn();
+        dst = std::move(out);
+        return true;
+    }
+
+    TonemapSummary summary;
+
+private:
+    bool find_channels(std::string& error) {
+        ColorChoice choice;
+        const ImageSpec spec = deciding_spec(m_src);
+        PixelOptions pixels = m_options.pixels;
+        std::string ignored;
+        // The configuration of a view knows its own spaces, but neither the gamma of a file nor
+        // that colour was multiplied by alpha after it was encoded.
+        m_decode = m_options.view && pixels.from.empty() &&
+                   find_picture(spec, pixels, choice, m_space, ignored) &&
+                   (m_space.gamma > 0 || m_space.straight);
+        if (m_options.view && !m_decode)
+            pixels.from = "rec709";
+        if (!find_picture(spec, pixels, choice, m_space, error))
+            return false;
+        m_channels = {{choice.r, choice.g, choice.b}, choice.a, m_options.unpremult};
+        summary.layer = choice.layer;
+        return true;
+    }
+
+    bool open_view(std::string& error) {
+        if (m_options.calibration.white_percentile) {
+            error = "white is of curves: a view has no such parameter";
+            return false;
+        }
+        ImageSpec spec = deciding_spec(m_src);
+        if (m_decode)
+            retag(spec, "lin_rec709");
+        if (!m_view.open(*m_options.view, m_options.pixels.from, spec, error) ||
+            !m_calibration.make(m_src, m_options.pixels, m_options.calibration, m_nthreads, error))
+            return false;
+        summary.curve = m_view.display() + "/" + m_view.view();
+        summary.space = m_view.from();
+        summary.on = "color";
+        summary.calibration = m_calibration.summary();
+        return true;
+    }
+
+    bool open_curve(std::string& error) {
+        if (!check_output(error) || !check_white(error) ||
+            !m_calibration.make(m_src, m_options.pixels, m_options.calibration, m_nthreads, error))
+            return false;
+        CurveOptions curve = m_options.curve;
+        if (m_options.calibration.white_percentile)
+            curve.parameters["white"] = m_calibration.summary().white;
+        if (!plan_curve(curve, false, m_curve, error)) {
+            if (m_options.calibration.white_percentile)
+                error += " (white is what was measured)";
+            return false;
+        }
+        m_curve.use.clamp = m_options.clamp;
+        if (!rec709())
+            m_curve.use.weights = luminance_weights();
+        summary.curve = m_curve.name;
+        summary.parameters = m_curve.parameters;
+        summary.on = m_curve.on;
+        summary.space = m_space.name;
+        summary.calibration = m_calibration.summary();
+        return true;
+    }
+
+    bool rec709() const { return m_options.primaries == "rec709"; }
+
+    // Of the image's own primaries: those of Rec.709 behind the matrix.
+    std::array<double, 3> luminance_weights() const {
+        const kernels::CurveUse rec709;
+        std::array<double, 3> weights{};
+        for (size_t i = 0; i < 3; ++i)
+            for (size_t j = 0; j < 3; ++j)
+                weights[j] += rec709.weights[i] * m_space.to_rec709[i][j];
+        return weights;
+    }
+
+    bool check_output(std::string& error) {
+        if (m_options.primaries != "rec709" && m_options.primaries != "image") {
+            error = "primaries is \"" + m_options.primaries + "\"; valid: rec709, image";
+            return false;
+        }
+        m_encode = find_encoding(m_options.encode);
+        if (!m_encode) {
+            error = unknown_name("encoding", m_options.encode, ToneAlgo::display_encodings());
+            return false;
+        }
+        if (m_options.encode != "none" && !rec709() && !m_space.is_rec709) {
+            error = "encode=" + m_options.encode + " is for displays of Rec.709's primaries, but " +
+                    "primaries=image keeps those of " + m_space.name;
+            return false;
+        }
+        return true;
+    }
+
+    bool check_white(std::string& error) const {
+        if (!m_options.calibration.white_percentile || has_parameter(m_options.curve, "white"))
+            return true;
+        error = (m_options.curve.coeffs.empty() ? m_options.curve.name : "coeffs") +
+                ": has no parameter white that could be measured";
+        return false;
+    }
+
+    void map_rows(ImageBuf& out) {
+        const ImageSpec& spec = out.spec();
+        const auto width = size_t(spec.width);
+        auto* pixels = static_cast<float*>(out.localpixels());
+        std::mutex lock;
+        make_parallel(m_nthreads)(spec.height, [&](int64_t y) {
+            ToneRow row(width);
+            ToneCounts counts;
+            float* at = pixels + size_t(y) * width * size_t(spec.nchannels);
+            take_row(at, spec.nchannels, m_channels, row, width, counts);
+            m_calibration.row(spec.y + int(y), spec.x, spec.x + spec.width, row.factor.data());
+            if (m_options.view)
+                look(row, width, counts);
+            else
+                map(row, width, counts);
+            put_row(row, width, m_channels, at, spec.nchannels);
+            const std::lock_guard<std::mutex> hold(lock);
+            summary.nonfinite += counts.nonfinite;
+            summary.negative += counts.negative;
+        });
+    }
+
+    void map(ToneRow& row, size_t width, ToneCounts& counts) const {
+        linearize_row(m_space, rec709(), row, width, counts);
+        float scale = m_calibration.factor();
+        if (!m_calibration.uniform()) {
+            scale = 1;
+            for (float* plane : row.rgb)
+                for (size_t x = 0; x < width; ++x)
+                    plane[x] *= row.factor[x];
+        }
+        kernels::curve_rows(m_curve.numbers, m_curve.use, row.rgb, row.rgb, ptrdiff_t(width),
+                            scale);
+        if (m_options.encode != "none")
+            for (float* plane : row.rgb)
+                std::transform(plane, plane + width, plane, m_encode);
+    }
+
+    void look(ToneRow& row, size_t width, ToneCounts& counts) const {
+        if (m_decode || m_space.scale != 1)
+            linearize_row(m_space, true, row, width, counts);
+        std::vector<float> packed(3 * width);
+        for (size_t x = 0; x < width; ++x)
+            for (size_t c = 0; c < 3; ++c)
+                packed[3 * x + c] = row.rgb[c][x] * row.factor[x];
+        m_view.apply(packed.data(), ptrdiff_t(width));
+        for (size_t x = 0; x < width; ++x)
+            for (size_t c = 0; c < 3; ++c)
+                row.rgb[c][x] = packed[3 * x + c];
+    }
+
+    // What the values are now, and how they came to be.
+    void tag(ImageSpec& spec) const {
+        std::string space = m_view.space();
+        if (!m_options.view)
+            space = m_options.encode == "none" && !rec709() && !m_space.is_rec709
+                        ? m_space.name
+                        : space_of_encoding(m_options.encode);
+        retag(spec, space, !m_options.view && !rec709());
+        spec.attribute("tonemap:layer", summary.layer);
+        spec.attribute("tonemap:curve", summary.curve);
+        std::vector<std::string> parameters;
+        for (const auto& [name, value] : summary.parameters)
+            parameters.push_back(format("{}={}", name, value));
+        if (!parameters.empty())
+            spec.attribute("tonemap:parameters", OIIO::Strutil::join(parameters, " "));
+        spec.attribute("tonemap:on", summary.on);
+        spec.attribute("tonemap:exposure", float(summary.calibration.exposure));
+    }
+
+    void warn() {
+        if (summary.nonfinite > 0)
+            summary.warnings.push_back(
+                format("{} pixel(s) are not finite: NaN and -Inf became 0, +Inf {}",
+                       summary.nonfinite, kInfinityStandsFor));
+    }
+
+    const ImageBuf& m_src;
+    const TonemapOptions& m_options;
+    int m_nthreads;
+    ToneChannels m_channels{};
+    ColorSpace m_space;
+    CurvePlan m_curve;
+    ViewTransform m_view;
+    bool m_decode = false; ///< what a view gets is decoded before
+    Calibration m_calibration;
+    Encoding m_encode = nullptr;
+};
+
+} // namespace
+
+namespace ToneAlgo {
+
+bool tonemap(ImageBuf& dst, const ImageBuf& src, const TonemapOptions& options,
+             TonemapSummary* summary, ROI roi, int nthreads) {
+    return guarded(dst, "tonemap", [&](std::string& error) {
+        Mapping mapping(src, options, nthreads);
+        if (!mapping.run(dst, roi, error))
+            return false;
+        if (summary)
+            *summary = mapping.summary;
+        return true;
+    });
+}
+
+ImageBuf tonemap(const ImageBuf& src, const TonemapOptions& options, TonemapSummary* summary,
+                 ROI roi, int nthreads) {
+    ImageBuf dst;
+    tonemap(dst, src, options, summary, roi, nthreads);
+    return dst;
+}
+
+} // namespace ToneAlgo
+} // namespace tonetool

@@ -1,9 +1,0 @@
-#include "include/tonetool/export.h"
-
-namespace tonetool {
-
-const char* version() noexcept {
-    return TONETOOL_VERSION;
-}
-
-} // namespace tonetool

@@ -1,0 +1,12 @@
+// Whether other programs on this computer read recipes, and if not why.
+#pragma once
+
+#include <vector>
+
+#include "chain/language/registry.h"
+
+namespace tonetool {
+
+std::vector<chain::Command> doctor_commands();
+
+} // namespace tonetool

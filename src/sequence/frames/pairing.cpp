@@ -1,0 +1,204 @@
+#include "sequence/frames/pairing.h"
+
+#include <algorithm>
+#include <iterator>
+#include <map>
+#include <numeric>
+#include <set>
+#include <stdexcept>
+#include <utility>
+
+#include "sequence/frames/frame_range.h"
+
+namespace tonetool::sequence {
+
+namespace {
+
+using Key = std::pair<int, std::string>;
+
+Key key(const Item& item) {
+    return {item.frame, item.view};
+}
+
+void fill_holes(std::set<Key>& keys) {
+    std::set<std::string> views;
+    std::set<int> numbers;
+    for (const auto& [number, view] : keys) {
+        numbers.insert(number);
+        views.insert(view);
+    }
+    long long step = 0, before = *numbers.begin();
+    for (long long number : numbers) {
+        step = std::gcd(step, number - before);
+        before = number;
+    }
+    step = numbers.size() == 2 ? 1 : step; // two alone are no evidence of a step
+    const long long first = *numbers.begin(), last = *numbers.rbegin();
+    if (step > 0 && (last - first) / step >= most_frames) {
+        throw std::runtime_error("frames " + std::to_string(first) + " to " + std::to_string(last) +
+                                 " are too many to look for missing ones (valid: --frames)");
+    }
+    for (long long number = first; step > 0 && number <= last; number += step) {
+        for (const std::string& view : views) {
+            keys.emplace(int(number), view);
+        }
+    }
+}
+
+std::vector<int> numbers_of(const std::vector<Item>& items) {
+    std::set<int> numbers;
+    for (const Item& item : items) {
+        numbers.insert(item.frame);
+    }
+    return {numbers.begin(), numbers.end()};
+}
+
+std::string frames_text(const Side& side) {
+    const std::vector<int> numbers = numbers_of(side.files.items);
+    return "\"" + side.pattern + "\" has " + (numbers.size() == 1 ? "frame " : "frames ") +
+           range_text(numbers);
+}
+
+// "seq/ref.1001-1004#.exr": the pattern with the range of its files.
+std::string with_range(const Side& side) {
+    const size_t at = side.pattern.find_first_of("#@%");
+    return side.pattern.substr(0, at) + range_text(numbers_of(side.files.items)) +
+           side.pattern.substr(at);
+}
+
+std::string by_position_text(const Side& a, const Side& b) {
+    return " (valid: --frames with numbers that both have; or ranges of equal length in the names, "
+           "which pair them by position: " +
+           with_range(a) + " " + with_range(b) + ")";
+}
+
+// Of the sides that a range lists, the first: the others are held against it.
+const Side* first_range(const std::vector<Side>& sides) {
+    const auto found = std::find_if(sides.begin(), sides.end(),
+                                    [](const Side& side) { return !side.files.from_disk; });
+    return found == sides.end() ? nullptr : &*found;
+}
+
+bool differ_by_range(const std::vector<Side>& sides) {
+    const Side* first = first_range(sides);
+    return first && std::any_of(sides.begin(), sides.end(), [&](const Side& side) {
+               return !side.files.from_disk && !(side.files.items == first->files.items);
+           });
+}
+
+void check_positions(const std::vector<Side>& sides) {
+    const Side& first = sides.front();
+    for (const Side& side : sides) {
+        if (side.files.from_disk) {
+            throw std::runtime_error("\"" + side.pattern +
+                                     "\" has no frame range, the other names have different ones "
+                                     "(valid: a range in each name)");
+        }
+        if (side.files.items.size() != first.files.items.size()) {
+            throw std::runtime_error(
+                "\"" + first.pattern + "\" has " + std::to_string(first.files.items.size()) +
+                " frames, \"" + side.pattern + "\" " + std::to_string(side.files.items.size()) +
+                " (valid: ranges of equal length, paired by position)");
+        }
+    }
+    std::set<Key> keys;
+    for (const Item& item : first.files.items) {
+        if (!keys.insert(key(item)).second) {
+            throw std::runtime_error("\"" + first.pattern + "\" has frame " +
+                                     std::to_string(item.frame) +
+                                     " twice (valid: every frame of the first range once)");
+        }
+    }
+}
+
+Pairing by_position(const std::vector<Side>& sides, const PatternOptions& options) {
+    check_positions(sides);
+    Pairing pairing{sides.front().files.items, {}, {}};
+    for (const Side& side : sides) {
+        pairing.names.push_back(input_names(side.pattern, options, side.files.items));
+        pairing.own.push_back(side.files.items == pairing.items ? std::vector<Item>{}
+                                                                : side.files.items);
+    }
+    return pairing;
+}
+
+void check_common_number(const std::vector<Side>& sides) {
+    const Side& first = sides.front();
+    for (const Side& side : sides) {
+        const std::vector<int> a = numbers_of(first.files.items), b = numbers_of(side.files.items);
+        std::vector<int> common;
+        std::set_intersection(a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(common));
+        if (!a.empty() && !b.empty() && common.empty()) {
+            throw std::runtime_error(frames_text(first) + ", " + frames_text(side) +
+                                     ": none has the same number" + by_position_text(first, side));
+        }
+    }
+}
+
+} // namespace
+
+std::vector<Item> paired(const std::vector<Side>& sides) {
+    std::set<Key> keys;
+    bool from_disk = true;
+    for (const Side& side : sides) {
+        from_disk = from_disk && side.files.from_disk;
+        for (const Item& item : side.files.items) {
+            keys.insert(key(item));
+        }
+    }
+    if (from_disk && !keys.empty()) {
+        fill_holes(keys);
+    }
+    std::vector<Item> items;
+    for (const auto& [number, view] : keys) {
+        items.push_back({number, view});
+    }
+    return items;
+}
+
+Pairing pair_sides(const std::vector<Side>& sides, const PatternOptions& options) {
+    if (differ_by_range(sides)) {
+        return by_position(sides, options);
+    }
+    const Side* range = first_range(sides);
+    if (!range) {
+        check_common_number(sides);
+    }
+    Pairing pairing{paired(range ? std::vector<Side>{*range} : sides), {}, {}};
+    for (const Side& side : sides) {
+        pairing.names.push_back(names_of(side, options, pairing.items));
+        pairing.own.emplace_back();
+    }
+    return pairing;
+}
+
+void check_same_numbers(const std::vector<Side>& sides) {
+    for (const Side& side : sides) {
+        const Side& first = sides.front();
+        const bool ranges = !side.files.from_disk && !first.files.from_disk;
+        if (!ranges && !(side.files.items == first.files.items)) {
+            throw std::runtime_error(frames_text(first) + ", " + frames_text(side) +
+                                     by_position_text(first, side));
+        }
+    }
+}
+
+std::vector<std::string> names_of(const Side& side, const PatternOptions& options,
+                                  const std::vector<Item>& items) {
+    // What is found on the disk begins with "./" though the pattern does not.
+    const bool dotted = side.pattern.compare(0, 2, "./") == 0;
+    std::map<Key, std::string> known;
+    for (size_t i = 0; side.files.from_disk && i < side.files.items.size(); ++i) {
+        const std::string& name = side.files.names.at(i);
+        const bool strip = !dotted && name.compare(0, 2, "./") == 0;
+        known.emplace(key(side.files.items[i]), strip ? name.substr(2) : name);
+    }
+    std::vector<std::string> names = input_names(side.pattern, options, items);
+    for (size_t i = 0; i < items.size(); ++i) {
+        const auto found = known.find(key(items[i]));
+        names[i] = found == known.end() ? names[i] : found->second;
+    }
+    return names;
+}
+
+} // namespace tonetool::sequence

@@ -1,0 +1,209 @@
+#include "sequence/qc/qc.h"
+
+#include <OpenImageIO/strutil.h>
+#include <algorithm>
+#include <tuple>
+
+#include "sequence/qc/qc_shot.h"
+#include "text/printable.h"
+
+namespace tonetool::sequence {
+
+namespace {
+
+// By severity, then as the rules are listed.
+void sort_faults(std::vector<Fault>& faults) {
+    const auto key = [](const Fault& fault) {
+        return std::make_tuple(-int(fault.severity), qc_rank(fault.code));
+    };
+    std::stable_sort(faults.begin(), faults.end(),
+                     [&](const Fault& a, const Fault& b) { return key(a) < key(b); });
+}
+
+void take_record(QcFrame& frame, QcRecord record) {
+    frame.facts = std::move(record.facts);
+    frame.measured = true;
+    frame.blank = is_blank(frame.facts, record.limits);
+}
+
+void search(QcShot& shot) {
+    for (QcFrame& frame : shot.frames) {
+        if (frame.measured) {
+            find_picture_faults(shot, frame);
+        }
+    }
+    find_gaps(shot);
+    find_odd_headers(shot);
+    find_lost_layers(shot);
+    find_group_faults(shot);
+    find_duplicates(shot);
+    find_flicker(shot);
+    find_fireflies(shot);
+}
+
+bool is_found_here(const Fault& fault) {
+    return qc_rank(fault.code) < qc_rules().size();
+}
+
+void judge_view(const std::vector<FrameResult*>& frames) {
+    QcLimits limits;
+    std::vector<QcFrame> found;
+    for (FrameResult* result : frames) {
+        QcFrame& frame = found.emplace_back();
+        frame.number = result->frame;
+        frame.result = result;
+        if (!result->qc.empty()) {
+            QcRecord record = qc_from_json(result->qc);
+            limits = record.limits;
+            take_record(frame, std::move(record));
+        }
+    }
+    const bool any = std::any_of(found.begin(), found.end(),
+                                 [](const QcFrame& frame) { return frame.measured; });
+    if (!any) {
+        return;
+    }
+    for (FrameResult* result : frames) {
+        auto& faults = result->faults;
+        faults.erase(std::remove_if(faults.begin(), faults.end(), is_found_here), faults.end());
+    }
+    QcShot shot(limits);
+    shot.frames = std::move(found);
+    search(shot);
+    for (FrameResult* result : frames) {
+        sort_faults(result->faults);
+        judge(*result);
+    }
+}
+
+} // namespace
+
+std::vector<Fault> picture_faults(const QcRecord& record) {
+    FrameResult result;
+    QcShot shot(record.limits);
+    QcFrame& frame = shot.frames.emplace_back();
+    frame.result = &result;
+    take_record(frame, record);
+    search(shot);
+    sort_faults(result.faults);
+    return result.faults;
+}
+
+void judge_qc(std::vector<FrameResult>& frames) {
+    std::sort(frames.begin(), frames.end(), [](const FrameResult& a, const FrameResult& b) {
+        return std::tie(a.frame, a.view) < std::tie(b.frame, b.view);
+    });
+    std::map<std::string, std::vector<FrameResult*>> views;
+    for (FrameResult& frame : frames) {
+        views[frame.view].push_back(&frame);
+    }
+    for (const auto& [view, of_view] : views) {
+        judge_view(of_view);
+    }
+}
+
+std::string faults_text(const ShotResult& shot) {
+    std::string text;
+    for (const FrameResult& frame : shot.frames) {
+        for (const Fault& fault : frame.faults) {
+            text += OIIO::Strutil::fmt::format("qc: frame {}{}{}: {} {}: {}\n", frame.frame,
+                                               frame.view.empty() ? "" : " ", printable(frame.view),
+                                               severity_name(fault.severity), fault.code,
+                                               printable(fault.sentence));
+        }
+    }
+    return text;
+}
+
+void QcShot::add(QcFrame& frame, const std::string& code, const std::string& sentence,
+                 const QcDetail& detail) const {
+    const auto severity = m_limits.severity(code);
+    if (!severity) {
+        return;
+    }
+    Fault fault;
+    fault.code = code;
+    fault.severity = *severity;
+    fault.sentence = sentence;
+    fault.layer = detail.layer;
+    fault.position = detail.position;
+    fault.value = detail.value;
+    if (detail.value) {
+        fault.threshold = threshold(code);
+    }
+    frame.result->faults.push_back(std::move(fault));
+}
+
+std::vector<QcFrame*> QcShot::pictures() {
+    std::vector<QcFrame*> chosen = filled();
+    chosen.erase(std::remove_if(chosen.begin(), chosen.end(),
+                                [](const QcFrame* frame) { return !has_picture(frame->facts); }),
+                 chosen.end());
+    return chosen;
+}
+
+std::vector<QcFrame*> QcShot::filled() {
+    std::vector<QcFrame*> chosen;
+    for (QcFrame& frame : frames) {
+        if (frame.measured && !frame.blank) {
+            chosen.push_back(&frame);
+        }
+    }
+    return chosen;
+}
+
+std::vector<QcFrame*> QcShot::measured() {
+    std::vector<QcFrame*> chosen;
+    for (QcFrame& frame : frames) {
+        if (frame.measured) {
+            chosen.push_back(&frame);
+        }
+    }
+    return chosen;
+}
+
+void mark_change(const std::vector<QcFrame*>& frames, size_t first, size_t last) {
+    frames[first]->changed = true;
+    if (last + 1 < frames.size()) {
+        frames[last + 1]->changed = true;
+    }
+}
+
+const QcLayer* find_layer(const QcFacts& facts, const std::string& name) {
+    const auto found = std::find_if(facts.layers.begin(), facts.layers.end(),
+                                    [&](const QcLayer& layer) { return layer.name == name; });
+    return found == facts.layers.end() ? nullptr : &*found;
+}
+
+const QcLayer& no_layer() {
+    static const QcLayer none;
+    return none;
+}
+
+const QcLayer& picture_layer(const QcFacts& facts) {
+    const auto found = std::find_if(facts.layers.begin(), facts.layers.end(),
+                                    [](const QcLayer& layer) { return layer.kind == "picture"; });
+    return found == facts.layers.end() ? no_layer() : *found;
+}
+
+std::string frames_text(int first, int last) {
+    return first == last ? "frame " + std::to_string(first)
+                         : "frames " + std::to_string(first) + " to " + std::to_string(last);
+}
+
+std::string layer_text(const QcLayer& layer) {
+    return layer.kind == "picture" ? "the picture"
+           : layer.kind == "light" ? "light group " + layer.name
+                                   : "layer " + (layer.name.empty() ? "R,G,B" : layer.name);
+}
+
+double median(std::vector<double> values) {
+    if (values.empty()) {
+        return 0;
+    }
+    const auto middle = values.begin() + std::ptrdiff_t(values.size() / 2);
+    std::nth_element(values.begin(), middle, values.end());
+    return *middle;
+}
+
+} // namespace tonetool::sequence

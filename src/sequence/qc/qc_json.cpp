@@ -1,0 +1,236 @@
+#include "sequence/qc/qc_json.h"
+
+#include <stdexcept>
+
+#include "sequence/results/json_text.h"
+
+namespace tonetool {
+
+namespace {
+
+using nlohmann::ordered_json;
+
+template <class Int>
+void read_whole(const ordered_json& from, const char* key, Int& to) {
+    to = whole_number<Int>(from.at(key), key);
+}
+
+void read_real(const ordered_json& from, const char* key, double& to) {
+    to = finite_number(from.at(key), key);
+}
+
+template <class Ints>
+void read_whole_numbers(const ordered_json& from, const char* key, Ints& to) {
+    to = from.at(key).get<Ints>();
+    for (size_t i = 0; i < to.size(); ++i) {
+        to[i] = whole_number<int>(from[key].at(i), key);
+    }
+}
+
+ordered_json json_of(const QcSpot& spot) {
+    return {spot.x, spot.y, spot.value, spot.around};
+}
+
+QcSpot spot_of(const ordered_json& from) {
+    return {whole_number<int>(from.at(0), "x"), whole_number<int>(from.at(1), "y"),
+            finite_number(from.at(2), "value"), finite_number(from.at(3), "around")};
+}
+
+ordered_json json_of(const std::vector<QcSpot>& spots) {
+    ordered_json list = ordered_json::array();
+    for (const QcSpot& spot : spots) {
+        list.push_back(json_of(spot));
+    }
+    return list;
+}
+
+std::vector<QcSpot> spots_of(const ordered_json& from) {
+    std::vector<QcSpot> spots;
+    for (const ordered_json& spot : from) {
+        spots.push_back(spot_of(spot));
+    }
+    return spots;
+}
+
+// Nothing is the usual finding.
+void put(ordered_json& to, const char* key, const QcCount& count) {
+    if (count.pixels > 0) {
+        to[key] = {{"pixels", count.pixels}, {"first", json_of(count.first)}};
+    }
+}
+
+QcCount count_of(const ordered_json& from, const char* key) {
+    QcCount count;
+    if (from.contains(key)) {
+        read_whole(from[key], "pixels", count.pixels);
+        count.first = spots_of(from[key].at("first"));
+    }
+    return count;
+}
+
+ordered_json json_of(const QcPart& part) {
+    return {{"name", part.name},
+            {"data", part.data},
+            {"display", part.display},
+            {"compression", part.compression},
+            {"metadata", part.metadata}};
+}
+
+QcPart part_of(const ordered_json& from) {
+    QcPart part;
+    from.at("name").get_to(part.name);
+    read_whole_numbers(from, "data", part.data);
+    read_whole_numbers(from, "display", part.display);
+    from.at("compression").get_to(part.compression);
+    from.at("metadata").get_to(part.metadata);
+    return part;
+}
+
+ordered_json json_of(const QcLayer& layer) {
+    ordered_json to = {{"name", layer.name},         {"kind", layer.kind}, {"lit", layer.lit},
+                       {"constant", layer.constant}, {"min", layer.min},   {"max", layer.max},
+                       {"mean", layer.mean}};
+    put(to, "nan", layer.nan);
+    put(to, "inf", layer.inf);
+    put(to, "negative", layer.negative);
+    return to;
+}
+
+QcLayer layer_of(const ordered_json& from) {
+    QcLayer layer;
+    from.at("name").get_to(layer.name);
+    from.at("kind").get_to(layer.kind);
+    read_whole(from, "lit", layer.lit);
+    from.at("constant").get_to(layer.constant);
+    read_real(from, "min", layer.min);
+    read_real(from, "max", layer.max);
+    read_real(from, "mean", layer.mean);
+    layer.nan = count_of(from, "nan");
+    layer.inf = count_of(from, "inf");
+    layer.negative = count_of(from, "negative");
+    return layer;
+}
+
+ordered_json json_of(const QcPicture& picture) {
+    ordered_json to = {{"layer", picture.layer},
+                       {"space", picture.space},
+                       {"hash", picture.hash},
+                       {"thumbnail", picture.thumbnail},
+                       {"peaks", picture.peaks},
+                       {"spike_count", picture.spike_count},
+                       {"spikes", json_of(picture.spikes)}};
+    put(to, "alpha_low", picture.alpha_low);
+    put(to, "alpha_high", picture.alpha_high);
+    if (picture.unseen.pixels > 0) {
+        to["lit"] = picture.lit;
+        put(to, "unseen", picture.unseen);
+    }
+    if (picture.groups > 0) {
+        to["groups"] = {{"count", picture.groups},
+                        {"sum", picture.group_sum},
+                        {"difference", picture.group_difference},
+                        {"worst", json_of(picture.group_worst)}};
+    }
+    return to;
+}
+
+std::vector<int> cells_of(const ordered_json& from, const char* key) {
+    std::vector<int> cells;
+    read_whole_numbers(from, key, cells);
+    if (cells.size() != size_t(QcPicture::kWide) * QcPicture::kHigh) {
+        throw std::runtime_error(std::string(key) + " has " + std::to_string(cells.size()) +
+                                 " values, not " + std::to_string(QcPicture::kWide) + " x " +
+                                 std::to_string(QcPicture::kHigh));
+    }
+    return cells;
+}
+
+QcPicture picture_of(const ordered_json& from) {
+    QcPicture picture;
+    from.at("layer").get_to(picture.layer);
+    from.at("space").get_to(picture.space);
+    from.at("hash").get_to(picture.hash);
+    picture.thumbnail = cells_of(from, "thumbnail");
+    picture.peaks = cells_of(from, "peaks");
+    read_whole(from, "spike_count", picture.spike_count);
+    picture.spikes = spots_of(from.at("spikes"));
+    picture.alpha_low = count_of(from, "alpha_low");
+    picture.alpha_high = count_of(from, "alpha_high");
+    if (from.contains("lit")) {
+        read_whole(from, "lit", picture.lit);
+    }
+    picture.unseen = count_of(from, "unseen");
+    if (from.contains("groups")) {
+        const ordered_json& groups = from["groups"];
+        read_whole(groups, "count", picture.groups);
+        read_real(groups, "sum", picture.group_sum);
+        read_real(groups, "difference", picture.group_difference);
+        picture.group_worst = spot_of(groups.at("worst"));
+    }
+    return picture;
+}
+
+template <class Item>
+ordered_json list_of(const std::vector<Item>& items) {
+    ordered_json list = ordered_json::array();
+    for (const Item& item : items) {
+        list.push_back(json_of(item));
+    }
+    return list;
+}
+
+QcFacts facts_of(const ordered_json& from) {
+    QcFacts facts;
+    for (const ordered_json& part : from.at("parts")) {
+        facts.parts.push_back(part_of(part));
+    }
+    for (const ordered_json& channel : from.at("channels")) {
+        facts.channels.emplace_back(channel.at(0).get<std::string>(),
+                                    channel.at(1).get<std::string>());
+    }
+    for (const ordered_json& layer : from.at("layers")) {
+        facts.layers.push_back(layer_of(layer));
+    }
+    facts.picture = picture_of(from.at("picture"));
+    if (facts.parts.empty()) {
+        throw std::runtime_error("no part of a file");
+    }
+    return facts;
+}
+
+} // namespace
+
+namespace sequence {
+
+std::string to_json(const QcRecord& record) {
+    const QcFacts& facts = record.facts;
+    ordered_json channels = ordered_json::array();
+    for (const auto& [name, type] : facts.channels) {
+        channels.push_back({name, type});
+    }
+    ordered_json to = {{"limits", record.limits.texts()},
+                       {"picture", json_of(facts.picture)},
+                       {"layers", list_of(facts.layers)},
+                       {"channels", channels},
+                       {"parts", list_of(facts.parts)}};
+    return one_line(to);
+}
+
+QcRecord qc_from_json(const std::string& text) {
+    QcRecord record;
+    try {
+        const auto from = parse_json<ordered_json>(text);
+        record.facts = facts_of(from);
+        for (const auto& [code, limit] : from.at("limits").items()) {
+            record.limits.set(code, limit.get<std::string>());
+        }
+    } catch (const nlohmann::json::exception& problem) {
+        throw std::runtime_error("not what --qc measured: " + reason_of(problem));
+    } catch (const std::exception& problem) {
+        throw std::runtime_error(std::string("not what --qc measured: ") + problem.what());
+    }
+    return record;
+}
+
+} // namespace sequence
+} // namespace tonetool

@@ -1,0 +1,111 @@
+#include "sequence/qc/qc_limits.h"
+
+#include <OpenImageIO/strutil.h>
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "imagebuf/pixels/names.h"
+
+namespace tonetool::sequence {
+
+namespace {
+
+const QcRule& rule_of(const std::string& code) {
+    const std::vector<QcRule>& rules = qc_rules();
+    const size_t rank = qc_rank(code);
+    if (rank == rules.size()) {
+        std::vector<std::string> codes;
+        for (const QcRule& rule : rules) {
+            codes.push_back(rule.code);
+        }
+        throw std::runtime_error(unknown_name("fault", code, codes));
+    }
+    return rules[rank];
+}
+
+[[noreturn]] void refuse(const QcRule& rule, const std::string& text) {
+    const std::string number =
+        rule.threshold ? ", a number of at least 0 (" + rule.measures + "), or number,severity"
+                       : "";
+    throw std::runtime_error(rule.code + " is \"" + text + "\": must be off, info, warning, error" +
+                             number);
+}
+
+} // namespace
+
+const std::vector<QcRule>& qc_rules() {
+    constexpr Severity error = Severity::Error, warning = Severity::Warning;
+    static const std::vector<QcRule> rules = {
+        {"missing", error, {}, "", "frames that are not there"},
+        {"black", error, 0.0, "largest value", "the picture is black"},
+        {"constant", error, {}, "", "the picture is one colour"},
+        {"missinglayer", error, {}, "", "a layer that other frames have is not there"},
+        {"blacklayer", error, {}, "", "a layer is black that is not so before or after"},
+        {"nan", error, 0.0, "pixels", "values that are no numbers, in any layer"},
+        {"inf", error, 0.0, "pixels", "infinite values, in any layer but depths"},
+        {"lightsum", error, 0.05, "share of the light",
+         "light groups that do not add up to the picture"},
+        {"channels", error, {}, "", "channels differ from those of other frames"},
+        {"displaywindow", error, {}, "", "the display window differs from other frames'"},
+        {"firefly", warning, 50.0, "times the surroundings",
+         "lone bright pixels that neither their surroundings nor other frames have"},
+        {"flicker", warning, 0.2, "stops", "frames that are unlike both of their neighbours"},
+        {"jump", warning, 0.3, "stops", "the same picture becomes brighter or darker at once"},
+        {"duplicate", warning, {}, "", "the pixels of another frame (not in a still, not on twos)"},
+        {"nearduplicate", warning, 0.1, "of the change around it",
+         "nothing moves from one frame to the next, but before and after"},
+        {"negative", warning, 0.0, "below 0", "negative light in the picture or its light groups"},
+        {"alpha", warning, 0.0, "pixels", "alpha outside [0, 1] by more than 0.001"},
+        {"alphaempty", warning, 0.9, "share of the lit pixels",
+         "alpha is 0 over the picture, so that nobody sees it"},
+        {"datawindow", warning, {}, "", "the data window differs, where it is fixed otherwise"},
+        {"type", warning, {}, "", "channels have another data type than in other frames"},
+        {"compression", warning, {}, "", "the compression differs from other frames'"},
+        {"metadata", warning, {}, "", "metadata differ that are the same in other frames"},
+    };
+    return rules;
+}
+
+size_t qc_rank(const std::string& code) {
+    const std::vector<QcRule>& rules = qc_rules();
+    const auto same = [&](const QcRule& rule) { return rule.code == code; };
+    return size_t(std::find_if(rules.begin(), rules.end(), same) - rules.begin());
+}
+
+void QcLimits::set(const std::string& code, const std::string& text) {
+    const QcRule& rule = rule_of(code);
+    Limit limit{rule.severity, rule.threshold};
+    bool has_severity = false, has_threshold = false;
+    for (const std::string& word : OIIO::Strutil::splits(text, ",")) {
+        const auto severity = severity_of_name(word);
+        if (!has_severity && (severity || word == "off")) {
+            limit.severity = severity;
+            has_severity = true;
+        } else if (!has_threshold && rule.threshold && OIIO::Strutil::string_is_float(word)) {
+            limit.threshold = OIIO::Strutil::stod(word);
+            has_threshold = true;
+        } else {
+            refuse(rule, text);
+        }
+    }
+    const bool valid = !limit.threshold || (*limit.threshold >= 0 && *limit.threshold < HUGE_VAL);
+    if ((!has_severity && !has_threshold) || !valid) {
+        refuse(rule, text);
+    }
+    m_changed[code] = limit;
+    m_texts[code] = text;
+}
+
+std::optional<Severity> QcLimits::severity(const std::string& code) const {
+    const auto changed = m_changed.find(code);
+    return changed == m_changed.end() ? rule_of(code).severity : changed->second.severity;
+}
+
+double QcLimits::threshold(const std::string& code) const {
+    const auto changed = m_changed.find(code);
+    return (changed == m_changed.end() ? rule_of(code).threshold : changed->second.threshold)
+        .value_or(0);
+}
+
+} // namespace tonetool::sequence

@@ -1,0 +1,266 @@
+// Frames beside each other: gaps, duplicates, flicker, jumps.
+#include <OpenImageIO/strutil.h>
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <set>
+
+#include "sequence/qc/qc_thumbnails.h"
+
+namespace tonetool::sequence {
+
+namespace {
+
+using OIIO::Strutil::fmt::format;
+
+// How many times the usual makes an unusual change.
+constexpr double kUnusual = 5;
+
+// The step most numbers are apart, the smallest of the most frequent; 0 without a rule.
+int usual_step(const std::vector<QcFrame>& frames) {
+    std::map<int, size_t> count;
+    for (size_t i = 1; i < frames.size(); ++i) {
+        ++count[frames[i].number - frames[i - 1].number];
+    }
+    int step = 0;
+    size_t most = 0;
+    for (const auto& [apart, times] : count) {
+        if (times > most) {
+            most = times;
+            step = apart;
+        }
+    }
+    return 2 * most >= frames.size() - 1 ? step : 0;
+}
+
+// Pixels of a still, or of animation on twos or threes, are those of the frame before by intent.
+bool is_held(const std::vector<QcFrame*>& frames) {
+    size_t same = 0;
+    for (size_t i = 1; i < frames.size(); ++i) {
+        same += frames[i]->facts.picture.hash == frames[i - 1]->facts.picture.hash;
+    }
+    return 3 * same >= frames.size() && same > 1;
+}
+
+void find_identical(QcShot& shot, const std::vector<QcFrame*>& frames) {
+    if (is_held(frames)) {
+        return;
+    }
+    std::map<std::string, const QcFrame*> first;
+    for (QcFrame* frame : frames) {
+        const auto [same, is_new] = first.emplace(frame->facts.picture.hash, frame);
+        if (!is_new) {
+            shot.add(*frame, "duplicate",
+                     format("the same pixels as frame {}", same->second->number));
+        }
+    }
+}
+
+// A pair whose change is a small part of the change before it and after it: what moves stands
+// still for a frame. A hold that lasts to the end is none.
+void find_stalls(QcShot& shot, const std::vector<QcFrame*>& frames,
+                 const std::vector<Thumbnail>& thumbnails) {
+    constexpr double visible = 0.005; // stops; less is no motion
+    std::vector<double> change{0};
+    for (size_t i = 1; i < frames.size(); ++i) {
+        change.push_back(distance(thumbnails[i - 1], thumbnails[i]));
+    }
+    // Beside a flash all motion is small: what is usual counts, too.
+    const double usual = usual_step_of(thumbnails);
+    for (size_t i = 2; i + 1 < frames.size(); ++i) {
+        const double around = std::min({change[i - 1], change[i + 1], 2 * usual});
+        const bool identical = frames[i]->facts.picture.hash == frames[i - 1]->facts.picture.hash;
+        const double share = around > 0 ? change[i] / around : 1;
+        if (!identical && around > visible && share < shot.threshold("nearduplicate")) {
+            shot.add(*frames[i], "nearduplicate",
+                     format("nearly the same picture as frame {}: the change is {:.2g} of that "
+                            "around it",
+                            frames[i - 1]->number, share),
+                     {"", {}, share});
+        }
+    }
+}
+
+class Flicker {
+public:
+    Flicker(QcShot& shot, std::vector<QcFrame*> frames)
+        : m_shot(shot),
+          m_frames(std::move(frames)),
+          m_thumbnails(thumbnails_of(m_frames)),
+          m_gains{0} {
+        for (size_t i = 1; i < m_frames.size(); ++i) {
+            m_gains.push_back(gain(m_thumbnails[i - 1], m_thumbnails[i]));
+        }
+        for (const QcFrame* frame : m_frames) {
+            m_explained.push_back(frame->changed);
+        }
+        m_usual_step = usual_step_of(m_thumbnails);
+    }
+
+    void find() {
+        find_alternation();
+        for (size_t length = 1; length <= 3; ++length) {
+            find_runs(length);
+        }
+        find_jumps();
+    }
+
+private:
+    double apart(size_t a, size_t b) const { return distance(m_thumbnails[a], m_thumbnails[b]); }
+    double usual_gain(size_t but) const;
+    double detour(size_t first, size_t last) const;
+    double there_and_back(size_t first, size_t last) const;
+    void find_runs(size_t length);
+    void find_alternation();
+    bool is_jump(size_t i) const;
+    void find_jumps();
+
+    QcShot& m_shot;
+    std::vector<QcFrame*> m_frames;
+    std::vector<Thumbnail> m_thumbnails;
+    std::vector<double> m_gains;   ///< of each frame over the one before
+    std::vector<bool> m_explained; ///< that step
+    double m_usual_step = 0;       ///< stops from a thumbnail to the next
+    double m_unusual = 0;          ///< detours up to this are usual
+};
+
+// Of all steps but one.
+double Flicker::usual_gain(size_t but) const {
+    std::vector<double> others;
+    for (size_t i = 1; i < m_gains.size(); ++i) {
+        if (i != but) {
+            others.push_back(std::abs(m_gains[i]));
+        }
+    }
+    return median(std::move(others));
+}
+
+// How far, in stops, frames [first, last] are off the way from the frame before to that after;
+// 0 unless both steps are large: at a cut one is.
+double Flicker::detour(size_t first, size_t last) const {
+    const double there = apart(first - 1, first), back = apart(last, last + 1);
+    const double off = (there + back - apart(first - 1, last + 1)) / 2;
+    return std::min(there, back) > std::max(off / 2, 2 * m_usual_step) ? off : 0;
+}
+
+// The smaller of the steps of brightness to these frames and from them, if these cancel out.
+double Flicker::there_and_back(size_t first, size_t last) const {
+    const double there = m_gains[first], back = m_gains[last + 1];
+    const double step = std::min(std::abs(there), std::abs(back));
+    const bool cancel = std::abs(gain(m_thumbnails[first - 1], m_thumbnails[last + 1])) < step / 2;
+    return there * back < 0 && cancel && step > kUnusual * usual_gain(first) ? step : 0;
+}
+
+// Several times what is usual in the shot: noise and fire flicker by nature.
+void Flicker::find_runs(size_t length) {
+    std::vector<double> detours;
+    for (size_t i = 1; i + length < m_frames.size(); ++i) {
+        detours.push_back(detour(i, i + length - 1));
+    }
+    m_unusual = std::max(m_unusual, kUnusual * median(detours));
+    for (size_t i = 1; i + length < m_frames.size(); ++i) {
+        const size_t last = i + length - 1;
+        if (m_explained[i] || m_explained[last + 1]) {
+            continue;
+        }
+        const double off = detours[i - 1] > m_unusual ? detours[i - 1] : 0;
+        const double stops = std::max(off, there_and_back(i, last));
+        if (stops <= m_shot.threshold("flicker")) {
+            continue;
+        }
+        m_explained[i] = m_explained[last + 1] = true;
+        m_shot.add(*m_frames[i], "flicker",
+                   format("{} unlike frames {} and {} by {:.2f} stops more than these differ from "
+                          "each other",
+                          length == 1
+                              ? "it is"
+                              : frames_text(m_frames[i]->number, m_frames[last]->number) + " are",
+                          m_frames[i - 1]->number, m_frames[last + 1]->number, stops),
+                   {"", {}, stops});
+    }
+}
+
+// Brighter, darker, brighter, ...: unusual is what the neighbours are.
+void Flicker::find_alternation() {
+    constexpr size_t enough = 6;
+    const double limit = m_shot.threshold("flicker");
+    for (size_t first = 1; first < m_frames.size(); ++first) {
+        size_t last = first;
+        while (last + 1 < m_frames.size() && std::abs(m_gains[last]) > limit &&
+               std::abs(m_gains[last + 1]) > limit && m_gains[last] * m_gains[last + 1] < 0) {
+            ++last;
+        }
+        if (last - first + 1 >= enough) {
+            std::fill(m_explained.begin() + std::ptrdiff_t(first),
+                      m_explained.begin() + std::ptrdiff_t(last + 1), true);
+            m_shot.add(*m_frames[first], "flicker",
+                       format("{} are brighter and darker by turns, by {:.2f} stops at first",
+                              frames_text(m_frames[first - 1]->number, m_frames[last]->number),
+                              std::abs(m_gains[first])),
+                       {"", {}, std::abs(m_gains[first])});
+        }
+        first = last;
+    }
+}
+
+// Much more than usual, and than the steps beside it, which a fade has alike. A cut changes more
+// than the brightness.
+bool Flicker::is_jump(size_t i) const {
+    constexpr double alone = 3, alike = 0.9;
+    const double step = std::abs(m_gains[i]);
+    const bool first = i == 1, last = i + 1 == m_gains.size();
+    return step > m_shot.threshold("jump") && step > kUnusual * usual_gain(i) &&
+           (first || m_explained[i - 1] || step > alone * std::abs(m_gains[i - 1])) &&
+           (last || m_explained[i + 1] || step > alone * std::abs(m_gains[i + 1])) &&
+           correlation(m_thumbnails[i - 1], m_thumbnails[i]) > alike;
+}
+
+void Flicker::find_jumps() {
+    for (size_t i = 1; i < m_frames.size(); ++i) {
+        if (!m_explained[i] && is_jump(i)) {
+            m_shot.add(*m_frames[i], "jump",
+                       format("{:.2f} stops {} than frame {}, of the same picture",
+                              std::abs(m_gains[i]), m_gains[i] > 0 ? "brighter" : "darker",
+                              m_frames[i - 1]->number),
+                       {"", {}, std::abs(m_gains[i])});
+        }
+    }
+}
+
+} // namespace
+
+void find_gaps(QcShot& shot) {
+    std::vector<QcFrame>& frames = shot.frames;
+    for (QcFrame& frame : frames) {
+        if (frame.result->status == Status::Missing) {
+            shot.add(frame, "missing", "the frame is not there");
+        }
+    }
+    const int step = frames.size() > 2 ? usual_step(frames) : 0;
+    for (size_t i = 1; step > 0 && i < frames.size(); ++i) {
+        const int before = frames[i - 1].number, here = frames[i].number;
+        if (here - before > step && (here - before) % step == 0) {
+            shot.add(frames[i], "missing",
+                     format("{} before this one {} not there",
+                            frames_text(before + step, here - step),
+                            here - before == 2 * step ? "is" : "are"));
+        }
+    }
+}
+
+void find_duplicates(QcShot& shot) {
+    const std::vector<QcFrame*> frames = shot.pictures();
+    find_identical(shot, frames);
+    if (frames.size() > 3) {
+        find_stalls(shot, frames, thumbnails_of(frames));
+    }
+}
+
+void find_flicker(QcShot& shot) {
+    std::vector<QcFrame*> frames = shot.pictures();
+    if (frames.size() > 2) {
+        Flicker(shot, std::move(frames)).find();
+    }
+}
+
+} // namespace tonetool::sequence

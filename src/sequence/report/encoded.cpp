@@ -1,0 +1,104 @@
+#include "sequence/report/encoded.h"
+
+#include <OpenImageIO/filesystem.h>
+#include <OpenImageIO/strutil.h>
+#include <stdexcept>
+#include <vector>
+
+namespace tonetool::sequence {
+
+namespace {
+
+using Bytes = std::vector<unsigned char>;
+
+// A header of its own: what the picture's file says of itself is not for the page.
+OIIO::ImageSpec spec_of(const OIIO::ImageBuf& picture, Encoding encoding, int quality) {
+    const bool full_color = encoding == Encoding::JpegMap;
+    const OIIO::ROI roi = picture.roi();
+    OIIO::ImageSpec spec(roi.width(), roi.height(), 3, OIIO::TypeDesc::UINT8);
+    spec.attribute("oiio:ColorSpace", "sRGB");
+    if (encoding != Encoding::Png) {
+        spec.attribute("Compression", OIIO::Strutil::sprintf("jpeg:%d", quality));
+        spec.attribute("jpeg:subsampling", full_color ? "4:4:4" : "4:2:0");
+    } else {
+        spec.attribute("png:compressionLevel", 6);
+    }
+    return spec;
+}
+
+Bytes encoded(const OIIO::ImageBuf& picture, Encoding encoding, int quality) {
+    const char* name = encoding != Encoding::Png ? "picture.jpg" : "picture.png";
+    const OIIO::ImageSpec spec = spec_of(picture, encoding, quality);
+    OIIO::ROI roi = picture.roi();
+    roi.chbegin = 0;
+    roi.chend = 3;
+    Bytes pixels(size_t(roi.npixels()) * 3);
+    Bytes bytes;
+    OIIO::Filesystem::IOVecOutput memory(bytes);
+    const auto output = OIIO::ImageOutput::create(name);
+    if (!output) {
+        throw std::runtime_error(OIIO::geterror());
+    }
+    const bool done = picture.get_pixels(roi, OIIO::TypeDesc::UINT8, pixels.data()) &&
+                      output->set_ioproxy(&memory) && output->open(name, spec) &&
+                      output->write_image(OIIO::TypeDesc::UINT8, pixels.data()) && output->close();
+    if (!done || bytes.empty()) {
+        throw std::runtime_error("could not encode a picture: " + output->geterror() +
+                                 picture.geterror());
+    }
+    return bytes;
+}
+
+int sextet(char c) {
+    static const std::string digits =
+        "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    const size_t at = digits.find(c);
+    return at == std::string::npos ? -1 : int(at);
+}
+
+// Up to the first character that is none of base64: its padding.
+Bytes decoded(const std::string& text, size_t begin) {
+    Bytes bytes;
+    unsigned int held = 0;
+    int bits = 0;
+    for (size_t i = begin; i < text.size() && sextet(text[i]) >= 0; ++i) {
+        held = (held << 6 | unsigned(sextet(text[i]))) & 0xffffffu;
+        bits += 6;
+        if (bits >= 8) {
+            bits -= 8;
+            bytes.push_back(static_cast<unsigned char>(held >> bits));
+        }
+    }
+    return bytes;
+}
+
+} // namespace
+
+std::string data_uri(const OIIO::ImageBuf& picture, Encoding encoding, int quality) {
+    const Bytes bytes = encoded(picture, encoding, quality);
+    const char* type = encoding != Encoding::Png ? "jpeg" : "png";
+    return std::string("data:image/") + type + ";base64," +
+           OIIO::Strutil::base64_encode(
+               {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+}
+
+std::optional<OIIO::ImageBuf> picture_of(const std::string& data_uri) {
+    const size_t comma = data_uri.find(";base64,");
+    if (comma == std::string::npos) {
+        return std::nullopt;
+    }
+    Bytes bytes = decoded(data_uri, comma + 8);
+    OIIO::Filesystem::IOMemReader memory(bytes.data(), bytes.size());
+    const bool png = data_uri.rfind("data:image/png", 0) == 0;
+    auto input = OIIO::ImageInput::open(png ? "picture.png" : "picture.jpg", nullptr, &memory);
+    if (!input) {
+        return std::nullopt;
+    }
+    const OIIO::ImageSpec& found = input->spec();
+    OIIO::ImageBuf picture(OIIO::ImageSpec(found.width, found.height, 3, OIIO::TypeDesc::UINT8));
+    const bool done = found.nchannels == 3 &&
+                      input->read_image(0, 0, 0, 3, OIIO::TypeDesc::UINT8, picture.localpixels());
+    return done ? std::optional<OIIO::ImageBuf>(std::move(picture)) : std::nullopt;
+}
+
+} // namespace tonetool::sequence

@@ -1,0 +1,17 @@
+// The report's files, written at the end of a check.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "sequence/report/report_store.h"
+#include "sequence/results/check_files.h"
+
+namespace tonetool::sequence {
+
+/// "report" and "contactsheet", each whole or not at all; `errors` gets why one could not be
+/// written. What a person must know of them otherwise is returned.
+std::vector<std::string> write_reports(const ShotResult& shot, const PictureStore& pictures,
+                                       const CheckFiles& files, std::vector<std::string>& errors);
+
+} // namespace tonetool::sequence

@@ -1,0 +1,155 @@
+#include "sequence/report/report_sheet.h"
+
+#include <OpenImageIO/imagebufalgo.h>
+#include <OpenImageIO/strutil.h>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+#include <stdexcept>
+
+#include "sequence/report/encoded.h"
+#include "sequence/results/json_text.h"
+
+namespace tonetool::sequence {
+
+namespace {
+
+using OIIO::ImageBuf;
+using OIIO::ROI;
+using OIIO::Strutil::fmt::format;
+namespace IBA = OIIO::ImageBufAlgo;
+
+constexpr char font[] = "DejaVuSans";
+constexpr int margin = 10, edge = 4, text_size = 13, label = 22;
+constexpr std::array<float, 3> background{0.13f, 0.13f, 0.13f}, ink{0.92f, 0.92f, 0.92f},
+    empty{0.05f, 0.05f, 0.05f};
+
+// Told apart also by who confuses red and green; the label has the word.
+std::array<float, 3> color_of(Status status) {
+    switch (status) {
+    case Status::Passed:
+    case Status::Measured:
+        return {0.35f, 0.37f, 0.40f};
+    case Status::Warning:
+        return {0.94f, 0.73f, 0.30f};
+    case Status::Failed:
+        return {1.00f, 0.45f, 0.15f};
+    default:
+        return {0.91f, 0.60f, 0.83f};
+    }
+}
+
+std::vector<size_t> shown_frames(const ShotResult& shot, std::string& warning) {
+    std::vector<size_t> all(shot.frames.size());
+    for (size_t i = 0; i < all.size(); ++i) {
+        all[i] = i;
+    }
+    if (all.size() > most_sheet_frames) {
+        std::stable_sort(all.begin(), all.end(), [&](size_t a, size_t b) {
+            const FrameResult &one = shot.frames[a], &other = shot.frames[b];
+            return std::make_pair(-int(one.status), -badness(one)) <
+                   std::make_pair(-int(other.status), -badness(other));
+        });
+        warning = format("the contact sheet shows the {} worst of {} frames", most_sheet_frames,
+                         all.size());
+        all.resize(most_sheet_frames);
+        std::sort(all.begin(), all.end());
+    }
+    return all;
+}
+
+std::optional<ImageBuf> thumbnail(const FrameResult& frame, const PictureStore& pictures) {
+    const std::string text = pictures.small(frame);
+    const auto json = parsed_or_null(text);
+    if (!json.is_object() || !json.contains("test") || !json["test"].is_string()) {
+        return std::nullopt;
+    }
+    return picture_of(json["test"].get<std::string>());
+}
+
+class Sheet {
+public:
+    Sheet(size_t count, int height) : m_cell_height(height + label + 2 * edge + margin) {
+        m_columns = std::max(1, int(std::ceil(std::sqrt(double(count)))));
+        const int rows = (int(count) + m_columns - 1) / m_columns;
+        OIIO::ImageSpec spec(m_columns * cell_width + margin, rows * m_cell_height + margin, 3,
+                             OIIO::TypeDesc::UINT8);
+        spec.attribute("oiio:ColorSpace", "sRGB");
+        m_image = ImageBuf(spec);
+        check(IBA::fill(m_image, background));
+    }
+
+    void put(size_t place, const FrameResult& frame, const std::optional<ImageBuf>& picture,
+             int height) {
+        const int x = margin + int(place) % m_columns * cell_width;
+        const int y = margin + int(place) / m_columns * m_cell_height;
+        rectangle(x, y, thumbnail_side + 2 * edge, height + 2 * edge, color_of(frame.status));
+        rectangle(x + edge, y + edge, thumbnail_side, height, empty);
+        if (picture) {
+            const ROI roi = picture->roi();
+            check(IBA::paste(m_image, x + edge + (thumbnail_side - roi.width()) / 2,
+                             y + edge + (height - roi.height()) / 2, 0, 0, *picture));
+        }
+        const std::string view = frame.view.empty() ? "" : " " + frame.view;
+        write(x, y + height + 2 * edge + 4,
+              format("{}{}{}  {}", frame.frame,
+                     frame.test_frame ? "/" + std::to_string(*frame.test_frame) : "", view,
+                     status_name(frame.status)));
+    }
+
+    bool labelled() const { return m_labelled; }
+    ImageBuf& image() { return m_image; }
+
+private:
+    static constexpr int cell_width = thumbnail_side + 2 * edge + margin;
+
+    void check(bool done) const {
+        if (!done) {
+            throw std::runtime_error(m_image.geterror());
+        }
+    }
+
+    void rectangle(int x, int y, int width, int height, const std::array<float, 3>& color) {
+        check(IBA::fill(m_image, color, ROI(x, x + width, y, y + height)));
+    }
+
+    void write(int x, int y, const std::string& text) {
+        if (m_labelled && !IBA::render_text(m_image, x, y, text, text_size, font, ink,
+                                            IBA::TextAlignX::Left, IBA::TextAlignY::Top)) {
+            (void)m_image.geterror();
+            m_labelled = false;
+        }
+    }
+
+    int m_cell_height, m_columns = 1;
+    bool m_labelled = true;
+    ImageBuf m_image;
+};
+
+} // namespace
+
+ImageBuf contact_sheet(const ShotResult& shot, const PictureStore& pictures, std::string& warning) {
+    const std::vector<size_t> frames = shown_frames(shot, warning);
+    if (frames.empty()) {
+        throw std::runtime_error("there is no frame for the contact sheet");
+    }
+    std::vector<std::optional<ImageBuf>> thumbnails;
+    int height = 1;
+    for (const size_t i : frames) {
+        thumbnails.push_back(thumbnail(shot.frames[i], pictures));
+        height = thumbnails.back() ? std::max(height, thumbnails.back()->spec().height) : height;
+    }
+    height = height == 1 ? thumbnail_side * 9 / 16 : height;
+    Sheet sheet(frames.size(), height);
+    for (size_t i = 0; i < frames.size(); ++i) {
+        sheet.put(i, shot.frames[frames[i]], thumbnails[i], height);
+    }
+    if (!sheet.labelled()) {
+        warning += warning.empty() ? "" : "; ";
+        warning += std::string("no font \"") + font + "\" found: the contact sheet has no labels";
+    }
+    return std::move(sheet.image());
+}
+
+} // namespace tonetool::sequence

@@ -1,0 +1,270 @@
+#include "sequence/results/results.h"
+
+#include <OpenImageIO/strutil.h>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <stdexcept>
+#include <tuple>
+
+#include "sequence/qc/qc.h"
+
+namespace tonetool::sequence {
+
+namespace {
+
+using OIIO::Strutil::fmt::format;
+
+constexpr std::array<const char*, 9> status_names{"passed",     "measured",      "warning",
+                                                  "failed",     "size mismatch", "missing",
+                                                  "unreadable", "error",         "crashed"};
+constexpr std::array<const char*, 3> severity_names{"info", "warning", "error"};
+
+constexpr char nothing_measured[] = "nothing was measured";
+constexpr double worst_badness = 1e300;
+
+template <class Enum, size_t N>
+std::optional<Enum> named(const std::array<const char*, N>& names, const std::string& name) {
+    const auto found = std::find(names.begin(), names.end(), name);
+    return found == names.end() ? std::nullopt : std::optional<Enum>(Enum(found - names.begin()));
+}
+
+std::string text_of(const Threshold& threshold, double limit) {
+    return format("{} {:.6g} {} {:.6g}", threshold.quantity, threshold.value,
+                  threshold.higher_is_better ? "<" : ">", limit);
+}
+
+void add_text(std::string& list, const std::string& text) {
+    list += (list.empty() ? "" : ", ") + text;
+}
+
+bool holds(const Threshold& threshold, double limit) {
+    return threshold.higher_is_better ? threshold.value >= limit : threshold.value <= limit;
+}
+
+struct Found {
+    Status status;
+    std::string message;
+};
+
+// All of the thresholds must hold; the message names those that do not.
+Found of_thresholds(const Measurement& measurement) {
+    std::string failed, warned;
+    bool tested = false;
+    for (const Threshold& threshold : measurement.thresholds) {
+        tested = tested || threshold.fail || threshold.warn;
+        if (threshold.fail && !holds(threshold, *threshold.fail)) {
+            add_text(failed, text_of(threshold, *threshold.fail));
+        } else if (threshold.warn && !holds(threshold, *threshold.warn)) {
+            add_text(warned, text_of(threshold, *threshold.warn));
+        }
+    }
+    const std::string start = measurement.command + ": ";
+    if (!failed.empty()) {
+        return {Status::Failed, start + failed};
+    }
+    if (!warned.empty()) {
+        return {Status::Warning, start + warned};
+    }
+    return {tested ? Status::Passed : Status::Measured, ""};
+}
+
+Found of_fault(const Fault& fault) {
+    return {fault.severity == Severity::Error     ? Status::Failed
+            : fault.severity == Severity::Warning ? Status::Warning
+                                                  : Status::Passed,
+            fault.sentence};
+}
+
+// The threshold's value in units of its limit; 1 is the limit.
+double excess(const Threshold& threshold) {
+    const auto limit = threshold.fail ? threshold.fail : threshold.warn;
+    if (!limit) {
+        return 0;
+    }
+    const double over = threshold.higher_is_better ? *limit : threshold.value;
+    const double under = threshold.higher_is_better ? threshold.value : *limit;
+    if (std::isnan(threshold.value)) {
+        return worst_badness;
+    }
+    // Also where both are 0: that holds.
+    return over <= 0 ? 0 : under > 0 ? over / under : worst_badness;
+}
+
+bool has_problem(Status status) {
+    return status > Status::Measured;
+}
+
+std::map<Status, size_t> counts_of(const ShotResult& shot) {
+    std::map<Status, size_t> counts;
+    for (const FrameResult& frame : shot.frames) {
+        ++counts[frame.status];
+    }
+    return counts;
+}
+
+std::string name_of(const FrameResult& frame) {
+    return std::to_string(frame.frame) + (frame.view.empty() ? "" : " " + frame.view) +
+           (frame.test_frame ? " (test " + std::to_string(*frame.test_frame) + ")" : "");
+}
+
+// What is said of a worst frame that is not bad.
+std::string measured_text(const FrameResult& frame) {
+    if (!frame.message.empty() || frame.measurements.empty() ||
+        frame.measurements.front().quantities.empty()) {
+        return frame.message;
+    }
+    const auto& [quantity, value] = frame.measurements.front().quantities.front();
+    return format("{}: {} {:.6g}", frame.measurements.front().command, quantity, value);
+}
+
+std::string sentence_of(const ShotResult& shot) {
+    std::vector<std::string> parts;
+    const std::map<Status, size_t> counts = counts_of(shot);
+    for (auto item = counts.rbegin(); item != counts.rend(); ++item) {
+        parts.push_back(format("{} {}", item->second, status_name(item->first)));
+    }
+    std::string text =
+        format("{} {}: {}", shot.frames.size(), shot.frames.size() == 1 ? "frame" : "frames",
+               OIIO::Strutil::join(parts, ", "));
+    const FrameResult& worst = shot.frames[shot.worst.front()];
+    const std::string why = measured_text(worst);
+    if (has_problem(shot.verdict) || (shot.frames.size() > 1 && !why.empty())) {
+        text += format("; worst: frame {}{}", name_of(worst), why.empty() ? "" : " (" + why + ")");
+    }
+    return text;
+}
+
+void sort_frames(std::vector<FrameResult>& frames) {
+    const auto key = [](const FrameResult& frame) { return std::tie(frame.frame, frame.view); };
+    std::sort(frames.begin(), frames.end(),
+              [&](const FrameResult& a, const FrameResult& b) { return key(a) < key(b); });
+    const auto twice = std::adjacent_find(
+        frames.begin(), frames.end(),
+        [&](const FrameResult& a, const FrameResult& b) { return key(a) == key(b); });
+    if (twice != frames.end()) {
+        throw std::runtime_error("frame " + name_of(*twice) + " is there twice");
+    }
+}
+
+std::vector<size_t> by_badness(const std::vector<FrameResult>& frames) {
+    std::vector<size_t> order(frames.size());
+    for (size_t i = 0; i < order.size(); ++i) {
+        order[i] = i;
+    }
+    const auto key = [&](size_t i) {
+        return std::make_tuple(-int(frames[i].status), -badness(frames[i]), i);
+    };
+    std::sort(order.begin(), order.end(), [&](size_t a, size_t b) { return key(a) < key(b); });
+    return order;
+}
+
+} // namespace
+
+std::string status_name(Status status) {
+    return status_names.at(size_t(status));
+}
+
+std::optional<Status> status_of_name(const std::string& name) {
+    return named<Status>(status_names, name);
+}
+
+int exit_status(Status status, bool warnings_exit) {
+    if (status > Status::Failed) {
+        return 1;
+    }
+    return status == Status::Failed ? 3 : (status == Status::Warning && warnings_exit ? 2 : 0);
+}
+
+std::string severity_name(Severity severity) {
+    return severity_names.at(size_t(severity));
+}
+
+std::optional<Severity> severity_of_name(const std::string& name) {
+    return named<Severity>(severity_names, name);
+}
+
+bool is_unmeasured(const FrameResult& frame) {
+    return frame.status == Status::Error && frame.message == nothing_measured;
+}
+
+void judge(FrameResult& frame) {
+    std::vector<Found> found;
+    for (Measurement& measurement : frame.measurements) {
+        found.push_back(of_thresholds(measurement));
+        measurement.status = found.back().status;
+    }
+    for (const Fault& fault : frame.faults) {
+        found.push_back(of_fault(fault));
+    }
+    for (const std::string& warning : frame.warnings) {
+        found.push_back({Status::Warning, warning});
+    }
+    if (frame.status > Status::Failed) {
+        return;
+    }
+    frame.message.clear();
+    if (frame.measurements.empty() && frame.faults.empty() && frame.qc.empty()) {
+        frame.status = Status::Error;
+        frame.message = nothing_measured;
+        return;
+    }
+    // Passed where --qc found nothing or a threshold held; measurements alone pass nothing.
+    const bool tested = std::any_of(found.begin(), found.end(),
+                                    [](const Found& one) { return one.status == Status::Passed; });
+    frame.status = tested || !frame.qc.empty() ? Status::Passed : Status::Measured;
+    for (const Found& one : found) {
+        if (has_problem(one.status) && one.status > frame.status) {
+            frame.status = one.status;
+            frame.message = one.message;
+        }
+    }
+}
+
+bool higher_is_better(const std::string& command, const std::string& quantity) {
+    return command == "tmqi" ||
+           (command == "errormap" && (quantity == "psnr" || quantity == "mpsnr"));
+}
+
+double badness(const FrameResult& frame) {
+    double most = 0;
+    for (const Measurement& measurement : frame.measurements) {
+        for (const Threshold& threshold : measurement.thresholds) {
+            most = std::max(most, excess(threshold));
+        }
+    }
+    if (most > 0) {
+        return most;
+    }
+    for (const Fault& fault : frame.faults) {
+        most += fault.severity == Severity::Info ? 0 : 1;
+    }
+    const auto& all = frame.measurements;
+    if (most > 0 || all.empty() || all.front().quantities.empty()) {
+        return most;
+    }
+    const auto& [quantity, value] = all.front().quantities.front();
+    if (std::isnan(value)) {
+        return worst_badness;
+    }
+    return higher_is_better(all.front().command, quantity) ? -value : std::max(value, 0.0);
+}
+
+void conclude(ShotResult& shot) {
+    sort_frames(shot.frames);
+    judge_qc(shot.frames);
+    shot.worst = by_badness(shot.frames);
+    if (shot.frames.empty()) {
+        shot.verdict = Status::Error;
+        shot.sentence = "no frame was checked";
+        return;
+    }
+    shot.verdict = shot.frames[shot.worst.front()].status;
+    const auto good = [&](size_t i) { return !has_problem(shot.frames[i].status); };
+    const auto end = std::find_if(shot.worst.begin(), shot.worst.end(), good);
+    shot.worst.erase(end == shot.worst.begin() ? end + 1 : end, shot.worst.end());
+    shot.sentence = sentence_of(shot);
+}
+
+} // namespace tonetool::sequence

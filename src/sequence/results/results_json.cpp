@@ -1,0 +1,410 @@
+#include "sequence/results/results_json.h"
+
+#include <OpenImageIO/strutil.h>
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "sequence/results/json_text.h"
+#include "sequence/verdict/trust.h"
+
+namespace tonetool::sequence {
+
+namespace {
+
+using nlohmann::ordered_json;
+
+// ---- values
+
+ordered_json of(double value) {
+    if (std::isnan(value)) {
+        return "nan";
+    }
+    return std::isinf(value) ? ordered_json(value > 0 ? "inf" : "-inf") : ordered_json(value);
+}
+
+ordered_json of(const std::string& text) {
+    return text;
+}
+
+ordered_json of(const Position& at) {
+    return {at.x, at.y};
+}
+
+template <class Value>
+ordered_json of(const std::vector<std::pair<std::string, Value>>& list) {
+    ordered_json object = ordered_json::object();
+    for (const auto& [name, value] : list) {
+        object[name] = of(value);
+    }
+    return object;
+}
+
+ordered_json of(const std::vector<double>& values) {
+    ordered_json list = ordered_json::array();
+    for (double value : values) {
+        list.push_back(of(value));
+    }
+    return list;
+}
+
+// What is infinite or no number is a text; the numbers themselves are finite.
+double number(const ordered_json& from, const std::string& key) {
+    if (from.is_string()) {
+        const auto text = from.get<std::string>();
+        if (text == "nan") {
+            return std::nan("");
+        }
+        if (text == "inf" || text == "-inf") {
+            return text == "inf" ? HUGE_VAL : -HUGE_VAL;
+        }
+    }
+    return finite_number(from, key);
+}
+
+template <class List>
+void put_list(ordered_json& to, const char* key, const List& list) {
+    if (!list.empty()) {
+        to[key] = of(list);
+    }
+}
+
+template <class Value>
+void put(ordered_json& to, const char* key, const std::optional<Value>& value) {
+    if (value) {
+        to[key] = of(*value);
+    }
+}
+
+void put(ordered_json& to, const char* key, const std::string& text) {
+    if (!text.empty()) {
+        to[key] = text;
+    }
+}
+
+std::string text(const ordered_json& from, const char* key) {
+    return from.value(key, std::string());
+}
+
+std::optional<double> maybe_number(const ordered_json& from, const char* key) {
+    return from.contains(key) ? std::optional<double>(number(from[key], key)) : std::nullopt;
+}
+
+std::optional<Position> maybe_position(const ordered_json& from, const char* key) {
+    if (!from.contains(key)) {
+        return std::nullopt;
+    }
+    const ordered_json& at = from[key];
+    return Position{whole_number<int>(at.at(0), key), whole_number<int>(at.at(1), key)};
+}
+
+Numbers numbers(const ordered_json& from, const char* key) {
+    Numbers list;
+    if (from.contains(key)) {
+        for (const auto& item : from[key].items()) {
+            list.emplace_back(item.key(), number(item.value(), item.key()));
+        }
+    }
+    return list;
+}
+
+Texts texts(const ordered_json& from, const char* key) {
+    Texts list;
+    if (from.contains(key)) {
+        for (const auto& item : from[key].items()) {
+            list.emplace_back(item.key(), item.value().get<std::string>());
+        }
+    }
+    return list;
+}
+
+template <class Value>
+std::vector<Value> values(const ordered_json& from, const char* key) {
+    return from.value(key, std::vector<Value>());
+}
+
+Status status(const ordered_json& from) {
+    const auto name = from.at("status").get<std::string>();
+    const auto found = status_of_name(name);
+    if (!found) {
+        throw std::runtime_error("unknown status \"" + name + "\"");
+    }
+    return *found;
+}
+
+// ---- structs
+
+ordered_json json_of(const Fault& fault) {
+    ordered_json to{{"code", fault.code}, {"severity", severity_name(fault.severity)}};
+    put(to, "sentence", fault.sentence);
+    put(to, "layer", fault.layer);
+    put(to, "position", fault.position);
+    put(to, "value", fault.value);
+    put(to, "threshold", fault.threshold);
+    return to;
+}
+
+Fault fault_of(const ordered_json& from) {
+    Fault fault;
+    fault.code = from.at("code").get<std::string>();
+    const auto severity = severity_of_name(from.at("severity").get<std::string>());
+    if (!severity) {
+        throw std::runtime_error("unknown severity " + one_line(from.at("severity")));
+    }
+    fault.severity = *severity;
+    fault.sentence = text(from, "sentence");
+    fault.layer = text(from, "layer");
+    fault.position = maybe_position(from, "position");
+    fault.value = maybe_number(from, "value");
+    fault.threshold = maybe_number(from, "threshold");
+    return fault;
+}
+
+ordered_json json_of(const Threshold& threshold) {
+    ordered_json to{{"quantity", threshold.quantity},
+                    {"value", of(threshold.value)},
+                    {"higher_is_better", threshold.higher_is_better}};
+    put(to, "fail", threshold.fail);
+    put(to, "warn", threshold.warn);
+    return to;
+}
+
+Threshold threshold_of(const ordered_json& from) {
+    return {from.at("quantity").get<std::string>(), number(from.at("value"), "value"),
+            from.at("higher_is_better").get<bool>(), maybe_number(from, "fail"),
+            maybe_number(from, "warn")};
+}
+
+ordered_json json_of(const Measurement& measured) {
+    ordered_json to{{"command", measured.command}};
+    put(to, "reference", measured.reference);
+    put(to, "test", measured.test);
+    to["status"] = status_name(measured.status);
+    for (const Threshold& threshold : measured.thresholds) {
+        to["thresholds"].push_back(json_of(threshold));
+    }
+    put_list(to, "quantities", measured.quantities);
+    if (!measured.histogram.empty()) {
+        to["histogram"] = measured.histogram;
+    }
+    put(to, "worst", measured.worst);
+    to["pixels"] = measured.pixels;
+    put_list(to, "exposures", measured.exposures);
+    put_list(to, "parameters", measured.parameters);
+    put_list(to, "settings", measured.settings);
+    if (!measured.warnings.empty()) {
+        to["warnings"] = measured.warnings;
+    }
+    return to;
+}
+
+Measurement measurement_of(const ordered_json& from) {
+    Measurement measured;
+    measured.command = from.at("command").get<std::string>();
+    measured.reference = text(from, "reference");
+    measured.test = text(from, "test");
+    measured.status = status(from);
+    if (from.contains("threshold")) { // as it was written before there could be several
+        measured.thresholds.push_back(threshold_of(from["threshold"]));
+    }
+    for (const ordered_json& threshold : from.value("thresholds", ordered_json::array())) {
+        measured.thresholds.push_back(threshold_of(threshold));
+    }
+    measured.quantities = numbers(from, "quantities");
+    for (const ordered_json& bucket : from.value("histogram", ordered_json::array())) {
+        measured.histogram.push_back(whole_number<long long>(bucket, "histogram"));
+    }
+    measured.worst = maybe_position(from, "worst");
+    measured.pixels = whole_number<long long>(from.at("pixels"), "pixels");
+    for (const ordered_json& stops : from.value("exposures", ordered_json::array())) {
+        measured.exposures.push_back(number(stops, "exposures"));
+    }
+    measured.parameters = numbers(from, "parameters");
+    measured.settings = texts(from, "settings");
+    measured.warnings = values<std::string>(from, "warnings");
+    return measured;
+}
+
+ordered_json json_of(const FrameResult& frame) {
+    ordered_json to{{"frame", frame.frame}};
+    put(to, "view", frame.view);
+    if (frame.test_frame) {
+        to["test_frame"] = *frame.test_frame;
+    }
+    to["status"] = status_name(frame.status);
+    put(to, "message", frame.message);
+    put(to, "reference", frame.reference);
+    put(to, "test", frame.test);
+    for (const Measurement& measured : frame.measurements) {
+        to["measurements"].push_back(json_of(measured));
+    }
+    for (const Fault& fault : frame.faults) {
+        to["faults"].push_back(json_of(fault));
+    }
+    if (!frame.warnings.empty()) {
+        to["warnings"] = frame.warnings;
+    }
+    if (!frame.qc.empty()) {
+        to["qc"] = parse_json<ordered_json>(frame.qc);
+    }
+    return to;
+}
+
+FrameResult frame_of(const ordered_json& from) {
+    FrameResult frame;
+    frame.frame = whole_number<int>(from.at("frame"), "frame");
+    frame.view = text(from, "view");
+    if (from.contains("test_frame")) {
+        frame.test_frame = whole_number<int>(from["test_frame"], "test_frame");
+    }
+    frame.status = status(from);
+    frame.message = text(from, "message");
+    frame.reference = text(from, "reference");
+    frame.test = text(from, "test");
+    const ordered_json none = ordered_json::array();
+    each_of(from.contains("measurements") ? from["measurements"] : none, "measurements",
+            [&](const ordered_json& one, const std::string&) {
+                frame.measurements.push_back(measurement_of(one));
+            });
+    each_of(from.contains("faults") ? from["faults"] : none, "faults",
+            [&](const ordered_json& one, const std::string&) {
+                frame.faults.push_back(fault_of(one));
+            });
+    frame.warnings = values<std::string>(from, "warnings");
+    frame.qc = from.contains("qc") ? one_line(from["qc"]) : "";
+    judge_from_numbers(frame);
+    return frame;
+}
+
+ordered_json json_of(const ShotExposures& exposures) {
+    ordered_json to{{"max_luminance", of(exposures.max_luminance)},
+                    {"median_luminance", of(exposures.median_luminance)},
+                    {"frames", exposures.frames}};
+    if (!exposures.references.empty()) {
+        to["references"] = exposures.references;
+    }
+    return to;
+}
+
+ShotExposures exposures_of(const ordered_json& from) {
+    return {number(from.at("max_luminance"), "max_luminance"),
+            number(from.at("median_luminance"), "median_luminance"),
+            whole_number<int>(from.at("frames"), "frames"), values<std::string>(from, "references"),
+            ""};
+}
+
+ordered_json worst_of(const ShotResult& shot) {
+    ordered_json list = ordered_json::array();
+    for (size_t index : shot.worst) {
+        const FrameResult& frame = shot.frames.at(index);
+        ordered_json one{{"frame", frame.frame}};
+        put(one, "view", frame.view);
+        list.push_back(one);
+    }
+    return list;
+}
+
+ordered_json counts_of(const std::vector<Status>& frames) {
+    ordered_json counts = ordered_json::object();
+    for (Status one :
+         {Status::Passed, Status::Measured, Status::Warning, Status::Failed, Status::SizeMismatch,
+          Status::Missing, Status::Unreadable, Status::Error, Status::Crashed}) {
+        counts[status_name(one)] = std::count(frames.begin(), frames.end(), one);
+    }
+    return counts;
+}
+
+ordered_json counts_of(const ShotResult& shot) {
+    std::vector<Status> frames;
+    for (const FrameResult& frame : shot.frames) {
+        frames.push_back(frame.status);
+    }
+    return counts_of(frames);
+}
+
+void check_equal(const std::string& key, const ordered_json& said, const ordered_json& found) {
+    if (said != found) {
+        throw std::runtime_error("\"" + key + "\" is " + one_line(said) +
+                                 ", but that of its frames is " + one_line(found));
+    }
+}
+
+// What the file says of all frames is of those that it has: none was taken out or put in since.
+// Where numbers were believed rather than the word, only what the words make is known.
+void check_summary(const ordered_json& from, const ShotResult& shot) {
+    std::vector<Status> said;
+    for (const ordered_json& frame : from.at("frames")) {
+        said.push_back(status(frame));
+    }
+    const ordered_json counts = counts_of(said);
+    for (const auto& one : counts.items()) {
+        check_equal("counts/" + one.key(), from.at("counts").value(one.key(), ordered_json(0)),
+                    one.value());
+    }
+    check_equal(
+        "verdict", from.at("verdict"),
+        status_name(said.empty() ? Status::Error : *std::max_element(said.begin(), said.end())));
+    if (counts == counts_of(shot)) {
+        check_equal("sentence", from.at("sentence"), shot.sentence);
+        check_equal("worst", from.at("worst"), worst_of(shot));
+    }
+}
+
+} // namespace
+
+void check_format(const ordered_json& from, const std::string& format, int version) {
+    if (!from.is_object() || text(from, "format") != format) {
+        throw std::runtime_error("has no \"format\": \"" + format + "\"");
+    }
+    const int found = whole_number<int>(from.at("version"), "version");
+    if (found != version) {
+        throw std::runtime_error(
+            OIIO::Strutil::fmt::format("is of version {}, this program reads {}", found, version));
+    }
+}
+
+std::string to_json(const ShotResult& shot) {
+    ordered_json to{{"format", results_format},
+                    {"version", results_version},
+                    {"verdict", status_name(shot.verdict)},
+                    {"sentence", shot.sentence},
+                    {"check", shot.check},
+                    {"counts", counts_of(shot)}};
+    if (shot.exposures) {
+        to["exposures"] = json_of(*shot.exposures);
+    }
+    to["worst"] = worst_of(shot);
+    to["frames"] = ordered_json::array();
+    for (const FrameResult& frame : shot.frames) {
+        to["frames"].push_back(json_of(frame));
+    }
+    return dumped(to);
+}
+
+ShotResult shot_from_json(const std::string& from) {
+    return parsed(from, [](const ordered_json& json) {
+        check_format(json, results_format, results_version);
+        ShotResult shot;
+        shot.check = json.at("check").get<std::vector<std::string>>();
+        if (json.contains("exposures")) {
+            shot.exposures = exposures_of(json["exposures"]);
+        }
+        each_of(json.at("frames"), "frames", [&](const ordered_json& one, const std::string&) {
+            shot.frames.push_back(frame_of(one));
+        });
+        check_limits(shot);
+        conclude(shot);
+        check_summary(json, shot);
+        return shot;
+    });
+}
+
+std::string to_json(const FrameResult& frame) {
+    return dumped(json_of(frame));
+}
+
+FrameResult frame_from_json(const std::string& from) {
+    return parsed(from, [](const ordered_json& json) { return frame_of(json); });
+}
+
+} // namespace tonetool::sequence

@@ -1,0 +1,27 @@
+// The versioned JSON form of results. Numbers come back to the bit; NaN and infinities are the
+// texts "nan", "inf", "-inf". Fields that are empty or unset are left out; bytes of names that are
+// no UTF-8 become U+FFFD.
+#pragma once
+
+#include <string>
+
+#include "sequence/results/results.h"
+
+namespace tonetool::sequence {
+
+inline constexpr char results_format[] = "tonetool-check";
+inline constexpr int results_version = 1;
+
+/// The text of --json: {"format", "version", "check", "verdict", "sentence", "counts",
+/// "exposures", "worst", "frames"}, with "worst" as frame numbers. Ends with a line break.
+std::string to_json(const ShotResult& shot);
+/// A runtime_error that says what is wrong where, for text that is no such file, of another
+/// version, or whose frames are not whole, or not those that the file's own counts, verdict and
+/// sentence are of. The verdict is drawn anew from the frames.
+ShotResult shot_from_json(const std::string& text);
+
+/// One frame, as --state and --merge keep it.
+std::string to_json(const FrameResult& frame);
+FrameResult frame_from_json(const std::string& text);
+
+} // namespace tonetool::sequence

@@ -1,0 +1,181 @@
+#include "sequence/results/tables.h"
+
+#include <OpenImageIO/strutil.h>
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <map>
+
+#include "imagebuf/pixels/utf8.h"
+#include "text/printable.h"
+
+namespace tonetool::sequence {
+
+namespace {
+
+using OIIO::Strutil::fmt::format;
+using Row = std::map<std::string, std::string>;
+
+std::string text_of(double value) {
+    return format("{}", value);
+}
+
+// ---- CSV
+
+std::string cell(const std::string& text) {
+    const bool formula = !text.empty() && std::strchr("=+-@\t\r", text.front()) != nullptr;
+    const std::string safe = (formula ? "'" : "") + printable_lines(valid_utf8(text));
+    if (safe.find_first_of(",\"\r\n") == std::string::npos) {
+        return safe;
+    }
+    return '"' + OIIO::Strutil::replace(safe, "\"", "\"\"", true) + '"';
+}
+
+class Columns {
+public:
+    void put(Row& row, const std::string& name, const std::string& already_a_cell) {
+        if (std::find(m_names.begin(), m_names.end(), name) == m_names.end()) {
+            m_names.push_back(name);
+        }
+        row[name] = already_a_cell;
+    }
+    const std::vector<std::string>& names() const { return m_names; }
+
+private:
+    std::vector<std::string> m_names; ///< in the order of their first use
+};
+
+void add_measurements(Columns& columns, Row& row, const FrameResult& frame) {
+    std::map<std::string, int> seen;
+    for (const Measurement& measured : frame.measurements) {
+        const int number = ++seen[measured.command];
+        const std::string start =
+            measured.command + (number > 1 ? "#" + std::to_string(number) : "") + ".";
+        for (const Threshold& threshold : measured.thresholds) {
+            const auto& limit = threshold.fail ? threshold.fail : threshold.warn;
+            const bool first = &threshold == &measured.thresholds.front();
+            columns.put(row, start + "threshold" + (first ? "" : "." + threshold.quantity),
+                        limit ? text_of(*limit) : "");
+        }
+        for (const auto& [name, value] : measured.quantities) {
+            columns.put(row, start + name, text_of(value));
+        }
+    }
+}
+
+Row row_of(Columns& columns, const FrameResult& frame) {
+    std::vector<std::string> codes;
+    for (const Fault& fault : frame.faults) {
+        codes.push_back(fault.code);
+    }
+    Row row;
+    columns.put(row, "frame", std::to_string(frame.frame));
+    columns.put(row, "view", cell(frame.view));
+    if (frame.test_frame) {
+        columns.put(row, "test_frame", std::to_string(*frame.test_frame));
+    }
+    columns.put(row, "status", status_name(frame.status));
+    columns.put(row, "message", cell(frame.message));
+    columns.put(row, "reference", cell(frame.reference));
+    columns.put(row, "test", cell(frame.test));
+    columns.put(row, "faults", cell(OIIO::Strutil::join(codes, ";")));
+    add_measurements(columns, row, frame);
+    return row;
+}
+
+// ---- XML
+
+// XML 1.0 has no form at all for most control characters.
+std::string escaped(const std::string& text) {
+    static const std::map<char, const char*> names = {
+        {'<', "&lt;"},   {'>', "&gt;"},  {'&', "&amp;"}, {'"', "&quot;"},
+        {'\n', "&#10;"}, {'\t', "&#9;"}, {'\r', "&#13;"}};
+    std::string safe;
+    for (const char c : valid_utf8(text)) {
+        const auto name = names.find(c);
+        if (name != names.end()) {
+            safe += name->second;
+        } else {
+            safe += static_cast<unsigned char>(c) < 0x20 || c == 0x7f ? "\xEF\xBF\xBD"
+                                                                      : std::string(1, c);
+        }
+    }
+    return safe;
+}
+
+std::string faults_text(const FrameResult& frame) {
+    std::string text;
+    for (const Fault& fault : frame.faults) {
+        text += format("{} {}: {}\n", severity_name(fault.severity), fault.code, fault.sentence);
+    }
+    return text;
+}
+
+std::string outcome(const FrameResult& frame) {
+    const std::string message = escaped(frame.message);
+    const std::string name = status_name(frame.status);
+    const std::string details = escaped(faults_text(frame));
+    switch (frame.status) {
+    case Status::Passed:
+        return "";
+    case Status::Measured:
+        return "<skipped message=\"no threshold was given\"/>";
+    case Status::Warning:
+        return format("<system-out>warning: {}&#10;{}</system-out>", message, details);
+    case Status::Failed:
+        return format("<failure type=\"{}\" message=\"{}\">{}</failure>", name, message, details);
+    default:
+        return format("<error type=\"{}\" message=\"{}\">{}</error>", name, message, details);
+    }
+}
+
+std::string test_case(const FrameResult& frame) {
+    const std::string name = format(
+        "frame {:04d}{}{}{}", frame.frame, frame.view.empty() ? "" : " ", escaped(frame.view),
+        frame.test_frame ? format(" (test {:04d})", *frame.test_frame) : "");
+    const std::string file = escaped(frame.test);
+    const std::string inside = outcome(frame);
+    return format("  <testcase classname=\"{}\" name=\"{}\"", file.empty() ? "check" : file, name) +
+           (inside.empty() ? "/>\n" : ">" + inside + "</testcase>\n");
+}
+
+} // namespace
+
+std::string csv_text(const ShotResult& shot) {
+    Columns columns;
+    std::vector<Row> rows;
+    for (const FrameResult& frame : shot.frames) {
+        rows.push_back(row_of(columns, frame));
+    }
+    std::string text;
+    for (size_t i = 0; i < columns.names().size(); ++i) {
+        text += (i > 0 ? "," : "") + cell(columns.names()[i]);
+    }
+    text += "\r\n";
+    for (Row& row : rows) {
+        for (size_t i = 0; i < columns.names().size(); ++i) {
+            text += (i > 0 ? "," : "") + row[columns.names()[i]];
+        }
+        text += "\r\n";
+    }
+    return text;
+}
+
+std::string junit_text(const ShotResult& shot) {
+    size_t failures = 0, errors = 0, skipped = 0;
+    std::string cases;
+    for (const FrameResult& frame : shot.frames) {
+        failures += frame.status == Status::Failed ? 1 : 0;
+        errors += frame.status > Status::Failed ? 1 : 0;
+        skipped += frame.status == Status::Measured ? 1 : 0;
+        cases += test_case(frame);
+    }
+    const std::string counts =
+        format("name=\"tonetool\" tests=\"{}\" failures=\"{}\" errors=\"{}\" skipped=\"{}\"",
+               shot.frames.size(), failures, errors, skipped);
+    return "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites>\n <testsuite " + counts +
+           ">\n" + cases + "  <system-out>" + escaped(shot.sentence) +
+           "</system-out>\n </testsuite>\n</testsuites>\n";
+}
+
+} // namespace tonetool::sequence

@@ -1,0 +1,104 @@
+#include "sequence/verdict/merge.h"
+
+#include <OpenImageIO/strutil.h>
+#include <set>
+#include <stdexcept>
+
+#include "sequence/results/results_json.h"
+#include "sequence/results/shot_exposures.h"
+
+namespace tonetool::sequence {
+
+namespace {
+
+template <class Read>
+auto read_part(const std::string& file, const Read& read) {
+    try {
+        return read(read_text(file));
+    } catch (const std::runtime_error& problem) {
+        throw std::runtime_error("\"" + file + "\": " + problem.what());
+    }
+}
+
+void check_same(const ShotResult& whole, const ShotResult& part, const std::string& first,
+                const std::string& file) {
+    const auto quoted = [](const std::string& name) { return "\"" + name + "\""; };
+    if (part.check != whole.check) {
+        throw std::runtime_error(quoted(file) + " is not of the same check as " + quoted(first) +
+                                 ": " + OIIO::Strutil::join(part.check, " ") + " instead of " +
+                                 OIIO::Strutil::join(whole.check, " "));
+    }
+    if (!(part.exposures == whole.exposures)) {
+        throw std::runtime_error(quoted(file) + " was made with other exposures of the shot than " +
+                                 quoted(first));
+    }
+}
+
+// In every view that some part has.
+void add_frames_without_result(ShotResult& shot, const std::vector<Item>& expected) {
+    std::set<std::pair<int, std::string>> there;
+    std::set<std::string> views;
+    for (const FrameResult& frame : shot.frames) {
+        there.emplace(frame.frame, frame.view);
+        views.insert(frame.view);
+    }
+    if (views.empty()) {
+        views.insert("");
+    }
+    for (const Item& item : expected) {
+        for (const std::string& view : views) {
+            if (there.emplace(item.frame, view).second) {
+                FrameResult frame;
+                frame.frame = item.frame;
+                frame.view = view;
+                frame.message = "no part has a result of this frame";
+                shot.frames.push_back(frame);
+            }
+        }
+    }
+}
+
+} // namespace
+
+ShotResult merged(const std::vector<std::string>& parts, const std::vector<Item>& expected,
+                  std::vector<std::string>& complaints) {
+    if (parts.empty()) {
+        throw std::runtime_error("there is no part to merge (valid: --merge PART.json ...)");
+    }
+    ShotResult whole;
+    std::string first;
+    for (const std::string& file : parts) {
+        ShotResult part;
+        try {
+            part = read_part(file, shot_from_json);
+        } catch (const std::runtime_error& problem) {
+            if (expected.empty()) {
+                throw;
+            }
+            complaints.push_back(problem.what());
+            continue;
+        }
+        if (first.empty()) {
+            first = file;
+            whole.check = part.check;
+            whole.exposures = part.exposures;
+        }
+        check_same(whole, part, first, file);
+        std::move(part.frames.begin(), part.frames.end(), std::back_inserter(whole.frames));
+    }
+    add_frames_without_result(whole, expected);
+    conclude(whole);
+    return whole;
+}
+
+std::string merged_exposures(const std::vector<std::string>& parts) {
+    ExposureSamples all;
+    for (const std::string& file : parts) {
+        const ExposureSamples samples = read_part(file, samples_from_json);
+        all.insert(all.end(), samples.begin(), samples.end());
+    }
+    shot_exposures(all); // says if there are none
+    return to_json(all);
+}
+
+} // namespace tonetool::sequence

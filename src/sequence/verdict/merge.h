@@ -1,0 +1,22 @@
+// --merge: the results of parts of a shot as one.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "sequence/frames/file_sequence.h"
+#include "sequence/results/results.h"
+
+namespace tonetool::sequence {
+
+/// The shot whose parts are these files (--json of the same command line over other frames).
+/// Frames of `expected` that no part has are Errors; if it is empty, the parts are all there is,
+/// and one that cannot be read is a runtime_error, as are parts of different checks and frames that
+/// are there twice. With `expected` an unreadable part only adds a line to `complaints`.
+ShotResult merged(const std::vector<std::string>& parts, const std::vector<Item>& expected,
+                  std::vector<std::string>& complaints);
+
+/// The samples of several exposure files as one file's text.
+std::string merged_exposures(const std::vector<std::string>& parts);
+
+} // namespace tonetool::sequence

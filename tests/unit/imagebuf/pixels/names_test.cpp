@@ -1,0 +1,34 @@
+#include "imagebuf/pixels/names.h"
+
+#include <gmock/gmock.h>
+
+namespace tonetool {
+namespace {
+
+using testing::ElementsAre;
+using testing::IsEmpty;
+
+TEST(EditDistance, CountsCharacters) {
+    EXPECT_EQ(edit_distance("", ""), 0u);
+    EXPECT_EQ(edit_distance("", "abc"), 3u);
+    EXPECT_EQ(edit_distance("abc", "abc"), 0u);
+    EXPECT_EQ(edit_distance("kitten", "sitting"), 3u);
+}
+
+TEST(NearestNames, FindsMisspeltOnes) {
+    const std::vector<std::string> names = {"hdrflip", "ldrflip", "flipdiff", "label", "o"};
+    EXPECT_THAT(nearest_names("hdrflp", names), ElementsAre("hdrflip", "ldrflip"));
+    EXPECT_THAT(nearest_names("flip", names), ElementsAre("flipdiff"));
+    EXPECT_THAT(nearest_names("zzzzzzzz", names), IsEmpty());
+    EXPECT_THAT(nearest_names("hdrflp", names, 1), ElementsAre("hdrflip"));
+    EXPECT_THAT(nearest_names("HDRflip", names, 1), ElementsAre("hdrflip"));
+}
+
+TEST(UnknownName, ListsWhatIsValid) {
+    EXPECT_EQ(unknown_name("look", "b", {}), "unknown look \"b\"; there are none");
+    EXPECT_EQ(unknown_name("view", "ACES SDX", {"Raw", "ACES SDR"}),
+              "unknown view \"ACES SDX\"; did you mean \"ACES SDR\"? valid: Raw, ACES SDR");
+}
+
+} // namespace
+} // namespace tonetool

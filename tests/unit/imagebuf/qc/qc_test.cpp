@@ -1,0 +1,236 @@
+#include "tonetool/qc.h"
+
+#include <OpenImageIO/filesystem.h>
+#include <filesystem>
+#include <gmock/gmock.h>
+#include <limits>
+
+#include "images.h"
+
+namespace tonetool {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+constexpr float kInf = std::numeric_limits<float>::infinity();
+
+QcFacts facts_of(const std::vector<const ImageBuf*>& parts, int nthreads = 0) {
+    QcFacts facts;
+    std::string error;
+    EXPECT_TRUE(ToneAlgo::qc_facts(facts, parts, error, {}, nthreads)) << error;
+    return facts;
+}
+
+QcFacts facts_of(const ImageBuf& image, int nthreads = 0) {
+    return facts_of(std::vector<const ImageBuf*>{&image}, nthreads);
+}
+
+std::string error_of(const ImageBuf& image, const QcOptions& options = {}) {
+    QcFacts facts;
+    std::string error;
+    EXPECT_FALSE(ToneAlgo::qc_facts(facts, {&image}, error, options));
+    return error;
+}
+
+void set(ImageBuf& image, int x, int y, int channel, float value) {
+    std::vector<float> pixel(size_t(image.nchannels()));
+    image.getpixel(x, y, pixel.data());
+    pixel[size_t(channel)] = value;
+    image.setpixel(x, y, pixel.data());
+}
+
+TEST(QcFacts, Count_what_is_no_colour_and_where) {
+    ImageBuf image = constant(make_spec(20, 10, {"R", "G", "B", "A", "Z"}), {1, 2, 3, 1, 5});
+    set(image, 7, 2, 1, kNan);
+    set(image, 4, 2, 0, kNan);
+    set(image, 1, 8, 2, kInf);
+    set(image, 0, 0, 2, -0.5f);
+    set(image, 3, 3, 4, kInf);
+    set(image, 5, 5, 3, 1.25f);
+    set(image, 6, 5, 3, kNan);
+    set(image, 8, 5, 3, -0.5f);
+    const QcFacts facts = facts_of(image);
+    ASSERT_EQ(facts.layers.size(), 2U);
+    const QcLayer& picture = facts.layers[0];
+    EXPECT_EQ(picture.kind, "picture");
+    EXPECT_EQ(picture.nan.pixels, 3);
+    EXPECT_EQ(picture.nan.first[0].x, 4); // by row, then column
+    EXPECT_EQ(picture.nan.first[1].x, 7);
+    EXPECT_EQ(picture.nan.first[2].x, 6); // its alpha
+    EXPECT_EQ(picture.inf.first[0].y, 8);
+    EXPECT_EQ(picture.negative.first[0].value, -0.5);
+    EXPECT_EQ(picture.min, -0.5);
+    EXPECT_EQ(picture.max, 3);
+    EXPECT_EQ(picture.lit, 196);
+    EXPECT_EQ(facts.layers[1].name, "Z");
+    EXPECT_EQ(facts.layers[1].kind, "depth");
+    EXPECT_EQ(facts.layers[1].inf.pixels, 1);
+    EXPECT_EQ(facts.picture.alpha_high.first[0].value, 1.25);
+    EXPECT_EQ(facts.picture.alpha_low.pixels, 1);
+}
+
+TEST(QcFacts, A_colour_alone_is_constant_and_black_is_not_lit) {
+    const QcFacts red = facts_of(constant(8, 8, {1, 0, 0}));
+    EXPECT_TRUE(red.layers[0].constant);
+    EXPECT_NEAR(red.layers[0].mean, 0.2126, 1e-12);
+    EXPECT_EQ(facts_of(constant(8, 8, {0, 0, 0})).layers[0].lit, 0);
+    EXPECT_FALSE(facts_of(noise(8, 8, 1)).layers[0].constant);
+}
+
+TEST(QcFacts, Do_not_depend_on_threads_nor_on_where_the_pixels_are) {
+    const std::string file =
+        OIIO::Filesystem::unique_path(testing::TempDir() + "tonetool-qc-%%%%%%%%.exr");
+    const ImageBuf image =
+        noise(make_spec(301, 207, {"R", "G", "B", "C_key.R", "C_key.G", "C_key.B"}), 3);
+    ASSERT_TRUE(image.write(file));
+    const ImageBuf unread(file);
+    const QcFacts one = facts_of(image, 1);
+    for (const QcFacts& other : {facts_of(image, 4), facts_of(unread, 1), facts_of(unread, 3)}) {
+        EXPECT_EQ(one.picture.hash, other.picture.hash);
+        EXPECT_EQ(one.picture.thumbnail, other.picture.thumbnail);
+        EXPECT_EQ(one.picture.peaks, other.picture.peaks);
+        EXPECT_EQ(one.picture.group_difference, other.picture.group_difference);
+        EXPECT_EQ(one.picture.spike_count, other.picture.spike_count);
+        EXPECT_EQ(one.layers[0].mean, other.layers[0].mean);
+        EXPECT_EQ(one.layers[1].mean, other.layers[1].mean);
+    }
+    std::filesystem::remove(file);
+}
+
+TEST(QcFacts, Thumbnails_have_the_luminance_of_the_display_window) {
+    ImageSpec spec = make_spec(64, 36, {"R", "G", "B"});
+    spec.full_width = 128; // the right half has no pixel
+    const QcFacts facts = facts_of(constant(spec, {0.25f, 0.25f, 0.25f}));
+    EXPECT_EQ(facts.picture.thumbnail[0], -2000);
+    EXPECT_EQ(facts.picture.thumbnail[15], -2000);
+    EXPECT_EQ(facts.picture.thumbnail[16], QcPicture::kDark);
+    EXPECT_THAT(facts.parts[0].data, ElementsAre(0, 0, 64, 36));
+    EXPECT_THAT(facts.parts[0].display, ElementsAre(0, 0, 128, 36));
+}
+
+TEST(QcFacts, A_spike_is_alone_in_its_surroundings) {
+    ImageBuf image = constant(40, 30, {0.5f, 0.5f, 0.5f});
+    set(image, 9, 7, 2, 100); // a blue one
+    set(image, 10, 7, 2, 60); // beside it: still one spike
+    set(image, 20, 20, 0, 3); // not 8 times as large
+    for (int y = 0; y < 30; ++y)
+        set(image, 30, y, 1, 200); // a line
+    const QcPicture picture = facts_of(image).picture;
+    ASSERT_EQ(picture.spike_count, 1);
+    EXPECT_EQ(picture.spikes[0].x, 9);
+    EXPECT_EQ(picture.spikes[0].y, 7);
+    EXPECT_EQ(picture.spikes[0].value, 100);
+    EXPECT_EQ(picture.spikes[0].around, 0.5);
+}
+
+TEST(QcFacts, Light_groups_add_up_where_the_picture_is_not_clamped) {
+    ImageBuf image = constant(make_spec(32, 32,
+                                        {"R", "G", "B", "C_key.R", "C_key.G", "C_key.B", "C_rim.R",
+                                         "C_rim.G", "C_rim.B"}),
+                              {1, 1, 1, 0.75f, 0.75f, 0.75f, 0.25f, 0.25f, 0.25f});
+    EXPECT_EQ(facts_of(image).picture.groups, 2);
+    EXPECT_EQ(facts_of(image).picture.group_difference, 0);
+    for (int c = 0; c < 3; ++c) {
+        set(image, 5, 5, c, 4); // as far as this picture goes: clamped
+        set(image, 5, 5, 3 + c, 70);
+    }
+    EXPECT_EQ(facts_of(image).picture.group_difference, 0);
+    for (int c = 0; c < 3; ++c)
+        set(image, 6, 9, 6 + c, 0);
+    const QcPicture picture = facts_of(image).picture;
+    EXPECT_NEAR(picture.group_difference, 0.25 / 1023, 1e-15);
+    EXPECT_NEAR(picture.group_sum, 1 - 0.25 / 1023, 1e-15);
+    EXPECT_EQ(picture.group_worst.x, 6);
+    EXPECT_EQ(picture.group_worst.y, 9);
+}
+
+TEST(QcFacts, Parts_are_one_image_whose_channels_bear_their_names) {
+    ImageBuf beauty = constant(16, 8, {1, 1, 1});
+    ImageBuf group = constant(make_spec(16, 8, {"R", "G", "B"}), {1, 1, 1});
+    group.specmod().attribute("oiio:subimagename", "C_key");
+    ImageBuf depth = constant(make_spec(16, 8, {"Z"}), {7});
+    depth.specmod().attribute("oiio:subimagename", "depth");
+    const QcFacts facts = facts_of({&beauty, &group, &depth});
+    ASSERT_EQ(facts.layers.size(), 3U);
+    EXPECT_EQ(facts.layers[0].kind, "picture");
+    EXPECT_EQ(facts.layers[1].kind, "light");
+    EXPECT_EQ(facts.layers[2].kind, "depth");
+    EXPECT_EQ(facts.layers[2].max, 7);
+    EXPECT_EQ(facts.channels[3].first, "C_key.R");
+    EXPECT_EQ(facts.picture.groups, 1);
+    EXPECT_EQ(facts.picture.group_difference, 0);
+}
+
+TEST(QcFacts, Files_of_data_have_layers_and_no_picture) {
+    const std::vector<std::vector<std::string>> files = {
+        {"Z"}, {"N.X", "N.Y", "N.Z"}, {"albedo.R", "albedo.G", "albedo.B"}, {"objectid"}};
+    for (const auto& channels : files) {
+        ImageBuf image =
+            constant(make_spec(8, 4, channels), std::vector<float>(channels.size(), 1));
+        set(image, 3, 2, 0, kNan);
+        const QcFacts facts = facts_of(image);
+        ASSERT_EQ(facts.layers.size(), 1U);
+        EXPECT_NE(facts.layers[0].kind, "picture");
+        EXPECT_EQ(facts.layers[0].nan.pixels, 1);
+        EXPECT_EQ(facts.layers[0].lit, 31);
+        EXPECT_EQ(facts.picture.hash.size(), 32U);
+        EXPECT_EQ(facts.picture.spike_count, 0);
+        EXPECT_EQ(facts.picture.thumbnail.size(), size_t(QcPicture::kWide * QcPicture::kHigh));
+    }
+}
+
+TEST(QcFacts, One_channel_is_a_grey_picture) {
+    ImageBuf image = constant(make_spec(32, 18, {"Y", "Z"}), {0.5f, 9});
+    set(image, 3, 2, 0, kInf);
+    const QcFacts facts = facts_of(image);
+    ASSERT_EQ(facts.layers.size(), 2U);
+    EXPECT_EQ(facts.layers[0].kind, "picture");
+    EXPECT_EQ(facts.layers[0].inf.pixels, 1);
+    EXPECT_EQ(facts.layers[0].max, 0.5);
+    EXPECT_EQ(facts.layers[1].kind, "depth");
+    EXPECT_EQ(facts.picture.thumbnail[0], -1000);
+}
+
+TEST(QcFacts, Count_lit_pixels_that_alpha_hides) {
+    ImageBuf image = constant(make_spec(8, 4, {"R", "G", "B", "A"}), {1, 0, 0, 0});
+    set(image, 0, 0, 0, 0);
+    set(image, 5, 1, 3, 1);
+    const QcFacts facts = facts_of(image);
+    EXPECT_EQ(facts.picture.lit, 31);
+    EXPECT_EQ(facts.picture.unseen.pixels, 30);
+    EXPECT_EQ(facts.picture.unseen.first[0].x, 1);
+}
+
+TEST(QcFacts, Long_metadata_are_kept_by_their_hash) {
+    ImageBuf image = constant(4, 4, {1, 1, 1});
+    image.specmod().attribute("manifest", std::string(5000, 'x'));
+    image.specmod().attribute("Software", "renderer");
+    const QcPart part = facts_of(image).parts[0];
+    EXPECT_EQ(part.metadata.at("Software"), "renderer");
+    EXPECT_THAT(part.metadata.at("manifest"), HasSubstr("5000 characters, SHA-1 "));
+}
+
+TEST(QcFacts, Say_why_there_are_none) {
+    EXPECT_THAT(error_of(constant(make_spec(4, 4, {"a.R", "a.G", "a.B", "b.R", "b.G", "b.B"}),
+                                  {1, 1, 1, 1, 1, 1})),
+                HasSubstr("layer="));
+    QcOptions no_such;
+    no_such.pixels.layer = "beauty";
+    EXPECT_THAT(error_of(constant(make_spec(4, 4, {"Z"}), {1}), no_such), HasSubstr("beauty"));
+    QcOptions options;
+    options.groups = {"ky"};
+    EXPECT_THAT(error_of(constant(make_spec(4, 4, {"R", "G", "B", "C_key.R", "C_key.G", "C_key.B"}),
+                                  {1, 1, 1, 1, 1, 1}),
+                         options),
+                HasSubstr("\"ky\"; did you mean \"key\""));
+    EXPECT_THAT(error_of(ImageBuf("no_such.exr")), HasSubstr("no_such.exr"));
+    QcFacts facts;
+    std::string error;
+    EXPECT_FALSE(ToneAlgo::qc_facts(facts, {}, error));
+    EXPECT_THAT(error, HasSubstr("no image"));
+}
+
+} // namespace
+} // namespace tonetool

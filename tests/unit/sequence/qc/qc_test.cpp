@@ -1,0 +1,273 @@
+#include "sequence/qc/qc.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <gmock/gmock.h>
+#include <random>
+
+#include "sequence/results/results_json.h"
+
+namespace tonetool::sequence {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+// Facts as of a picture that pans over a wall, without any pixel.
+QcFacts facts_of(int number, double stops = 0) {
+    QcFacts facts;
+    facts.parts.push_back({"", {0, 0, 640, 360}, {0, 0, 640, 360}, "zip", {{"Software", "r 1"}}});
+    facts.channels = {{"R", "half"},     {"G", "half"},     {"B", "half"},
+                      {"key.R", "half"}, {"key.G", "half"}, {"key.B", "half"}};
+    QcLayer picture{"", "picture", false, 200000, 0, 3, 0.4, {}, {}, {}};
+    QcLayer key{"C_key", "light", false, 90000, 0, 2, 0.1, {}, {}, {}};
+    facts.layers = {picture, key};
+    facts.picture.hash = std::to_string(number) + std::to_string(stops);
+    for (int y = 0; y < QcPicture::kHigh; ++y) {
+        for (int x = 0; x < QcPicture::kWide; ++x) {
+            const double wall = std::sin(0.9 * x + 0.05 * number) + std::sin(0.7 * y - 0.3 * x);
+            facts.picture.thumbnail.push_back(int(std::lround(1000 * (wall + stops))));
+            facts.picture.peaks.push_back(facts.picture.thumbnail.back() + 500);
+        }
+    }
+    facts.picture.groups = 1;
+    facts.picture.group_sum = 1;
+    facts.picture.group_difference = 1e-4;
+    return facts;
+}
+
+FrameResult result_of(int number, const QcFacts& facts, const QcLimits& limits = {}) {
+    FrameResult result;
+    result.frame = number;
+    result.status = Status::Passed;
+    result.qc = to_json(QcRecord{facts, limits});
+    return result;
+}
+
+using Change = void (*)(QcFacts& facts);
+
+// Twelve frames, of which those from first to last are changed.
+std::vector<FrameResult> shot_with(int first, int last, Change change) {
+    std::vector<FrameResult> frames;
+    for (int number = 1; number <= 12; ++number) {
+        QcFacts facts = facts_of(number);
+        if (number >= first && number <= last) {
+            change(facts);
+        }
+        frames.push_back(result_of(number, facts));
+    }
+    return frames;
+}
+
+std::vector<std::string> codes_of(std::vector<FrameResult> frames) {
+    judge_qc(frames);
+    std::vector<std::string> codes;
+    for (const FrameResult& frame : frames) {
+        for (const Fault& fault : frame.faults) {
+            codes.push_back(std::to_string(frame.frame) + " " + fault.code);
+        }
+    }
+    return codes;
+}
+
+void brighter(QcFacts& facts) {
+    for (int& cell : facts.picture.thumbnail) {
+        cell += 800;
+    }
+    facts.picture.hash += "brighter";
+}
+
+void without_key(QcFacts& facts) {
+    facts.layers[1].lit = 0;
+    facts.layers[1].mean = facts.layers[1].max = 0;
+}
+
+TEST(Qc, A_clean_shot_has_no_fault) {
+    EXPECT_THAT(codes_of(shot_with(1, 12, [](QcFacts&) {})), IsEmpty());
+}
+
+TEST(Qc, Finds_what_is_odd_in_a_frame) {
+    EXPECT_THAT(codes_of(shot_with(4, 4, without_key)), ElementsAre("4 blacklayer"));
+    EXPECT_THAT(codes_of(shot_with(6, 6, brighter)), ElementsAre("6 flicker"));
+    EXPECT_THAT(codes_of(shot_with(6, 7, brighter)), ElementsAre("6 flicker"));
+    EXPECT_THAT(codes_of(shot_with(7, 12, brighter)), ElementsAre("7 jump"));
+    EXPECT_THAT(codes_of(shot_with(5, 5, [](QcFacts& f) { f.layers[0].nan.pixels = 1; })),
+                ElementsAre("5 nan"));
+    EXPECT_THAT(codes_of(shot_with(5, 8, [](QcFacts& f) { f.parts[0].compression = "none"; })),
+                ElementsAre("5 compression"));
+    EXPECT_THAT(codes_of(shot_with(5, 5, [](QcFacts& f) { f.picture.group_difference = 0.01; })),
+                ElementsAre("5 lightsum"));
+    EXPECT_THAT(codes_of(shot_with(5, 5, [](QcFacts& f) { f.channels[1].second = "float"; })),
+                ElementsAre("5 type"));
+}
+
+// A cell of the same light beside it, a frame before, is a lamp that moves.
+TEST(Qc, A_firefly_is_alone_in_time_too) {
+    const Change firefly = [](QcFacts& facts) {
+        facts.picture.spikes = {{300, 200, 1000, 0.5}};
+        facts.picture.peaks[size_t(10 * QcPicture::kWide + 15)] = 9966;
+    };
+    EXPECT_THAT(codes_of(shot_with(5, 5, firefly)), ElementsAre("5 firefly"));
+    EXPECT_THAT(codes_of(shot_with(5, 6, firefly)), IsEmpty());
+    EXPECT_THAT(codes_of(shot_with(1, 12, firefly)), IsEmpty());
+}
+
+TEST(Qc, A_layer_that_fades_out_is_no_fault) {
+    std::vector<FrameResult> frames;
+    for (int number = 1; number <= 12; ++number) {
+        QcFacts facts = facts_of(number);
+        facts.layers[1].mean = std::max(0.0, 0.1 * (8 - number));
+        facts.layers[1].lit = number < 8 ? 1000 : 0;
+        frames.push_back(result_of(number, facts));
+    }
+    EXPECT_THAT(codes_of(frames), IsEmpty());
+    frames.erase(frames.begin() + 3,
+                 frames.begin() + 7); // from 0.5 to nothing, and frames that lack
+    EXPECT_THAT(codes_of(frames), ElementsAre("8 missing", "8 blacklayer"));
+}
+
+TEST(Qc, Header_fields_that_change_all_the_time_are_no_fault) {
+    std::vector<FrameResult> frames;
+    for (int number = 1; number <= 12; ++number) {
+        QcFacts facts = facts_of(number);
+        facts.parts[0].metadata["seed"] = std::to_string(number);
+        facts.parts[0].metadata["DateTime"] = number < 5 ? "noon" : "evening";
+        facts.parts[0].data[0] = number;
+        frames.push_back(result_of(number, facts));
+    }
+    EXPECT_THAT(codes_of(frames), IsEmpty());
+}
+
+TEST(Qc, A_still_and_animation_on_twos_have_no_duplicates) {
+    std::vector<FrameResult> twos;
+    for (int number = 1; number <= 12; ++number) {
+        twos.push_back(result_of(number, facts_of(number / 2)));
+    }
+    EXPECT_THAT(codes_of(twos), IsEmpty());
+    twos.clear();
+    for (int number = 1; number <= 12; ++number) {
+        twos.push_back(result_of(number, facts_of(number == 7 ? 6 : number)));
+    }
+    EXPECT_THAT(codes_of(twos), ElementsAre("7 duplicate"));
+}
+
+TEST(Qc, Views_are_judged_by_themselves) {
+    std::vector<FrameResult> frames = shot_with(4, 4, without_key);
+    std::vector<FrameResult> right = shot_with(1, 12, brighter);
+    for (FrameResult& frame : frames) {
+        frame.view = "left";
+    }
+    for (FrameResult& frame : right) {
+        frame.view = "right";
+        frames.push_back(frame);
+    }
+    EXPECT_THAT(codes_of(frames), ElementsAre("4 blacklayer"));
+}
+
+TEST(Qc, Severities_and_thresholds_are_those_that_were_asked_for) {
+    std::vector<FrameResult> frames = shot_with(6, 6, brighter);
+    QcLimits limits;
+    limits.set("flicker", "0.1,error");
+    for (FrameResult& frame : frames) {
+        frame.qc = to_json(QcRecord{qc_from_json(frame.qc).facts, limits});
+    }
+    judge_qc(frames);
+    ASSERT_EQ(frames[5].faults.size(), 1U);
+    EXPECT_EQ(frames[5].status, Status::Failed);
+    EXPECT_EQ(frames[5].faults[0].threshold, 0.1);
+    EXPECT_NEAR(*frames[5].faults[0].value, 0.8, 0.05);
+    limits.set("flicker", "off");
+    for (FrameResult& frame : frames) {
+        frame.qc = to_json(QcRecord{qc_from_json(frame.qc).facts, limits});
+    }
+    EXPECT_THAT(codes_of(frames), IsEmpty());
+}
+
+TEST(Qc, Limits_refuse_what_they_cannot_be) {
+    QcLimits limits;
+    EXPECT_THROW(limits.set("jmp", "1"), std::runtime_error);
+    for (const char* text : {"", "-1", "1,2", "loud", "off,off", "nan", "inf", "1,error,off"}) {
+        EXPECT_THROW(limits.set("jump", text), std::runtime_error) << text;
+    }
+    EXPECT_THROW(limits.set("missing", "1"), std::runtime_error);
+    limits.set("jump", "error,2");
+    EXPECT_EQ(limits.threshold("jump"), 2);
+    EXPECT_EQ(limits.severity("jump"), Severity::Error);
+}
+
+// The order in which frames come, and whether parts of the shot were judged before, do not matter.
+TEST(Qc, Any_split_of_the_frames_gives_the_same) {
+    std::vector<FrameResult> all = shot_with(7, 7, brighter);
+    ShotResult whole;
+    whole.frames = all;
+    conclude(whole);
+    std::mt19937 random(1);
+    for (const size_t size : {1U, 5U, 12U}) {
+        std::shuffle(all.begin(), all.end(), random);
+        ShotResult merged;
+        for (size_t begin = 0; begin < all.size(); begin += size) {
+            ShotResult part;
+            const size_t end = std::min(begin + size, all.size());
+            part.frames.assign(all.begin() + std::ptrdiff_t(begin),
+                               all.begin() + std::ptrdiff_t(end));
+            conclude(part);
+            const ShotResult read = shot_from_json(to_json(part));
+            merged.frames.insert(merged.frames.end(), read.frames.begin(), read.frames.end());
+        }
+        conclude(merged);
+        EXPECT_EQ(to_json(merged), to_json(whole)) << size;
+    }
+    EXPECT_EQ(whole.verdict, Status::Warning);
+    EXPECT_THAT(faults_text(whole), HasSubstr("qc: frame 7: warning flicker: "));
+}
+
+TEST(Qc, A_record_that_is_none_is_refused) {
+    EXPECT_THROW(qc_from_json("{}"), std::runtime_error);
+    std::string text = to_json(QcRecord{facts_of(1), {}});
+    EXPECT_EQ(to_json(qc_from_json(text)), text);
+    text.replace(text.find("\"thumbnail\":["), 13, "\"thumbnail\":[1,");
+    EXPECT_THROW(qc_from_json(text), std::runtime_error);
+}
+
+std::vector<FrameResult> measured(const std::filesystem::path& folder, const std::string& side) {
+    std::vector<FrameResult> frames;
+    for (int number = 1; number <= 8; ++number) {
+        QcFacts facts;
+        std::string why;
+        const OIIO::ImageBuf image(
+            (folder / (side + ".000" + std::to_string(number) + ".exr")).string());
+        EXPECT_TRUE(ToneAlgo::qc_facts(facts, {&image}, why)) << why;
+        frames.push_back(result_of(number, facts));
+    }
+    return frames;
+}
+
+void find_frame_five(const std::filesystem::path& folder) {
+    EXPECT_THAT(codes_of(measured(folder, "ref")), IsEmpty());
+    ShotResult shot;
+    shot.frames = measured(folder, "test");
+    conclude(shot);
+    EXPECT_THAT(shot.worst, ElementsAre(4));
+    EXPECT_EQ(shot.frames[4].faults[0].code, "blacklayer");
+    EXPECT_EQ(shot.frames[4].faults[0].layer, "ViewLayer.Combined_neonC");
+    EXPECT_THAT(shot.frames[4].message, HasSubstr("neonC is black in frame 5"));
+}
+
+TEST(Qc, The_light_group_that_fails_in_frame_five_is_found) {
+    find_frame_five(std::filesystem::path(TESTIMAGES_DIR) / "anim");
+}
+
+TEST(Qc, And_in_the_rendered_scene) {
+    const char* shared = std::getenv("SHARED_DIR");
+    const auto folder = std::filesystem::path(shared ? shared : "") / "scenes" / "anim";
+    if (!shared || !std::filesystem::exists(folder)) {
+        GTEST_SKIP() << "no folder " << folder;
+    }
+    find_frame_five(folder);
+}
+
+} // namespace
+} // namespace tonetool::sequence
