@@ -19,7 +19,7 @@ namespace {
 using recipe::PicturePtr;
 
 bool is_named_so(const std::string& file) {
-    return OIIO::Strutil::iends_with(file, std::string(".") + tone_extensions[0]);
+    return OIIO::Strutil::iends_with(file, std::string(".") + kToneExtensions[0]);
 }
 
 std::string misnamed_text(const std::string& file) {
@@ -119,9 +119,8 @@ bool ToneInput::begin(const std::string& name, const OIIO::ImageSpec& config) {
     close();
     // Every format is being tried, under a lock that reading any other image would wait for.
     if (config.get_int_attribute("nowait") != 0) {
-        if (!is_named_so(name) && recipe::has_magic(name)) {
+        if (!is_named_so(name) && recipe::has_magic(name))
             say(misnamed_text(name));
-        }
         return false;
     }
     try {
@@ -133,9 +132,8 @@ bool ToneInput::begin(const std::string& name, const OIIO::ImageSpec& config) {
 }
 
 bool ToneInput::plan() {
-    if (m_source.file == failed_last.file && m_source.parameters == failed_last.parameters) {
+    if (m_source.file == failed_last.file && m_source.parameters == failed_last.parameters)
         return false;
-    }
     const std::optional<OIIO::ImageSpec> header = recipe::planned_header(m_source);
     m_spec = header.value_or(m_spec);
     return header.has_value();
@@ -146,9 +144,8 @@ bool ToneInput::make_at_open(const std::string& name) {
     if (!guarded(&ToneInput::make)) {
         failed_last = m_source;
         // oiiotool then looks for a file of the whole name, and says that there is none.
-        if (!m_source.parameters.empty() && name != m_source.file) {
+        if (!m_source.parameters.empty() && name != m_source.file)
             say(geterror(false));
-        }
         return false;
     }
     m_spec = m_picture->subimages.front().spec();
@@ -162,9 +159,8 @@ bool ToneInput::open(const std::string& name, OIIO::ImageSpec& spec,
 }
 
 bool ToneInput::make_as_planned() {
-    if (m_picture) {
+    if (m_picture)
         return true;
-    }
     const PicturePtr picture = recipe::picture_of(m_source);
     const OIIO::ImageSpec& made = picture->subimages.front().spec();
     if (made.roi() != m_spec.roi() || made.format != m_spec.format) {
@@ -180,9 +176,8 @@ bool ToneInput::make_as_planned() {
 const OIIO::ImageSpec& ToneInput::spec() const {
     lock_guard lock(*this);
     auto* self = const_cast<ToneInput*>(this);
-    if (m_spec.width > 0) {
+    if (m_spec.width > 0)
         (void)self->guarded(&ToneInput::make_as_planned);
-    }
     return m_spec;
 }
 
@@ -199,9 +194,8 @@ bool ToneInput::close() {
 }
 
 bool ToneInput::seek_subimage(int subimage, int miplevel) {
-    if (!m_picture && subimage == 0 && miplevel == 0) {
+    if (!m_picture && subimage == 0 && miplevel == 0)
         return m_spec.width > 0;
-    }
     const bool there = m_spec.width > 0 && guarded(&ToneInput::make_as_planned) && subimage >= 0 &&
                        miplevel == 0 && size_t(subimage) < m_picture->subimages.size();
     if (there && subimage != m_subimage) {
@@ -213,9 +207,8 @@ bool ToneInput::seek_subimage(int subimage, int miplevel) {
 
 // The picture anew, where an input is another than when it was made.
 bool ToneInput::renew() {
-    if (sequence::is_current(m_picture->inputs)) {
+    if (sequence::is_current(m_picture->inputs))
         return true;
-    }
     const PicturePtr before = m_picture;
     make();
     bool same = m_picture->subimages.size() == before->subimages.size();
@@ -236,24 +229,21 @@ bool ToneInput::renew() {
 bool ToneInput::read_native_scanlines(int subimage, int miplevel, int begin, int end, int z,
                                       void* data) {
     lock_guard lock(*this);
-    if (!guarded(&ToneInput::make_as_planned)) {
+    if (!guarded(&ToneInput::make_as_planned))
         return false;
-    }
     if (!seek_subimage(subimage, miplevel)) {
         return fail("recipe \"" + m_source.file + "\" has no subimage " + std::to_string(subimage) +
                     " of MIP level " + std::to_string(miplevel));
     }
-    if (begin == m_spec.y && !guarded(&ToneInput::renew)) {
+    if (begin == m_spec.y && !guarded(&ToneInput::renew))
         return false;
-    }
     const OIIO::ImageBuf& pixels = m_picture->subimages[size_t(subimage)];
     const size_t bytes = size_t(m_spec.scanline_bytes());
     auto* to = static_cast<char*>(data);
     for (int y = begin; y < end; ++y, to += bytes) {
         const void* row = pixels.pixeladdr(m_spec.x, y, z);
-        if (!row || y < m_spec.y || y >= m_spec.y + m_spec.height) {
+        if (!row || y < m_spec.y || y >= m_spec.y + m_spec.height)
             return fail("recipe \"" + m_source.file + "\" has no row " + std::to_string(y));
-        }
         std::memcpy(to, row, bytes);
     }
     return true;
@@ -266,7 +256,7 @@ OIIO::ImageInput* create_tone_input() {
 }
 
 void register_tone_format() {
-    OIIO::declare_imageio_format("tone", create_tone_input, tone_extensions, nullptr, nullptr,
+    OIIO::declare_imageio_format("tone", create_tone_input, kToneExtensions, nullptr, nullptr,
                                  "tonetool " TONETOOL_VERSION);
 }
 

@@ -7,7 +7,7 @@
 namespace tonetool {
 
 OIIO::ImageInput* create_tone_input();
-inline const char* tone_extensions[] = {"tone", nullptr};
+inline const char* kToneExtensions[] = {"tone", nullptr};
 
 /// Makes this process read recipes without the plugin.
 void register_tone_format();

@@ -237,7 +237,7 @@ struct Batch {
     }
 };
 
-struct Sums {
+struct WeightedRun {
     alignas(64) float values[kGuidedRun] = {}, weights[kGuidedRun] = {};
 
     HWY_INLINE void Add(ptrdiff_t x, V value, V weight) {
@@ -248,7 +248,7 @@ struct Sums {
 
 template <class Terms>
 HWY_INLINE void AddBatch(const Terms& terms, const Batch& batch, ptrdiff_t x, ptrdiff_t pitch,
-                         Sums& sums) {
+                         WeightedRun& sums) {
     V value = hn::Zero(d), weight = hn::Zero(d);
     for (ptrdiff_t i = 0; i < kBatch; i += kTogether) {
         Together w;
@@ -261,7 +261,7 @@ HWY_INLINE void AddBatch(const Terms& terms, const Batch& batch, ptrdiff_t x, pt
     sums.Add(x, value, weight);
 }
 
-// Sums of sums of sums: long rows of additions in float would lose digits.
+// WeightedRun of sums of sums: long rows of additions in float would lose digits.
 constexpr ptrdiff_t kBlock = 16 * kBatch;
 
 template <class Terms>
@@ -269,9 +269,9 @@ void FilterRun(const GuidedLayout& layout, const GuidedScales& scales, const Gui
                float* HWY_RESTRICT out) {
     const auto lanes = ptrdiff_t(hn::Lanes(d));
     const float* const row = run.rows[0] + run.column;
-    Sums all;
+    WeightedRun all;
     for (ptrdiff_t block = 0; block < run.count; block += kBlock) {
-        Sums sums;
+        WeightedRun sums;
         for (ptrdiff_t i = block; i < std::min(block + kBlock, run.count); i += kBatch) {
             const Batch batch(run, i, Terms::kAngle ? scales.angle : 0.0f);
             for (ptrdiff_t x = 0; x < kGuidedRun; x += lanes)

@@ -18,7 +18,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 constexpr float kLargest = std::numeric_limits<float>::max();
 constexpr double kLn2 = 0.693147180559945309417232121458;
 
-// Sums of values up to the largest of float are floats.
+// LuminanceLanes of values up to the largest of float are floats.
 constexpr float kScale = 1.0f / (1 << 24);
 
 // Twice the digits of float: what an addition rounds off is added up beside it (D. E. Knuth, "The
@@ -47,11 +47,11 @@ struct Sum {
     }
 };
 
-struct Sums {
+struct LuminanceLanes {
     Sum values, logs, reciprocals, counted;
     V most;
 
-    HWY_INLINE Sums() : most(hn::Zero(d)) {}
+    HWY_INLINE LuminanceLanes() : most(hn::Zero(d)) {}
 
     HWY_INLINE void Add(V v, V epsilon) {
         const auto valid = hn::And(hn::Ge(v, hn::Zero(d)), hn::Le(v, Number(kLargest)));
@@ -68,7 +68,7 @@ struct Sums {
 LuminanceSums SumsOfRow(const float* luminance, ptrdiff_t count, float epsilon) {
     const auto lanes = ptrdiff_t(hn::Lanes(d));
     const V raise = Number(epsilon);
-    Sums sums;
+    LuminanceLanes sums;
     ptrdiff_t i = 0;
     for (; i + lanes <= count; i += lanes)
         sums.Add(hn::LoadU(d, luminance + i), raise);

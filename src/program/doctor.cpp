@@ -18,17 +18,16 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr char plugin_name[] = "tone.imageio.so";
-constexpr char plugin_suffix[] = ".imageio.so";
+constexpr char kPluginName[] = "tone.imageio.so";
+constexpr char kPluginSuffix[] = ".imageio.so";
 
 // What a command of the shell prints; empty if it cannot be run.
 std::string output_of(const std::string& command) {
     std::string text;
     if (std::FILE* pipe = popen((command + " 2>/dev/null").c_str(), "r")) {
         char buffer[4096];
-        for (size_t n = 0; (n = std::fread(buffer, 1, sizeof buffer, pipe)) > 0;) {
+        for (size_t n = 0; (n = std::fread(buffer, 1, sizeof buffer, pipe)) > 0;)
             text.append(buffer, n);
-        }
         pclose(pipe);
     }
     return std::string(OIIO::Strutil::strip(text));
@@ -39,10 +38,9 @@ std::string own_plugin() {
     const fs::path program = fs::path(OIIO::Sysutil::this_program_path()).parent_path();
     for (const char* place : {TONETOOL_INSTALLED_PLUGIN, "../tone.imageio"}) {
         std::error_code problem;
-        const fs::path file = fs::canonical(program / place / plugin_name, problem);
-        if (!problem) {
+        const fs::path file = fs::canonical(program / place / kPluginName, problem);
+        if (!problem)
             return file.string();
-        }
     }
     return "";
 }
@@ -56,11 +54,9 @@ Strings folders_of(const char* variable) {
 Strings searched_folders() {
     Strings all = folders_of("OIIO_LIBRARY_PATH");
     Strings more;
-    for (const std::string& option : folders_of("OPENIMAGEIO_OPTIONS")) {
-        if (OIIO::Strutil::starts_with(option, "plugin_searchpath=")) {
+    for (const std::string& option : folders_of("OPENIMAGEIO_OPTIONS"))
+        if (OIIO::Strutil::starts_with(option, "plugin_searchpath="))
             more.push_back(option.substr(option.find('=') + 1));
-        }
-    }
     const Strings other =
         folders_of(OIIO_VERSION < 20600 ? "LD_LIBRARY_PATH" : "OPENIMAGEIO_PLUGIN_PATH");
     all.insert(all.end(), more.begin(), more.end());
@@ -76,32 +72,29 @@ std::string fault_of(const fs::path& file) {
         return "cannot be loaded: " + std::string(why ? why : "unknown error");
     }
     const auto* version = static_cast<const int*>(dlsym(library, "tone_imageio_version"));
-    if (!version) {
+    if (!version)
         return "is not tonetool's plugin";
-    }
     if (*version != OIIO_PLUGIN_VERSION) {
         return "is of plugin version " + std::to_string(*version) + ", not " +
                std::to_string(OIIO_PLUGIN_VERSION);
     }
     const std::string name = file.filename().string();
-    return name == plugin_name ? "" : "is named so, but must be named " + std::string(plugin_name);
+    return name == kPluginName ? "" : "is named so, but must be named " + std::string(kPluginName);
 }
 
 // Faults of all plugins in a folder that are ours, or should be; one line each.
 Strings faults_in(const std::string& folder) {
     std::error_code problem;
-    if (!fs::is_directory(folder, problem)) {
+    if (!fs::is_directory(folder, problem))
         return {"\"" + folder + "\" is no folder"};
-    }
     Strings faults;
     for (const fs::directory_entry& entry : fs::directory_iterator(folder, problem)) {
         const std::string name = entry.path().filename().string();
-        if (OIIO::Strutil::ends_with(name, plugin_suffix)) {
+        if (OIIO::Strutil::ends_with(name, kPluginSuffix)) {
             const std::string fault = fault_of(entry.path());
-            const bool other = fault == "is not tonetool's plugin" && name != plugin_name;
-            if (!fault.empty() && !other) {
+            const bool other = fault == "is not tonetool's plugin" && name != kPluginName;
+            if (!fault.empty() && !other)
                 faults.push_back(entry.path().string() + " " + fault);
-            }
         }
     }
     return faults;
@@ -124,11 +117,10 @@ std::string why_not_found(const std::string& version, const Strings& folders) {
         const Strings more = faults_in(folder);
         faults.insert(faults.end(), more.begin(), more.end());
     }
-    if (!faults.empty()) {
+    if (!faults.empty())
         return join(faults, "; ");
-    }
     return folders.empty() ? "OIIO_LIBRARY_PATH is not set"
-                           : "no " + std::string(plugin_name) + " in " + join(folders, ", ");
+                           : "no " + std::string(kPluginName) + " in " + join(folders, ", ");
 }
 
 // The line is for a shell.
@@ -151,18 +143,16 @@ void run_doctor(chain::Session& session, const chain::Call& call) {
     lines.add("oiiotool", program.empty() ? "none" : program + ", OpenImageIO " + version);
     lines.add("searched", folders.empty() ? "nothing" : join(folders, ", "));
     session.print(lines.text);
-    if (program.empty()) {
+    if (program.empty())
         throw CommandError("there is no oiiotool on the PATH");
-    }
     if (output_of("oiiotool --list-formats").find("tone : tone") != std::string::npos) {
         session.print(call.row().label() + ": oiiotool reads recipes");
         return;
     }
     session.print(call.row().label() + ": oiiotool does not read recipes");
     const std::string why = why_not_found(version, folders);
-    if (plugin.empty()) {
+    if (plugin.empty())
         throw CommandError(why + "; and the plugin is not installed with this program");
-    }
     throw CommandError(why + "; this line mends it:\n" + mending_line(plugin));
 }
 

@@ -25,9 +25,8 @@ void install_signal_handlers() {
     std::signal(SIGPIPE, SIG_IGN);
     for (int number : {SIGINT, SIGTERM, SIGHUP}) {
         // nohup's SIGHUP stays ignored.
-        if (std::signal(number, end_by_signal) == SIG_IGN) {
+        if (std::signal(number, end_by_signal) == SIG_IGN)
             std::signal(number, SIG_IGN);
-        }
     }
 #ifdef SIGXFSZ
     std::signal(SIGXFSZ, SIG_IGN); // a write beyond ulimit -f fails instead

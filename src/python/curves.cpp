@@ -17,7 +17,7 @@ struct Python<ToneCurveInfo> : Nested<ToneCurveInfo> {
 
 namespace {
 
-const std::string source = "The publication that tone_curves() names for each curve.";
+const std::string kSource = "The publication that tone_curves() names for each curve.";
 
 py::object response(std::vector<py::object>& arguments, const CurveOptions& options) {
     const std::vector<double> values =
@@ -64,9 +64,9 @@ void add_curves(Module& module) {
                               "One each.",
                               "Units: parameters in scene light unless their help says otherwise.",
                               "Never.",
-                              source};
+                              kSource};
     define(module, list, [](std::vector<py::object>&) { return list_of(ToneAlgo::tone_curves()); });
-    define_names(module, "tone_curve_names", "Names of the tone curves.", source,
+    define_names(module, "tone_curve_names", "Names of the tone curves.", kSource,
                  ToneAlgo::tone_curve_names);
     define(
         module,
@@ -79,7 +79,7 @@ void add_curves(Module& module) {
                     "Shapes: one dimension. Units: 1 is the display's white. NaN gives NaN or is "
                     "refused by the curve.",
                     "An unknown curve or parameter, a value out of range.",
-                    source},
+                    kSource},
         table_of<CurveOptions>().fields, response);
 }
 

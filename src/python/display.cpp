@@ -14,7 +14,7 @@ using MapOptions = On<Channel>;
 struct Nothing {};
 using EncodeOptions = On<Nothing>;
 
-const std::string source =
+const std::string kSource =
     "OpenImageIO's colour maps (magma, viridis and inferno: S. van der Walt, "
     "N. Smith, matplotlib; turbo: A. Mikhailov); IEC 61966-2-1 (sRGB).";
 
@@ -61,11 +61,11 @@ void add_display(Module& module) {
             "values beyond are clamped; the result is for a screen.\nNaN: 0. Alpha: "
             "ignored.",
             "An unknown map, no such channel, deep images.",
-            source},
+            kSource},
         Fields<M>{field<M>("channel", &M::channel, "Which; -1: the luminance of the first three."),
                   roi_field<M>(), threads_field<M>()},
         color_map);
-    define_names(module, "color_maps", "Names of the colour maps.", source, ToneAlgo::color_maps);
+    define_names(module, "color_maps", "Names of the colour maps.", kSource, ToneAlgo::color_maps);
     define(module,
            Description{
                "encode_srgb",
@@ -75,7 +75,7 @@ void add_display(Module& module) {
                "The picture; an array if the image is one.",
                "Shapes: those of the image. Units: clamped to 0 to 1. Alpha: carried.\nNaN: 0.",
                "Deep images, volumes, an image that is sRGB-encoded already.",
-               source},
+               kSource},
            Fields<E>{roi_field<E>(), threads_field<E>()}, encode_srgb);
 }
 

@@ -13,7 +13,7 @@ struct Python<ErrorSummary> : Nested<ErrorSummary> {
 
 namespace {
 
-const std::string source =
+const std::string kSource =
     "relmse: Rousselle, Knaus, Zwicker, \"Adaptive Sampling and Reconstruction using Greedy Error "
     "Minimization\", 2011. smape: Vogels et al., \"Denoising with Kernel Prediction and Asymmetric "
     "Loss Functions\", 2018. mpsnr: Munkberg, Clarberg, Hasselgren, Akenine-Moller, \"High Dynamic "
@@ -87,9 +87,9 @@ void add_errors(Module& module) {
                        "error, in both as 0. Counted, and in summary.warnings."),
             "An unknown metric, no R, G, B, deep images, different display windows, a value out "
             "of range, an unreadable file, no finite pixel.",
-            source},
+            kSource},
         fields(), run);
-    define_names(module, "error_metrics", "Names of the metrics of error_map().", source,
+    define_names(module, "error_metrics", "Names of the metrics of error_map().", kSource,
                  ToneAlgo::error_metrics);
 }
 

@@ -57,18 +57,18 @@ Fields<O> hdr_fields() {
     return joined<O>({flip_fields<O>(), view_fields<O>(), exposure_fields<O>()});
 }
 
-const std::string source_ldr =
+const std::string kSourceLdr =
     "P. Andersson, J. Nilsson, T. Akenine-Moller, M. Oskarsson, K. Astrom, M. D. Fairchild, "
     "\"FLIP: A Difference Evaluator for Alternating Images\", HPG 2020.";
-const std::string source_hdr =
+const std::string kSourceHdr =
     "P. Andersson, J. Nilsson, P. Shirley, T. Akenine-Moller, \"Visualizing Errors in Rendered "
     "High Dynamic Range Images\", Eurographics 2021; " +
-    source_ldr;
-const std::string map_notes =
+    kSourceLdr;
+const std::string kMapNotes =
     "Units of the map: FLIP's error, 0 (no visible difference) to 1.\n"
     "NaN, Inf: a pixel that has them in one image has error 1, in both 0; neighbours see the other "
     "image's pixel. Counted, and in summary.warnings.";
-const std::string pair_errors =
+const std::string kPairErrors =
     "No R, G, B, two candidates for the beauty, deep images, different display windows, a value "
     "out of range, an unreadable file, no finite pixel, a bound of memory that is too small.";
 
@@ -152,9 +152,9 @@ void add_flips(Module& module) {
                        {reference_parameter(), test_parameter()},
                        "FlipResult",
                        summary_text,
-                       pair_notes(map_notes + "\nValues are clamped to 0 to 1 in linear Rec.709."),
-                       pair_errors,
-                       source_ldr},
+                       pair_notes(kMapNotes + "\nValues are clamped to 0 to 1 in linear Rec.709."),
+                       kPairErrors,
+                       kSourceLdr},
            joined<L>({flip_fields<L>(), {roi_field<L>(), threads_field<L>()}}), ldr);
     Parameter tests = test_parameter();
     tests.type = "Image | Sequence[Image]";
@@ -167,10 +167,10 @@ void add_flips(Module& module) {
                     {reference_parameter(), tests},
                     "FlipResult",
                     summary_text + " A list of such, one each, for a list of tests.",
-                    pair_notes(map_notes + "\nUnits: scene light, whatever it is in; exposures in "
+                    pair_notes(kMapNotes + "\nUnits: scene light, whatever it is in; exposures in "
                                            "stops. Negative components count as 0."),
-                    pair_errors + " An all-black reference without exposures.",
-                    source_hdr},
+                    kPairErrors + " An all-black reference without exposures.",
+                    kSourceHdr},
         joined<H>({hdr_fields<H>(), {roi_field<H>(), threads_field<H>()}}), hdr);
 }
 
@@ -185,8 +185,8 @@ void add_filmstrip(Module& module) {
                     "FilmstripResult",
                     "The picture, R, G, B, sRGB-encoded, and the summary.",
                     pair_notes("Units: sizes in pixels; labels in stops. NaN, Inf: as hdr_flip."),
-                    pair_errors,
-                    source_hdr},
+                    kPairErrors,
+                    kSourceHdr},
         joined<S>(
             {hdr_fields<S>(),
              {field<S>("thumb_width", &S::thumb_width,
@@ -203,10 +203,10 @@ void add_flip(Module& module) {
     add_flip_results(module);
     add_flips(module);
     add_filmstrip(module);
-    define_names(module, "flip_tonemappers", "Names of the tone curves of HDR-FLIP.", source_hdr,
+    define_names(module, "flip_tonemappers", "Names of the tone curves of HDR-FLIP.", kSourceHdr,
                  ToneAlgo::flip_tonemappers);
     define_names(module, "flip_quantities", "Names of the quantities of flip_quantity().",
-                 source_hdr, ToneAlgo::flip_quantities);
+                 kSourceHdr, ToneAlgo::flip_quantities);
 }
 
 } // namespace tonetool::python

@@ -10,7 +10,7 @@ namespace {
 
 using OIIO::Strutil::fmt::format;
 
-constexpr size_t line_width = 88;
+constexpr size_t kLineWidth = 88;
 
 // Paragraphs (split at \n), each broken into lines and indented.
 std::string wrapped(const std::string& text, size_t indent) {
@@ -18,7 +18,7 @@ std::string wrapped(const std::string& text, size_t indent) {
     for (const std::string& paragraph : OIIO::Strutil::splits(text, "\n")) {
         std::string line(indent, ' ');
         for (const std::string& word : OIIO::Strutil::splits(paragraph)) {
-            if (line.size() > indent && line.size() + 1 + word.size() > line_width) {
+            if (line.size() > indent && line.size() + 1 + word.size() > kLineWidth) {
                 result += line + "\n";
                 line.assign(indent, ' ');
             }

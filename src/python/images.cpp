@@ -12,9 +12,9 @@ namespace tonetool::python {
 
 namespace {
 
-const char wanted_image[] = "an OpenImageIO.ImageBuf or an array of height x width, or of height x "
+const char kWantedImage[] = "an OpenImageIO.ImageBuf or an array of height x width, or of height x "
                             "width x 1, 3 or 4 channels (grey; R, G, B; R, G, B, A)";
-const char wanted_numbers[] = "float32, float16 or float64 (linear), uint8 or uint16 "
+const char kWantedNumbers[] = "float32, float16 or float64 (linear), uint8 or uint16 "
                               "(sRGB-encoded, as in files)";
 
 std::string described(const py::array& array) {
@@ -53,7 +53,7 @@ std::string hint_of_order(const py::array& array) {
 
 void check_shape(const py::array& array, const std::string& where, Channels channels) {
     const auto refuse = [&](const std::string& why) {
-        throw py::value_error(where + " " + described(array) + ": must be " + wanted_image + why);
+        throw py::value_error(where + " " + described(array) + ": must be " + kWantedImage + why);
     };
     if (array.ndim() != 2 && array.ndim() != 3)
         refuse("");
@@ -95,13 +95,12 @@ py::object array_of(std::unique_ptr<OIIO::ImageBuf> image, bool channel_axis) {
 
 InputImage::InputImage(const py::object& object, const std::string& where, Channels channels)
     : m_object(object) {
-    if (py::isinstance<OIIO::ImageBuf>(object)) {
+    if (py::isinstance<OIIO::ImageBuf>(object))
         m_image = object.cast<const OIIO::ImageBuf*>();
-    } else if (py::isinstance<py::array>(object)) {
+    else if (py::isinstance<py::array>(object))
         look_at(py::array(object), where, channels);
-    } else {
-        wrong_type(where, object, wanted_image);
-    }
+    else
+        wrong_type(where, object, kWantedImage);
 }
 
 void InputImage::look_at(const py::array& array, const std::string& where, Channels channels) {
@@ -110,7 +109,7 @@ void InputImage::look_at(const py::array& array, const std::string& where, Chann
         const bool masked = py::hasattr(array, "mask");
         throw py::type_error(
             where + " " + described(array) + ": must be " +
-            (masked ? "without a mask, which images do not have; fill it" : wanted_numbers));
+            (masked ? "without a mask, which images do not have; fill it" : kWantedNumbers));
     }
     check_shape(array, where, channels);
     const py::array numbers = packed(array, type);
@@ -167,10 +166,9 @@ OIIO::ImageBuf named_image(const InputImage& image, const std::vector<std::strin
     if (!channels.empty())
         copy.specmod().channelnames = channels;
     copy.specmod().alpha_channel = -1;
-    for (int c = 0; c < copy.nchannels(); ++c) {
+    for (int c = 0; c < copy.nchannels(); ++c)
         if (copy.spec().channelnames[size_t(c)] == "A")
             copy.specmod().alpha_channel = c;
-    }
     return copy;
 }
 

@@ -39,8 +39,9 @@ const Table<LightOptions>& table_of<LightOptions>() {
 
 namespace {
 
-const std::string source = "Layers of light groups as Blender, Cycles, Arnold, V-Ray and RenderMan "
-                           "name them; F. Banterle et al., CG-TMO.";
+const std::string kSource =
+    "Layers of light groups as Blender, Cycles, Arnold, V-Ray and RenderMan "
+    "name them; F. Banterle et al., CG-TMO.";
 
 struct Index : LightOptions {
     PixelOptions pixels;
@@ -132,7 +133,7 @@ void add_panorama(Module& module) {
                     "of the image, in linear Rec.709.\nNaN, Inf: counted and left out. Alpha: "
                     "ignored.",
                     "No colour, no finite pixel, deep images, not 2:1 where solid angles count.",
-                    source},
+                    kSource},
         Fields<O>{field<O>("pixels", &O::pixels, "Layer and colour space."),
                   field<O>("weight", &O::weight,
                            "\"solidangle\": a texel counts as the part of the sphere it covers; "
@@ -155,7 +156,7 @@ void add_lights(Module& module) {
                        "Shapes: the map is height x width. Units: the place of the group in "
                        "summary.groups, -1: no light. Alpha: ignored.\nNaN, Inf, negative: black.",
                        "No groups, an unknown group, no colour, deep images, an unreadable table.",
-                       source},
+                       kSource},
            index_fields(), light_index);
     add_panorama(module);
 }

@@ -8,7 +8,7 @@ namespace tonetool::python {
 
 namespace {
 
-const std::string source = "Luminance of Rec.709 (ITU-R BT.709): 0.2126 R + 0.7152 G + 0.0722 B.";
+const std::string kSource = "Luminance of Rec.709 (ITU-R BT.709): 0.2126 R + 0.7152 G + 0.0722 B.";
 
 struct Pixels {
     PixelOptions pixels;
@@ -78,7 +78,7 @@ void add_luminance(Module& module) {
                     "of the image, in linear Rec.709. Alpha: ignored.\nNaN, Inf: such pixels are "
                     "counted and left out.",
                     "No colour, deep images, no finite pixel, an unreadable file.",
-                    source},
+                    kSource},
         fields(), stats);
     define(
         module,
@@ -90,7 +90,7 @@ void add_luminance(Module& module) {
                     "Shapes: those of the image. Units: stops. Alpha and other channels: carried.\n"
                     "NaN, Inf: such pixels stay as they are.",
                     "No colour, a display-encoded image, deep images, stops out of range.",
-                    source},
+                    kSource},
         fields(), exposure);
 }
 

@@ -8,7 +8,7 @@ namespace tonetool::python {
 
 namespace {
 
-const std::string source =
+const std::string kSource =
     "The formats: Adobe's Cube LUT Specification 1.0, Sony Imageworks' .spi1d "
     "and .spi3d, S-2014-006 (CLF); OpenColorIO 2 (CTF).";
 
@@ -68,11 +68,11 @@ void add_lut(Module& module) {
                "display's. NaN does not occur.\nWritten beside the target and renamed.",
                "An unknown name, a value out of range, a format that cannot hold the curve, a "
                "file that cannot be written.",
-               source},
+               kSource},
            fields(), run);
-    define_names(module, "lut_shapers", "Names of the shapers of export_lut().", source,
+    define_names(module, "lut_shapers", "Names of the shapers of export_lut().", kSource,
                  ToneAlgo::lut_shapers);
-    define_names(module, "lut_formats", "Names of the formats of export_lut().", source,
+    define_names(module, "lut_formats", "Names of the formats of export_lut().", kSource,
                  ToneAlgo::lut_formats);
 }
 

@@ -8,9 +8,10 @@ namespace tonetool::python {
 
 namespace {
 
-const std::string source = "OpenEXR's and the renderers' names of layers and channels; colour "
-                           "spaces by ITU-R BT.709, BT.2020, SMPTE ST 2065-1, S-2014-004 (ACEScg), "
-                           "IEC 61966-2-1.";
+const std::string kSource =
+    "OpenEXR's and the renderers' names of layers and channels; colour "
+    "spaces by ITU-R BT.709, BT.2020, SMPTE ST 2065-1, S-2014-004 (ACEScg), "
+    "IEC 61966-2-1.";
 
 struct ChannelOptions {
     std::vector<std::string> channels;
@@ -79,7 +80,7 @@ void add_pixels(Module& module) {
                notes,
                "No colour, or two candidates for the beauty; the layers are listed. An image that "
                "cannot be read.",
-               source},
+               kSource},
            keywords(), find_color);
     define(module,
            Description{"color_layers",
@@ -89,9 +90,9 @@ void add_pixels(Module& module) {
                        "Names; the plain R, G, B is \"R,G,B\".",
                        notes,
                        "An image that cannot be read.",
-                       source},
+                       kSource},
            color_layers);
-    define_names(module, "color_spaces", "Names of the colour spaces that `from` takes.", source,
+    define_names(module, "color_spaces", "Names of the colour spaces that `from` takes.", kSource,
                  ToneAlgo::color_spaces);
     define(module,
            Description{

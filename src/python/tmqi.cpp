@@ -17,8 +17,8 @@ struct Python<TmqiSummary> : Nested<TmqiSummary> {
 
 namespace {
 
-const std::string source = "H. Yeganeh, Z. Wang, \"Objective Quality Assessment of Tone-Mapped "
-                           "Images\", IEEE Transactions on Image Processing 22(2), 2013.";
+const std::string kSource = "H. Yeganeh, Z. Wang, \"Objective Quality Assessment of Tone-Mapped "
+                            "Images\", IEEE Transactions on Image Processing 22(2), 2013.";
 
 struct CallOptions : TmqiOptions {
     PixelOptions hdr_pixels, ldr_pixels;
@@ -106,7 +106,7 @@ void add_tmqi(Module& module) {
             "and in summary.warnings.",
             "No R, G, B, images below 11x11 pixels, a constant HDR image, deep images, different "
             "windows, no finite pixel, an unreadable file.",
-            source},
+            kSource},
         fields(), run);
     define(module,
            Description{"tmqi_quantity",
@@ -117,9 +117,9 @@ void add_tmqi(Module& module) {
                        "The figure.",
                        "Units: 0 to 1, higher is better.",
                        "Never.",
-                       source},
+                       kSource},
            quantity);
-    define_names(module, "tmqi_quantities", "Names of the figures of tmqi_quantity().", source,
+    define_names(module, "tmqi_quantities", "Names of the figures of tmqi_quantity().", kSource,
                  ToneAlgo::tmqi_quantities);
 }
 

@@ -17,8 +17,9 @@ struct Python<TonemapSummary> : Nested<TonemapSummary> {
 
 namespace {
 
-const std::string source = "M. Pettineo, \"A Closer Look at Tone Mapping\", 2010; the sources that "
-                           "tone_curves() names for each curve; OpenColorIO 2.";
+const std::string kSource =
+    "M. Pettineo, \"A Closer Look at Tone Mapping\", 2010; the sources that "
+    "tone_curves() names for each curve; OpenColorIO 2.";
 
 using MapOptions = On<TonemapOptions>;
 struct Calibration : CalibrationOptions {
@@ -127,7 +128,7 @@ void add_functions(Module& module) {
                     "NaN and -Inf become 0, +Inf the largest value, negative components 0; all "
                     "are counted.",
                     errors + ".",
-                    source},
+                    kSource},
         map_fields(), tonemap);
     define(module,
            Description{
@@ -139,7 +140,7 @@ void add_functions(Module& module) {
                "Shapes, alpha: as tonemap. Units: stops.\n"
                "NaN, Inf: such pixels stay as they are and are not in the statistics.",
                errors + ", a display-encoded image.",
-               source},
+               kSource},
            calibrate_fields(), calibrate);
 }
 
@@ -152,7 +153,7 @@ void add_tonemap(Module& module) {
     add_results(module);
     add_functions(module);
     define_names(module, "display_encodings", "Names of the encodings of tonemap(encode=...).",
-                 source, ToneAlgo::display_encodings);
+                 kSource, ToneAlgo::display_encodings);
 }
 
 } // namespace tonetool::python

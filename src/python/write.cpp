@@ -7,13 +7,13 @@ namespace tonetool::python {
 
 namespace {
 
-const std::string source = "POSIX rename().";
-const std::string notes = "The bytes go to a temporary file beside the target, are flushed to the "
-                          "disk and renamed, so that "
-                          "the target is either the old file or the whole new one.";
-const Parameter filename = {"filename", "str | os.PathLike[str]", "The target.", ""};
-const std::string errors = "A file that cannot be written, an unknown format; then nothing has "
-                           "changed on disk.";
+const std::string kSource = "POSIX rename().";
+const std::string kNotes = "The bytes go to a temporary file beside the target, are flushed to the "
+                           "disk and renamed, so that "
+                           "the target is either the old file or the whole new one.";
+const Parameter kFilename = {"filename", "str | os.PathLike[str]", "The target.", ""};
+const std::string kErrors = "A file that cannot be written, an unknown format; then nothing has "
+                            "changed on disk.";
 
 struct WriteOptions {
     std::string format, compression;
@@ -88,7 +88,7 @@ void add_removals(Module& module) {
                        "Nothing.",
                        "What a process still writes stays.",
                        "Never.",
-                       source},
+                       kSource},
            [](std::vector<py::object>& arguments) {
                tonetool::remove_abandoned_outputs(Python<std::vector<std::string>>::from(
                    arguments[0], "remove_abandoned_outputs: filenames"));
@@ -103,7 +103,7 @@ void add_removals(Module& module) {
                     "Nothing.",
                     "Other threads' writes fail then.",
                     "Never.",
-                    source},
+                    kSource},
         [](std::vector<py::object>&) {
             tonetool::remove_unfinished_outputs();
             return py::none();
@@ -119,32 +119,32 @@ void add_write(Module& module) {
     define(module,
            Description{"write_image",
                        "Write an image to a file; the format is that of the extension.",
-                       {image_parameter("image", "Any image."), filename},
+                       {image_parameter("image", "Any image."), kFilename},
                        "None",
                        "Nothing.",
-                       values + notes,
-                       errors,
-                       source},
+                       values + kNotes,
+                       kErrors,
+                       kSource},
            fields(), write_image);
     define(module,
            Description{"write_images",
                        "Write several images as subimages of one file.",
-                       {{"images", "Sequence[Image]", "One each.", ""}, filename},
+                       {{"images", "Sequence[Image]", "One each.", ""}, kFilename},
                        "None",
                        "Nothing.",
-                       values + notes,
-                       errors,
-                       source},
+                       values + kNotes,
+                       kErrors,
+                       kSource},
            fields(), write_images);
     define(module,
            Description{"write_bytes",
                        "Write any bytes to a file.",
-                       {{"data", "bytes", "The whole file.", ""}, filename},
+                       {{"data", "bytes", "The whole file.", ""}, kFilename},
                        "None",
                        "Nothing.",
-                       notes,
-                       errors,
-                       source},
+                       kNotes,
+                       kErrors,
+                       kSource},
            write_bytes);
     add_removals(module);
 }

@@ -29,16 +29,15 @@ Nesting::Nesting(const std::string& file) {
     if (std::any_of(running.begin(), running.end(), same)) {
         Strings names;
         for (auto one = std::find_if(running.begin(), running.end(), same); one != running.end();
-             ++one) {
+             ++one)
             names.push_back(one->name);
-        }
         innermost_error = named + " reads itself" +
                           (names.size() > 1 ? ": " + join(names, " -> ") + " -> " + file : "");
         throw RecipeError(innermost_error);
     }
-    if (running.size() == most_nested) {
+    if (running.size() == kMostNested) {
         innermost_error = named + ": recipes are nested deeper than " +
-                          std::to_string(most_nested) + ", the most that there may be";
+                          std::to_string(kMostNested) + ", the most that there may be";
         throw RecipeError(innermost_error);
     }
     running.push_back({path, file, {}});
@@ -54,9 +53,8 @@ bool Nesting::is_outermost() const {
 }
 
 void Nesting::note_files(const Strings& files) {
-    for (Running& one : running) {
+    for (Running& one : running)
         one.files.insert(one.files.end(), files.begin(), files.end());
-    }
 }
 
 const Strings& Nesting::files() const {

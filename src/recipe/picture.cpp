@@ -18,21 +18,19 @@ namespace tonetool::recipe {
 namespace {
 
 // Words that a chain may run, so that an endless --while ends.
-constexpr size_t most_words = 100000;
+constexpr size_t kMostWords = 100000;
 
 // In a task of OpenImageIO's pool everything runs on one thread. A reader may be called from a
 // task, or while tasks wait for it, so it must never wait for the pool itself.
 class WithoutPool {
 public:
     WithoutPool() : m_registered(!m_pool->is_worker()) {
-        if (m_registered) {
+        if (m_registered)
             m_pool->register_worker(std::this_thread::get_id());
-        }
     }
     ~WithoutPool() {
-        if (m_registered) {
+        if (m_registered)
             m_pool->deregister_worker(std::this_thread::get_id());
-        }
     }
     WithoutPool(const WithoutPool&) = delete;
     WithoutPool& operator=(const WithoutPool&) = delete;
@@ -56,9 +54,8 @@ std::string key_of(const Source& source, const Strings& words) {
 
 std::string chain_text(const Strings& words) {
     Strings quoted;
-    for (const std::string& word : words) {
+    for (const std::string& word : words)
         quoted.push_back(shell_quoted(word));
-    }
     return join(quoted, " ");
 }
 
@@ -70,23 +67,20 @@ struct Notes {
 void add_subimages(Picture& picture, runs::Left& image, const Notes& notes) {
     for (size_t i = 0; i < image.subimages.size(); ++i) {
         OIIO::ImageBuf& pixels = image.subimages[i];
-        if (pixels.deep()) {
+        if (pixels.deep())
             throw RecipeError("its image \"" + image.name + "\" is deep (valid: --flatten)");
-        }
         const bool converted = pixels.spec().format != image.formats[i];
         picture.subimages.push_back(converted ? pixels.copy(image.formats[i]) : std::move(pixels));
         OIIO::ImageSpec& spec = picture.subimages.back().specmod();
         spec.channelformats.clear();
         spec.tile_width = spec.tile_height = spec.tile_depth = 0;
-        if (!image.label.empty() && image.subimages.size() == 1) {
+        if (!image.label.empty() && image.subimages.size() == 1)
             spec.attribute("oiio:subimagename", image.label);
-        }
         spec.attribute("tone:recipe", notes.recipe);
         spec.attribute("tone:chain", notes.chain);
         spec.attribute("tone:inputs", notes.inputs);
-        if (!notes.warnings.empty()) {
+        if (!notes.warnings.empty())
             spec.attribute("tone:warnings", notes.warnings);
-        }
         picture.bytes += size_t(spec.image_bytes());
     }
 }
@@ -94,21 +88,18 @@ void add_subimages(Picture& picture, runs::Left& image, const Notes& notes) {
 std::shared_ptr<Picture> make_picture(const Source& source, const Strings& words,
                                       Nesting& nesting) {
     WithoutPool serial;
-    runs::Evaluation found = runs::evaluate(words, {}, {true, folder_of(source.file), most_words});
+    runs::Evaluation found = runs::evaluate(words, {}, {true, folder_of(source.file), kMostWords});
     nesting.note_files(found.files);
-    if (found.status != 0) {
+    if (found.status != 0)
         throw RecipeError(found.error.empty() ? join(found.warnings, "; ") : found.error);
-    }
-    if (found.stack.empty()) {
+    if (found.stack.empty())
         throw RecipeError("it leaves no image on the stack");
-    }
     const Notes notes{source.file, chain_text(words), join(found.files, ";"),
                       join(found.warnings, "; ")};
     auto picture = std::make_shared<Picture>();
     std::reverse(found.stack.begin(), found.stack.end());
-    for (runs::Left& image : found.stack) {
+    for (runs::Left& image : found.stack)
         add_subimages(*picture, image, notes);
-    }
     return picture;
 }
 
@@ -120,9 +111,8 @@ PicturePtr find_or_make(const Source& source, Nesting& nesting) {
     Shelf::Place place(key_of(source, words), nesting.is_outermost());
     if (PicturePtr known = place.picture()) {
         Strings files;
-        for (const sequence::Stamp& stamp : known->inputs) {
+        for (const sequence::Stamp& stamp : known->inputs)
             files.push_back(stamp.file);
-        }
         nesting.note_files(files);
         return known;
     }
@@ -131,12 +121,10 @@ PicturePtr find_or_make(const Source& source, Nesting& nesting) {
     Strings files = nesting.files();
     std::sort(files.begin(), files.end());
     files.erase(std::unique(files.begin(), files.end()), files.end());
-    for (const std::string& file : files) {
+    for (const std::string& file : files)
         picture->inputs.push_back(sequence::stamp_of(file));
-    }
-    if (sequence::are_older(picture->inputs, begun)) {
+    if (sequence::are_older(picture->inputs, begun))
         place.keep(picture);
-    }
     return picture;
 }
 
@@ -156,11 +144,9 @@ Source parse_source(const std::string& name, const OIIO::ImageSpec& config) {
             source.parameters[pair.substr(0, equals)] = pair.substr(equals + 1);
         }
     }
-    for (const OIIO::ParamValue& hint : config.extra_attribs) {
-        if (OIIO::Strutil::starts_with(hint.name(), "tone:")) {
+    for (const OIIO::ParamValue& hint : config.extra_attribs)
+        if (OIIO::Strutil::starts_with(hint.name(), "tone:"))
             source.parameters.emplace(std::string(hint.name().substr(5)), hint.get_string());
-        }
-    }
     return source;
 }
 

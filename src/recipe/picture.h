@@ -31,7 +31,7 @@ struct Picture {
 using PicturePtr = std::shared_ptr<const Picture>;
 
 /// Recipes that may read one another, the first one included.
-inline constexpr size_t most_nested = 16;
+inline constexpr size_t kMostNested = 16;
 
 /// The picture, from memory if it was made before and nothing of what it is made of has changed.
 /// Any thread may ask at any time. A RecipeError names the recipe and what is wrong.

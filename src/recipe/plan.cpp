@@ -21,15 +21,15 @@ bool has(const Strings& names, const std::string& name) {
 }
 
 // One image in, one of the same windows, channels and kind out.
-const Strings keep_header = {
+const Strings kKeepHeader = {
     "addc",     "subc",         "mulc",     "divc",     "absdiffc",    "powc",        "maxc",
     "minc",     "abs",          "clamp",    "exposure", "tonemap",     "calibrate",   "attrib",
     "sattrib",  "eraseattrib",  "caption",  "keyword",  "label",       "ociodisplay", "ociolook",
     "ccmatrix", "colorconvert", "saturate", "invert",   "iscolorspace"};
 // A reference and a test in, a float map of one channel on top.
-const Strings make_map = {"hdrflip", "ldrflip"};
+const Strings kMakeMap = {"hdrflip", "ldrflip"};
 // What they print or set changes no image's header.
-const Strings settings = {"colorconfig", "echo", "v", "q", "nosoftwareattrib"};
+const Strings kSettings = {"colorconfig", "echo", "v", "q", "nosoftwareattrib"};
 
 struct Planned {
     OIIO::ImageSpec header;
@@ -46,13 +46,11 @@ public:
         runs::know_all_commands();
         while (m_next < m_words.size()) {
             const std::string& word = m_words[m_next++];
-            if (!is_plain(word) || !(word[0] == '-' ? command(word) : file(word))) {
+            if (!is_plain(word) || !(word[0] == '-' ? command(word) : file(word)))
                 return std::nullopt;
-            }
         }
-        if (m_stack.empty()) {
+        if (m_stack.empty())
             return std::nullopt;
-        }
         Planned& top = m_stack.back();
         top.header.set_format(top.read ? m_read_type : OIIO::TypeFloat);
         return top.header;
@@ -81,32 +79,26 @@ private:
     bool command(const std::string& word) {
         const Token token = parse_token(word);
         const chain::Command* row = chain::find_command(token.name);
-        if (!row || !token.value.empty()) {
+        if (!row || !token.value.empty())
             return false;
-        }
         const Call call(*row, token, {});
         const std::string& name = row->names.front();
-        for (size_t i = 0; i < row->args.size(); ++i, ++m_next) {
-            if (m_next >= m_words.size() || !is_plain(m_words[m_next])) {
+        for (size_t i = 0; i < row->args.size(); ++i, ++m_next)
+            if (m_next >= m_words.size() || !is_plain(m_words[m_next]))
                 return false;
-            }
-        }
-        const bool keeps = has(keep_header, name) && !m_stack.empty();
-        return keeps || has(settings, name) || (has(make_map, name) && map(call));
+        const bool keeps = has(kKeepHeader, name) && !m_stack.empty();
+        return keeps || has(kSettings, name) || (has(kMakeMap, name) && map(call));
     }
 
     // Thresholds decide whether there is a picture at all.
     bool map(const Call& call) {
         const Strings only = {"ppd",           "tonemapper",   "exposuremap",
                               "startExposure", "stopExposure", "numExposures"};
-        for (const chain::Modifier& modifier : call.row().modifiers) {
-            if (call.has(modifier.key) && !has(only, modifier.key)) {
+        for (const chain::Modifier& modifier : call.row().modifiers)
+            if (call.has(modifier.key) && !has(only, modifier.key))
                 return false;
-            }
-        }
-        if (m_stack.size() < 2 || call.pops() != 2) {
+        if (m_stack.size() < 2 || call.pops() != 2)
             return false;
-        }
         const OIIO::ImageSpec test = m_stack.back().header;
         m_stack.pop_back();
         const OIIO::ImageSpec reference = m_stack.back().header;

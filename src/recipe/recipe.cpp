@@ -22,9 +22,9 @@ bool is_name(char c) {
 
 // The first line is the magic alone.
 bool begins_as_recipe(const std::string& text) {
-    const size_t end = std::strlen(magic);
+    const size_t end = std::strlen(kMagic);
     const size_t next = text.find_first_not_of(" \t\r", end);
-    return text.compare(0, end, magic) == 0 && (next == std::string::npos || text[next] == '\n');
+    return text.compare(0, end, kMagic) == 0 && (next == std::string::npos || text[next] == '\n');
 }
 
 class Parser {
@@ -33,11 +33,9 @@ public:
 
     Strings words() {
         m_at = std::min(m_text.find('\n'), m_text.size());
-        while (skip_space()) {
-            if (!take_default()) {
+        while (skip_space())
+            if (!take_default())
                 m_words.push_back(word());
-            }
-        }
         check_given();
         return std::move(m_words);
     }
@@ -54,22 +52,20 @@ private:
     bool skip_space() {
         for (; more(); ++m_at) {
             m_line_begins |= m_text[m_at] == '\n';
-            if (m_text[m_at] == '#') {
+            if (m_text[m_at] == '#')
                 m_at = std::min(m_text.find('\n', m_at), m_text.size()) - 1;
-            } else if (m_text.compare(m_at, 2, "\\\n") == 0) {
+            else if (m_text.compare(m_at, 2, "\\\n") == 0)
                 ++m_at;
-            } else if (!is_space(m_text[m_at])) {
+            else if (!is_space(m_text[m_at]))
                 return true;
-            }
         }
         return false;
     }
 
     std::string name(size_t& at) const {
         const size_t begin = at;
-        while (at < m_text.size() && is_name(m_text[at])) {
+        while (at < m_text.size() && is_name(m_text[at]))
             ++at;
-        }
         return m_text.substr(begin, at - begin);
     }
 
@@ -78,22 +74,19 @@ private:
         const bool first = m_line_begins;
         m_line_begins = false;
         size_t at = m_at + 1;
-        if (!first || m_text[m_at] != '$') {
+        if (!first || m_text[m_at] != '$')
             return false;
-        }
         const std::string parameter = name(at);
         at = std::min(m_text.find_first_not_of(" \t", at), m_text.size());
-        if (parameter.empty() || at == m_text.size() || m_text[at] != '=') {
+        if (parameter.empty() || at == m_text.size() || m_text[at] != '=')
             return false;
-        }
         m_at = std::min(m_text.find_first_not_of(" \t", at + 1), m_text.size());
         const bool empty = !more() || is_space(m_text[m_at]) || m_text[m_at] == '#';
         const std::string value = empty ? "" : word();
         m_known.insert(parameter);
         m_values.emplace(parameter, value);
-        if (skip_space() && !m_line_begins) {
+        if (skip_space() && !m_line_begins)
             fail("one value after \"$" + parameter + " =\" (valid: $name = \"a value\")");
-        }
         return true;
     }
 
@@ -112,9 +105,8 @@ private:
                 out += c;
                 ++m_at;
             }
-            if (quote && !more()) {
+            if (quote && !more())
                 fail(std::string("unfinished quotation, no closing ") + quote);
-            }
             if (m_made + out.size() > most_made) {
                 fail("with the values of its parameters it is longer than 16 MB, the most that "
                      "the words of a recipe may be");
@@ -125,9 +117,8 @@ private:
     }
 
     std::string escaped() {
-        if (m_at + 1 == m_text.size()) {
+        if (m_at + 1 == m_text.size())
             fail("nothing after the backslash");
-        }
         const char c = m_text[m_at + 1];
         m_at += 2;
         return c == '\n' ? "" : std::string(1, c);
@@ -143,9 +134,8 @@ private:
         const bool braces = m_text.compare(at, 1, "{") == 0;
         at += braces ? 1 : 0;
         const std::string parameter = name(at);
-        if (parameter.empty() || (braces && m_text.compare(at, 1, "}") != 0)) {
+        if (parameter.empty() || (braces && m_text.compare(at, 1, "}") != 0))
             fail("no name of a parameter after $ (valid: $name, ${name}, $$ for a dollar)");
-        }
         const auto found = m_values.find(parameter);
         if (found == m_values.end()) {
             fail("parameter \"" + parameter + "\" has no value (valid: FILE.tone?" + parameter +
@@ -186,11 +176,10 @@ private:
 
 bool has_magic(const std::string& filename) {
     std::error_code ignored;
-    if (!std::filesystem::is_regular_file(filename, ignored)) {
+    if (!std::filesystem::is_regular_file(filename, ignored))
         return false;
-    }
     std::ifstream file(filename, std::ios::binary);
-    std::string begin(std::strlen(magic) + 64, '\0');
+    std::string begin(std::strlen(kMagic) + 64, '\0');
     file.read(begin.data(), std::streamsize(begin.size()));
     begin.resize(size_t(file.gcount()));
     return begins_as_recipe(begin);
@@ -203,27 +192,24 @@ std::string read_text(const std::string& filename) {
                                                                      : "does not exist");
     }
     std::ifstream file(filename, std::ios::binary);
-    std::string text(most_bytes + 1, '\0');
+    std::string text(kMostBytes + 1, '\0');
     file.read(text.data(), std::streamsize(text.size()));
     text.resize(size_t(file.gcount()));
-    if (file.bad() || (text.empty() && !file.eof())) {
+    if (file.bad() || (text.empty() && !file.eof()))
         throw RecipeError("cannot be read");
-    }
     if (!begins_as_recipe(text)) {
         const std::string first = text.substr(0, text.find('\n'));
-        throw RecipeError(
-            first.compare(0, 9, "tonetool ") == 0 && first.size() < 40
-                ? "is of another version, \"" + first + "\" (valid: \"" + std::string(magic) + "\")"
-                : "is no recipe: its first line is not \"" + std::string(magic) + "\"");
+        throw RecipeError(first.compare(0, 9, "tonetool ") == 0 && first.size() < 40
+                              ? "is of another version, \"" + first + "\" (valid: \"" +
+                                    std::string(kMagic) + "\")"
+                              : "is no recipe: its first line is not \"" + std::string(kMagic) +
+                                    "\"");
     }
-    if (text.size() > most_bytes) {
+    if (text.size() > kMostBytes)
         throw RecipeError("is larger than 1 MB, the most that a recipe may be");
-    }
-    for (unsigned char c : text) {
-        if ((c < ' ' && !is_space(char(c))) || c == 127) {
+    for (unsigned char c : text)
+        if ((c < ' ' && !is_space(char(c))) || c == 127)
             throw RecipeError("is no text: it has a byte of value " + std::to_string(int(c)));
-        }
-    }
     return text;
 }
 

@@ -10,8 +10,8 @@
 
 namespace tonetool::recipe {
 
-inline constexpr char magic[] = "tonetool 1";
-inline constexpr size_t most_bytes = 1 << 20;
+inline constexpr char kMagic[] = "tonetool 1";
+inline constexpr size_t kMostBytes = 1 << 20;
 
 /// What is wrong with a recipe, in one line.
 struct RecipeError : std::runtime_error {

@@ -58,11 +58,10 @@ Shelf::Place::Place(const std::string& key, bool waits)
     : m_key(key),
       m_entry(entry_of(key)),
       m_lock(m_entry->making, std::defer_lock) {
-    if (waits) {
+    if (waits)
         m_lock.lock();
-    } else {
+    else
         (void)m_lock.try_lock();
-    }
 }
 
 PicturePtr Shelf::Place::picture() const {
@@ -71,9 +70,8 @@ PicturePtr Shelf::Place::picture() const {
 }
 
 void Shelf::Place::keep(const PicturePtr& picture) {
-    if (!m_lock.owns_lock()) {
+    if (!m_lock.owns_lock())
         return;
-    }
     m_entry->picture = picture;
     Entries& all = entries();
     const std::lock_guard<std::mutex> hold(all.lock);

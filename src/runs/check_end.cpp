@@ -30,9 +30,8 @@ struct EndFile {
     sequence::Stamp stamp;
 
     bool is(const std::string& other) const {
-        if (path == normal(other)) {
+        if (path == normal(other))
             return true;
-        }
         const sequence::Stamp found = sequence::stamp_of(stamp.inode == 0 ? "" : other);
         return found.inode != 0 && found.inode == stamp.inode && found.device == stamp.device;
     }
@@ -47,9 +46,8 @@ std::vector<EndFile> places_of(const CheckPlan& check) {
     std::vector<EndFile> places;
     for (const auto& [command, file] : check.written()) {
         const bool is_file = command != "merge" && command != "state" && command != "pictures";
-        if (is_file && file != "-") {
+        if (is_file && file != "-")
             places.push_back({command, file, normal(file), sequence::stamp_of(file)});
-        }
     }
     return places;
 }
@@ -58,21 +56,16 @@ std::vector<EndFile> places_of(const CheckPlan& check) {
 Strings files_read(const CheckPlan& check, const Strings& words) {
     Strings files = words_at(words, check.inputs);
     for (const LeadWord& lead : lead_words(words)) {
-        if (!lead.row) {
+        if (!lead.row)
             continue;
-        }
         const Token token = parse_token(words[lead.at], true);
-        for (size_t i = 0; i < lead.arguments.size() && !lead.row->writes(); ++i) {
-            if (chain::names_file(lead.row->args[token.value.size() + i])) {
+        for (size_t i = 0; i < lead.arguments.size() && !lead.row->writes(); ++i)
+            if (chain::names_file(lead.row->args[token.value.size() + i]))
                 files.push_back(words[lead.arguments[i]]);
-            }
-        }
         for (const auto& [key, text] : token.modifiers) {
-            for (const chain::Modifier& modifier : lead.row->modifiers) {
-                if (modifier.key == key && chain::names_file(modifier.hint)) {
+            for (const chain::Modifier& modifier : lead.row->modifiers)
+                if (modifier.key == key && chain::names_file(modifier.hint))
                     files.push_back(text);
-                }
-            }
         }
     }
     return files;
@@ -85,15 +78,12 @@ void refuse_in_run(const CheckPlan& check, const std::vector<EndFile>& places,
         for (const std::string& file : read) {
             // The JSON of a check has the exposures that were read of it.
             const bool keeps = place.command == "json" && file == check.exposures;
-            if (!keeps && place.is(file)) {
+            if (!keeps && place.is(file))
                 place.refuse(file, "is read, and would be written over");
-            }
         }
-        for (const std::string& file : outputs) {
-            if (place.is(file)) {
+        for (const std::string& file : outputs)
+            if (place.is(file))
                 place.refuse(file, "is written as an image, too");
-            }
-        }
     }
 }
 
@@ -101,16 +91,14 @@ void refuse_in_run(const CheckPlan& check, const std::vector<EndFile>& places,
 
 void refuse_to_write_over(const CheckPlan& check, const std::vector<FrameRun>& runs) {
     const std::vector<EndFile> places = places_of(check);
-    for (size_t i = 0; i < runs.size() && !places.empty(); ++i) {
+    for (size_t i = 0; i < runs.size() && !places.empty(); ++i)
         refuse_in_run(check, places, runs[i].words);
-    }
 }
 
 Strings words_at(const Strings& words, const std::vector<size_t>& places) {
     Strings found;
-    for (size_t at : places) {
+    for (size_t at : places)
         found.push_back(words.at(at));
-    }
     return found;
 }
 
@@ -129,9 +117,8 @@ std::string picture_folder(const CheckPlan& check) {
 void write_statistics(const CheckPlan& check, const std::string& text) {
     const sequence::CheckFiles files = check.written();
     const auto file = files.find("statistics");
-    if (file != files.end()) {
+    if (file != files.end())
         sequence::write_text(text, file->second);
-    }
 }
 
 int conclude_check(const sequence::ShotResult& shot, const FramePlan& plan,
@@ -140,12 +127,10 @@ int conclude_check(const sequence::ShotResult& shot, const FramePlan& plan,
     out << "check: " << status_name(shot.verdict) << ", " << printable(shot.sentence) << std::endl;
     const sequence::CheckFiles files = plan.check.written();
     Strings errors = sequence::write_results(shot, files);
-    for (const std::string& complaint : sequence::write_reports(shot, pictures, files, errors)) {
+    for (const std::string& complaint : sequence::write_reports(shot, pictures, files, errors))
         err << "tonetool WARNING: " << printable(complaint) << '\n';
-    }
-    for (const std::string& error : errors) {
+    for (const std::string& error : errors)
         err << "tonetool ERROR: " << printable(error) << '\n';
-    }
     const int verdict = exit_status(shot.verdict, plan.warnings_exit);
     const int status = plan.compat && verdict == 3 ? 1 : verdict;
     return errors.empty() ? status : 1;
@@ -167,12 +152,10 @@ int merge_parts(const Strings& words, const FramePlan& plan, std::ostream& out, 
     Strings complaints;
     const sequence::ShotResult shot = sequence::merged(parts, check.expected, complaints);
     chain::Session session(out, err, full_command_line(words, plan.compat));
-    for (const std::string& complaint : complaints) {
+    for (const std::string& complaint : complaints)
         session.error("merge", complaint);
-    }
-    if (check.has("pictures") && !OIIO::Filesystem::is_directory(check.argument("pictures"))) {
+    if (check.has("pictures") && !OIIO::Filesystem::is_directory(check.argument("pictures")))
         throw CommandError("--pictures: there is no folder \"" + check.argument("pictures") + "\"");
-    }
     const sequence::PictureStore pictures(picture_folder(check));
     return worse(session.exit_status(), conclude_check(shot, plan, pictures, out, err));
 }

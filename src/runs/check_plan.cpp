@@ -21,13 +21,11 @@ public:
     Walk(const Strings& words, bool compat) : m_words(words), m_compat(compat) {}
 
     CheckPlan plan() {
-        for (const LeadWord& lead : lead_words(m_words)) {
-            if (lead.row) {
+        for (const LeadWord& lead : lead_words(m_words))
+            if (lead.row)
                 take_command(lead);
-            } else {
+            else
                 take_file(lead.at);
-            }
-        }
         check_merge();
         return std::move(m_plan);
     }
@@ -47,16 +45,13 @@ private:
         note_blocks(name);
         m_plan.dry_run |= name == "n";
         note_what_is_judged(row, at);
-        if (!manner) {
+        if (!manner)
             keep(at, with_shot_exposures(m_words[at]));
-        }
         // What --qc looks for is part of what comes of the line.
-        if (check || name == "qc") {
+        if (check || name == "qc")
             take_check(lead);
-        }
-        for (const size_t argument : lead.arguments) {
+        for (const size_t argument : lead.arguments)
             take_argument(row, manner, argument);
-        }
     }
 
     void note_blocks(const std::string& name) {
@@ -67,19 +62,16 @@ private:
 
     // oiiotool's own commands are as lenient as it is with --compat.
     void note_what_is_judged(const Command& row, size_t at) {
-        if (m_compat && !row.own) {
+        if (m_compat && !row.own)
             return;
-        }
         const std::string& name = row.names.front();
         m_plan.compares |= row.group == Group::Compare && row.pops > 0;
         m_plan.has_limits |= name == "diff" || name == "pdiff";
         for (const auto& [key, text] : parse_token(m_words[at], true).modifiers) {
             m_plan.has_limits |= key == "fail" || key == "warn";
-            for (const chain::Modifier& modifier : row.modifiers) {
-                if (modifier.key == key && modifier.writes() && m_depth == 0) {
+            for (const chain::Modifier& modifier : row.modifiers)
+                if (modifier.key == key && modifier.writes() && m_depth == 0)
                     m_plan.always_written.push_back(at);
-                }
-            }
         }
     }
 
@@ -91,34 +83,28 @@ private:
         const Strings& arguments = lead.row->args;
         const std::string& name = lead.row->names.front();
         const std::string argument = lead.arguments.empty() ? "" : m_words[lead.arguments.front()];
-        if (!arguments.empty() && (lead.arguments.empty() || is_known_command(argument))) {
+        if (!arguments.empty() && (lead.arguments.empty() || is_known_command(argument)))
             throw CommandError("--" + name + ": missing argument " + arguments.front());
-        }
         if (!arguments.empty() && argument.empty()) {
             throw CommandError("--" + name + ": " + arguments.front() +
                                " is empty (valid: a name, --" + name + " " + arguments.front() +
                                ")");
         }
-        if (!m_plan.words.emplace(name, argument).second) {
+        if (!m_plan.words.emplace(name, argument).second)
             throw CommandError("--" + name + " is given twice");
-        }
     }
 
     void take_argument(const Command& row, bool manner, size_t at) {
         const std::string& name = row.names.front();
-        if (name == "frames") {
-            for (int frame : sequence::parse_frames(m_words[at], m_compat)) {
+        if (name == "frames")
+            for (int frame : sequence::parse_frames(m_words[at], m_compat))
                 m_plan.expected.push_back({frame, ""});
-            }
-        }
-        if (manner) {
+        if (manner)
             return;
-        }
         if (row.group == Group::Write && name[0] == 'o') {
             m_plan.outputs.push_back(at);
-            if (m_depth == 0 && !m_compat) {
+            if (m_depth == 0 && !m_compat)
                 m_plan.always_written.push_back(at);
-            }
         } else if (name == "i") {
             m_plan.inputs.push_back(at);
         } else if (name == "label") {
@@ -134,21 +120,18 @@ private:
             keep(at, word);
             return;
         }
-        if (m_labels.count(word) == 0 && word.find('{') == std::string::npos) {
+        if (m_labels.count(word) == 0 && word.find('{') == std::string::npos)
             m_plan.inputs.push_back(at);
-        }
         keep(at, sequence::without_range(word));
     }
 
     // The range of a shot is the same whether it was measured now or is read from a file.
     std::string with_shot_exposures(const std::string& word) {
         std::string value;
-        for (const auto& [key, text] : parse_token(word, true).modifiers) {
+        for (const auto& [key, text] : parse_token(word, true).modifiers)
             value = key == "exposures" && text != "frame" ? text : value;
-        }
-        if (value.empty()) {
+        if (value.empty())
             return word;
-        }
         if (!m_plan.exposures.empty() && m_plan.exposures != value) {
             throw CommandError("exposures=" + m_plan.exposures + " and exposures=" + value +
                                " exclude each other (valid: one range on a command line)");
@@ -166,9 +149,8 @@ private:
     }
 
     void check_merge() const {
-        if (m_plan.has("merge") && m_plan.has("state")) {
+        if (m_plan.has("merge") && m_plan.has("state"))
             throw CommandError("--merge and --state exclude each other");
-        }
         if (m_plan.has("statistics") && !m_plan.has("merge") && m_plan.exposures != "shot") {
             throw CommandError("--statistics measures what exposures=shot needs: no command has it "
                                "(valid: --hdrflip:exposures=shot)");
@@ -187,11 +169,9 @@ private:
 
 std::map<std::string, std::string> CheckPlan::written() const {
     std::map<std::string, std::string> files;
-    for (const auto& [command, file] : words) {
-        if (!dry_run || file == "-") {
+    for (const auto& [command, file] : words)
+        if (!dry_run || file == "-")
             files.emplace(command, file);
-        }
-    }
     return files;
 }
 

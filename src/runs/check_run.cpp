@@ -50,12 +50,10 @@ private:
 int PlanRun::run() {
     prepare();
     const int found = find_exposures();
-    if (m_plan.check.has("statistics")) {
+    if (m_plan.check.has("statistics"))
         return found;
-    }
-    if (m_plan.check.is_check() || (m_plan.loops && m_plan.check.has_verdict())) {
+    if (m_plan.check.is_check() || (m_plan.loops && m_plan.check.has_verdict()))
         return check();
-    }
     PlainFrames frames(m_context);
     return loop(m_err, frames, m_plan.skip_bad);
 }
@@ -64,15 +62,13 @@ int PlanRun::check() {
     CheckedFrames frames(m_context, m_state, *m_pictures);
     const int status = loop(m_err, frames, true);
     // No process is made any more, and the report may have threads.
-    if (m_threads > 0) {
+    if (m_threads > 0)
         OIIO::attribute("threads", m_threads);
-    }
     if (!m_plan.check.judges()) { // an --if may have left frames out
         auto& all = frames.results();
         all.erase(std::remove_if(all.begin(), all.end(), sequence::is_unmeasured), all.end());
-        if (all.empty()) {
+        if (all.empty())
             return status;
-        }
     }
     sequence::ShotResult shot{
         m_plan.check.essence, m_context.shot, std::move(frames.results()), {}, {}, {}};
@@ -89,19 +85,16 @@ void PlanRun::prepare() {
         m_sample_state.emplace(check.argument("state"), "exposures");
     }
     m_pictures = std::make_unique<sequence::PictureStore>(picture_folder(check));
-    if (m_state) {
+    if (m_state)
         remove_abandoned();
-    }
 }
 
 void PlanRun::remove_abandoned() const {
     const CheckPlan& check = m_plan.check;
     Strings files;
-    for (const auto& word : check.words) {
-        if (!word.second.empty()) {
+    for (const auto& word : check.words)
+        if (!word.second.empty())
             files.push_back(word.second);
-        }
-    }
     for (size_t i = 0; i < m_plan.runs.size(); ++i) {
         const FrameRun& run = m_plan.runs[i];
         const Strings outputs = words_at(run.words, check.outputs);
@@ -124,9 +117,8 @@ int PlanRun::loop(std::ostream& err, FrameJob& job, bool goes_on) {
 int PlanRun::find_exposures() {
     const std::string& from = m_plan.check.exposures;
     if (from != "shot") {
-        if (!from.empty()) {
+        if (!from.empty())
             m_context.shot = sequence::read_exposures(from);
-        }
         return 0;
     }
     // What cannot be read is told by the frames' own runs, if there are any.
@@ -139,9 +131,8 @@ int PlanRun::find_exposures() {
         write_statistics(m_plan.check, sequence::to_json(samples));
         return status;
     }
-    if (samples.empty() && !frames.first_error().empty()) {
+    if (samples.empty() && !frames.first_error().empty())
         throw CommandError("no exposures of the shot: " + frames.first_error());
-    }
     m_context.shot = sequence::shot_exposures(samples);
     return 0;
 }

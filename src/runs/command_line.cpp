@@ -37,9 +37,8 @@ std::vector<LeadWord> lead_words(const Strings& words) {
         for (size_t a = token.value.size(); lead.row && a < lead.row->args.size(); ++a) {
             const std::string& argument = lead.row->args[a];
             if (argument.front() == '=' || i + 1 >= words.size() ||
-                chain::is_left_out(argument, words, i + 1)) {
+                chain::is_left_out(argument, words, i + 1))
                 break;
-            }
             lead.arguments.push_back(++i);
         }
         found.push_back(std::move(lead));
@@ -49,9 +48,8 @@ std::vector<LeadWord> lead_words(const Strings& words) {
 
 std::vector<bool> commands_among(const Strings& words) {
     std::vector<bool> found(words.size());
-    for (const LeadWord& lead : lead_words(words)) {
+    for (const LeadWord& lead : lead_words(words))
         found[lead.at] = lead.is_command;
-    }
     return found;
 }
 
@@ -79,11 +77,9 @@ Strings with_values_apart(const Strings& words) {
 
 bool is_compat(const Strings& words) {
     const std::vector<bool> command = commands_among(words);
-    for (size_t i = 0; i < words.size(); ++i) {
-        if (command[i] && (words[i] == "--compat" || words[i] == "-compat")) {
+    for (size_t i = 0; i < words.size(); ++i)
+        if (command[i] && (words[i] == "--compat" || words[i] == "-compat"))
             return true;
-        }
-    }
     return false;
 }
 

@@ -14,13 +14,13 @@ namespace tonetool::runs {
 
 namespace {
 
+using chain::DataFormat;
+using chain::Image;
+using chain::ImagePtr;
+using chain::Part;
+using chain::PartPtr;
 using chain::Runner;
 using chain::Session;
-using files::DataFormat;
-using files::Image;
-using files::ImagePtr;
-using files::Part;
-using files::PartPtr;
 
 // Pixels that are still in a file, or that could not be read before, are read or are an error.
 void read_given(OIIO::ImageBuf& pixels, const std::string& which) {
@@ -30,16 +30,14 @@ void read_given(OIIO::ImageBuf& pixels, const std::string& which) {
         why = with_name(pixels, why.empty() ? "there is nothing to read" : why);
     } else if (is_file_to_read(pixels)) {
         OIIO::ImageBuf whole;
-        if (read_whole(pixels, OIIO::TypeFloat, whole, why)) {
+        if (read_whole(pixels, OIIO::TypeFloat, whole, why))
             pixels = std::move(whole);
-        }
     } else if (oiio::is_unread_file(pixels) &&
                !pixels.read(pixels.subimage(), pixels.miplevel(), true, OIIO::TypeFloat)) {
         why = pixels.geterror();
     }
-    if (!why.empty()) {
+    if (!why.empty())
         throw CommandError(which + " has no pixels: " + why);
-    }
 }
 
 // An image from outside is like one that was read.
@@ -65,16 +63,15 @@ Left left(Session& session, const Image& image, const std::string& label) {
     for (const PartPtr& part : image.parts()) {
         const OIIO::ImageBuf& pixels = part->pixels();
         out.subimages.push_back(pixels.copy(pixels.spec().format));
-        out.formats.push_back(files::output_type(*part, session.output, session.writer("")));
+        out.formats.push_back(chain::output_type(*part, session.output, session.writer("")));
     }
     return out;
 }
 
 void take_images(Session& session, Evaluation& result) {
     std::map<ImagePtr, std::string> labels;
-    for (const auto& [label, image] : session.labels) {
+    for (const auto& [label, image] : session.labels)
         labels.emplace(image, label);
-    }
     for (const ImagePtr& image : session.stack) {
         auto label = labels.find(image);
         result.stack.push_back(left(session, *image, label == labels.end() ? "" : label->second));
@@ -91,16 +88,14 @@ void evaluate_one(Session& session, std::vector<OIIO::ImageBuf>& images, FramePl
         throw CommandError("--" + plan.check.words.begin()->first +
                            " is for the frames of the program's command line");
     }
-    for (size_t i = 0; i < images.size(); ++i) {
+    for (size_t i = 0; i < images.size(); ++i)
         push_given(session, images[i], i);
-    }
     session.judges = plan.check.judges();
     session.frame = plan.runs[0].frame;
     session.in_all_frames = [&plan](size_t at) { return Strings{plan.runs[0].words.at(at)}; };
     Runner(session, plan.runs[0].words).run_all();
-    if (session.errors == 0) {
+    if (session.errors == 0)
         take_images(session, result);
-    }
 }
 
 } // namespace
@@ -122,16 +117,14 @@ Evaluation evaluate(const Strings& given, std::vector<OIIO::ImageBuf> images,
     }
     result.status = session.exit_status();
     result.error = session.first_error;
-    if (result.error.empty() && result.status != 0 && result.status != 2) {
+    if (result.error.empty() && result.status != 0 && result.status != 2)
         result.error = result.status == 3 ? "a threshold was exceeded" : "the images differ";
-    }
     result.out = out.str();
     result.err = err.str();
     result.warnings = session.warning_texts;
     result.files = session.files.names();
-    if (session.errors > 0) {
+    if (session.errors > 0)
         result.stack.clear();
-    }
     return result;
 }
 

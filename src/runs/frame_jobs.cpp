@@ -58,8 +58,8 @@ sequence::Item FrameContext::item(size_t index) const {
     return {frame.number, frame.view};
 }
 
-measure::CheckPart FrameContext::part() const {
-    measure::CheckPart part;
+chain::CheckPart FrameContext::part() const {
+    chain::CheckPart part;
     part.shot = shot ? &*shot : nullptr;
     return part;
 }
@@ -71,9 +71,8 @@ Session FrameContext::session(size_t index, std::ostream& out, std::ostream& err
     session.frame = run.frame;
     session.in_all_frames = [this](size_t at) {
         Strings names;
-        for (const FrameRun& other : plan.runs) {
+        for (const FrameRun& other : plan.runs)
             names.push_back(other.words.at(at));
-        }
         return names;
     };
     session.judges = plan.check.judges();
@@ -90,9 +89,8 @@ void FrameContext::run_commands(Session& session, size_t index) const {
         session.error("", gone.message);
     } else {
         Runner(session, run.words).run_all();
-        if (session.misused) {
-            session.out << manual::help_text();
-        }
+        if (session.misused)
+            session.out << chain::help_text();
     }
 }
 
@@ -105,7 +103,7 @@ void FrameContext::print_error(size_t index, const std::string& error, std::ostr
 
 Ran PlainFrames::run(size_t index, std::ostream& out, std::ostream& err) {
     Session session = m_context.session(index, out, err);
-    measure::CheckPart part = m_context.part();
+    chain::CheckPart part = m_context.part();
     session.check = &part;
     m_context.run_commands(session, index);
     static const char* const words[] = {"done", "error", "warnings", "a threshold was exceeded"};
@@ -132,28 +130,25 @@ ExposureFrames::Measured ExposureFrames::measure(size_t index, std::ostream& err
     const sequence::Item item = m_context.item(index);
     const sequence::Origin origin{words_at(run.words, check.essence_at), "exposures"};
     if (m_state) {
-        if (const auto kept = m_state->find(item, origin)) {
+        if (const auto kept = m_state->find(item, origin))
             return {sequence::samples_from_json(kept->result).at(0), ""};
-        }
     }
     sequence::ExposureSample found{run.frame.number, run.frame.view, -1, 0};
     std::ostringstream nowhere;
     Session session = m_context.session(index, nowhere, err);
-    measure::CheckPart part = m_context.part();
+    chain::CheckPart part = m_context.part();
     part.sample = &found;
     session.check = &part;
     session.dry_run = true;
     m_context.run_commands(session, index);
-    if (session.errors > 0 || found.max_luminance < 0) {
+    if (session.errors > 0 || found.max_luminance < 0)
         return {std::nullopt, session.first_error};
-    }
     Measured measured{found, ""};
     if (m_state) {
         measured.error =
             keep_in(*m_state, item, origin, session.files, {sequence::to_json({found}), "", ""});
-        if (!measured.error.empty()) {
+        if (!measured.error.empty())
             m_context.print_error(index, measured.error, err);
-        }
     }
     return measured;
 }
@@ -173,19 +168,16 @@ Ran ExposureFrames::failed(size_t index, Status status, const std::string& why, 
 
 void ExposureFrames::take(size_t index, Ran& ran) {
     const Strings texts = unpacked(ran.found, 2);
-    if (!texts[0].empty()) {
+    if (!texts[0].empty())
         m_samples[index] = sequence::samples_from_json(texts[0]).at(0);
-    }
     m_errors[index] = texts[1];
 }
 
 sequence::ExposureSamples ExposureFrames::samples() const {
     sequence::ExposureSamples all;
-    for (const auto& found : m_samples) {
-        if (found) {
+    for (const auto& found : m_samples)
+        if (found)
             all.push_back(*found);
-        }
-    }
     return all;
 }
 
@@ -226,22 +218,20 @@ CheckedFrames::Checked CheckedFrames::check(size_t index) const {
     std::ostringstream out, err;
     Session session = m_context.session(index, out, err);
     sequence::FramePainter painter{m_pictures, {}};
-    measure::CheckPart part = m_context.part();
+    chain::CheckPart part = m_context.part();
     part.result = &result;
     part.painter = draws(plan.check) ? &painter : nullptr;
     session.check = &part;
     m_context.run_commands(session, index);
     result.warnings = session.warning_texts;
-    if (session.warnings > int(result.warnings.size())) {
+    if (session.warnings > int(result.warnings.size()))
         result.warnings.push_back("there were warnings, see what the frame printed");
-    }
     const std::string error = session.errors > 0 && session.first_error.empty()
                                   ? "the command line cannot be run"
                                   : session.first_error;
     sequence::settle(result, error, words_at(run.words, plan.check.inputs));
-    if (painter.drawn) {
+    if (painter.drawn)
         checked.pictures = m_pictures.texts(result, *painter.drawn);
-    }
     // Warnings are the verdict's matter: whether they count may differ when the result is found.
     const int status = session.exit_status();
     checked.status = status == 2 ? 0 : status;
@@ -253,9 +243,8 @@ CheckedFrames::Checked CheckedFrames::check(size_t index) const {
 }
 
 CheckedFrames::Checked CheckedFrames::check_or_find(size_t index) const {
-    if (!m_state) {
+    if (!m_state)
         return check(index);
-    }
     const FramePlan& plan = m_context.plan;
     const Strings& words = plan.runs[index].words;
     const sequence::Item item = m_context.item(index);
@@ -306,13 +295,11 @@ Ran CheckedFrames::failed(size_t index, Status status, const std::string& why, s
 }
 
 void CheckedFrames::claim(const Strings& written, FrameResult& result, Ran& ran) const {
-    if (m_context.plan.compat) {
+    if (m_context.plan.compat)
         return;
-    }
     try {
-        for (const std::string& file : written) {
+        for (const std::string& file : written)
             m_context.written->claim(file, result.frame, result.view);
-        }
     } catch (const CommandError& problem) {
         result.status = Status::Error;
         result.message = problem.what();
@@ -331,16 +318,14 @@ void CheckedFrames::take(size_t index, Ran& ran) {
         remove_abandoned_outputs(
             words_at(m_context.plan.runs[index].words, m_context.plan.check.outputs));
     }
-    if (!draws(m_context.plan.check)) {
+    if (!draws(m_context.plan.check))
         return;
-    }
-    if (!texts[1].empty()) {
+    if (!texts[1].empty())
         m_pictures.restore(result);
-    } else if (!texts[3].empty()) {
+    else if (!texts[3].empty())
         m_pictures.add(result, sequence::PictureTexts{std::move(texts[2]), std::move(texts[3])});
-    } else {
+    else
         m_pictures.forget(result);
-    }
 }
 
 } // namespace tonetool::runs

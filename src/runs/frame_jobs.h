@@ -21,7 +21,7 @@ struct FrameContext {
     std::shared_ptr<chain::WrittenFiles> written = std::make_shared<chain::WrittenFiles>();
 
     chain::Session session(size_t index, std::ostream& out, std::ostream& err) const;
-    measure::CheckPart part() const;
+    chain::CheckPart part() const;
     sequence::Item item(size_t index) const;
     /// Runs the words of the frame, if its files are there.
     void run_commands(chain::Session& session, size_t index) const;

@@ -89,11 +89,10 @@ Scan scan_words(const Strings& words) {
             ++i;
             continue;
         }
-        if (wildcards && !all && sequence::is_pattern(word)) {
+        if (wildcards && !all && sequence::is_pattern(word))
             scan.patterns.push_back({i, output});
-        } else if (!wildcards) {
+        else if (!wildcards)
             scan.same.push_back(i);
-        }
         output = is_output(name.substr(0, name.find(':')));
         all = output && name.find(":all=") != std::string::npos;
     }
@@ -107,15 +106,13 @@ Files listing_of(const Scan& scan, const Pattern& pattern, const std::string& wo
     Files listing;
     const bool here = scan.directory.empty() || word.front() == '/' || word.front() == '-';
     const std::string prefix = here ? "" : scan.directory + "/";
-    if (sequence::is_pattern(prefix)) {
+    if (sequence::is_pattern(prefix))
         throw CommandError("the folder \"" + scan.directory + "\" has wildcards in its name");
-    }
     const bool numbered = !scan.options.frames.empty() || sequence::has_range(word);
     if (!(inherits && pattern.is_output && !numbered)) {
         listing = sequence::list_files(prefix + word, scan.options);
-        for (std::string& name : listing.names) {
+        for (std::string& name : listing.names)
             name.erase(0, prefix.size());
-        }
     }
     bool unmatched = listing.names.empty() && (pattern.is_output || !scan.plan.compat);
     if (inherits && unmatched) {
@@ -158,25 +155,21 @@ bool may_vary(const Strings& words, bool also_by_wildcard) {
     for (const LeadWord& lead : lead_words(words)) {
         const chain::Command* row = lead.row;
         if (row &&
-            (row->writes() || row->group == chain::Group::Write || row->names.front() == "echo")) {
+            (row->writes() || row->group == chain::Group::Write || row->names.front() == "echo"))
             continue;
-        }
         const auto is_written = [row](const std::string& key) {
             return row && std::any_of(row->modifiers.begin(), row->modifiers.end(),
                                       [&](const chain::Modifier& modifier) {
                                           return modifier.key == key && modifier.writes();
                                       });
         };
-        for (const auto& [key, text] : parse_token(row ? words[lead.at] : "", true).modifiers) {
-            if (!is_written(key) && varies(text)) {
+        for (const auto& [key, text] : parse_token(row ? words[lead.at] : "", true).modifiers)
+            if (!is_written(key) && varies(text))
                 return true;
-            }
-        }
         if ((!row && varies(words[lead.at])) ||
             std::any_of(lead.arguments.begin(), lead.arguments.end(),
-                        [&](size_t at) { return varies(words[at]); })) {
+                        [&](size_t at) { return varies(words[at]); }))
             return true;
-        }
     }
     return false;
 }
@@ -185,9 +178,8 @@ bool may_vary(const Strings& words, bool also_by_wildcard) {
 void check_range_is_used(const Strings& words, const Scan& scan,
                          const std::vector<sequence::Side>& sides) {
     const std::vector<size_t>& inputs = scan.plan.check.inputs;
-    if (scan.options.frames.empty()) {
+    if (scan.options.frames.empty())
         return;
-    }
     if (sides.empty() && !may_vary(words, inputs.empty())) {
         throw CommandError(
             "--frames " + scan.options.frames + ": " +
@@ -202,12 +194,10 @@ void check_range_is_used(const Strings& words, const Scan& scan,
     const auto numbers = sequence::parse_frames(scan.options.frames, scan.options.lenient);
     for (const sequence::Side& side : sides) {
         std::vector<int> own;
-        for (const sequence::Item& item : side.files.items) {
+        for (const sequence::Item& item : side.files.items)
             own.push_back(item.frame);
-        }
-        if (!side.files.own_range || own == numbers) {
+        if (!side.files.own_range || own == numbers)
             return;
-        }
     }
     if (!sides.empty()) {
         throw CommandError("--frames " + scan.options.frames + " holds for no name: \"" +
@@ -257,35 +247,28 @@ void check_views_are_used(const Scan& scan, const std::vector<sequence::Side>& s
 
 std::vector<sequence::Item> items_of(const Scan& scan) {
     std::vector<sequence::Item> items;
-    for (int frame : sequence::parse_frames(scan.options.frames, scan.options.lenient)) {
+    for (int frame : sequence::parse_frames(scan.options.frames, scan.options.lenient))
         items.push_back({frame, ""});
-    }
     return items;
 }
 
 // A view that %V stands for is missing though no file of it is on the disk.
 void add_missing_views(sequence::Pairing& pairs, const std::vector<sequence::Side>& sides,
                        const sequence::PatternOptions& options) {
-    if (pairs.items.empty() || std::any_of(sides.begin(), sides.end(), [](const auto& side) {
-            return !side.files.from_disk;
-        })) {
+    if (pairs.items.empty() || std::any_of(sides.begin(), sides.end(),
+                                           [](const auto& side) { return !side.files.from_disk; }))
         return;
-    }
-    if (std::none_of(sides.begin(), sides.end(), has_view)) {
+    if (std::none_of(sides.begin(), sides.end(), has_view))
         return;
-    }
     sequence::Side all{"", {pairs.items, {}, true}};
-    for (const std::string& view : options.views) {
+    for (const std::string& view : options.views)
         all.files.items.push_back({pairs.items.front().frame, view});
-    }
     const std::vector<sequence::Item> items = sequence::paired({all});
-    if (items.size() == pairs.items.size()) {
+    if (items.size() == pairs.items.size())
         return;
-    }
     pairs.items = items;
-    for (size_t i = 0; i < sides.size(); ++i) {
+    for (size_t i = 0; i < sides.size(); ++i)
         pairs.names[i] = sequence::names_of(sides[i], options, items);
-    }
 }
 
 // What the frames of a check are, whatever is on the disk.
@@ -303,9 +286,8 @@ void pair_frames(const Strings& words, Scan& scan, const Files& numbered,
     } else if (pairs.items.empty() && !scan.options.frames.empty()) {
         pairs.items = items_of(scan); // for outputs alone
     }
-    if (pairs.items.empty() && !scan.patterns.empty()) {
+    if (pairs.items.empty() && !scan.patterns.empty())
         throw CommandError("no file matches \"" + words[scan.patterns.front().at] + "\"");
-    }
     size_t side = 0;
     for (const Pattern& pattern : scan.patterns) {
         Files listing{pairs.items, {}};
@@ -325,9 +307,8 @@ void pair_frames(const Strings& words, Scan& scan, const Files& numbered,
 }
 
 void list_frames(const Strings& words, Scan& scan, Files& first, std::vector<Files>& listings) {
-    if (scan.plan.check.compares && !scan.for_images) {
+    if (scan.plan.check.compares && !scan.for_images)
         sequence::check_same_numbers(sides_of(words, scan));
-    }
     for (const Pattern& pattern : scan.patterns) {
         listings.push_back(listing_of(scan, pattern, words[pattern.at], first));
         first = listings.front();
@@ -345,26 +326,23 @@ void make_runs(const Strings& words, Scan& scan, const Files& first,
     Frame frame{0, scan.options.padding, "", true, scan.same, {}, {}};
     for (size_t p = 0; p < listings.size(); ++p) {
         frame.varying.push_back(scan.patterns[p].at);
-        if (listings[p].from_disk && !plan.compat) {
+        if (listings[p].from_disk && !plan.compat)
             frame.found.push_back(scan.patterns[p].at);
-        }
     }
     plan.loops = !scan.patterns.empty() || !first.items.empty();
     plan.runs.resize(plan.loops ? first.items.size() : 1);
     for (size_t i = 0; i < plan.runs.size(); ++i) {
         FrameRun& run = plan.runs[i];
         run.words = words;
-        for (size_t p = 0; p < listings.size(); ++p) {
+        for (size_t p = 0; p < listings.size(); ++p)
             run.words[scan.patterns[p].at] = listings[p].names[i];
-        }
         if (plan.loops) {
             run.frame = frame;
             run.frame.number = first.items[i].frame;
             run.frame.view = first.items[i].view;
         }
-        if (!scan.tests.empty()) {
+        if (!scan.tests.empty())
             run.test_frame = scan.tests[i].frame;
-        }
     }
 }
 
@@ -394,13 +372,11 @@ FramePlan plan_frames(const Strings& words, const std::string& directory, bool f
     scan.for_images = for_images;
     scan.plan.check = plan_check(words, scan.plan.compat);
     scan.options.lenient = scan.plan.compat && !scan.plan.check.judges();
-    if (scan.plan.check.has("merge")) {
+    if (scan.plan.check.has("merge"))
         return scan.plan;
-    }
     Files first;
-    if (!scan.options.frames.empty() && scan.patterns.empty()) {
+    if (!scan.options.frames.empty() && scan.patterns.empty())
         first.items = items_of(scan);
-    }
     std::vector<Files> listings;
     if (scan.plan.check.pairs_frames() && !for_images) {
         pair_frames(words, scan, first, listings);

@@ -45,13 +45,12 @@ int Loop::jobs() const {
 }
 
 int Loop::run() {
-    if (m_place == Place::WorkerProcesses) {
+    if (m_place == Place::WorkerProcesses)
         run_in_workers();
-    } else if (jobs() > 1) {
+    else if (jobs() > 1)
         run_on_threads();
-    } else {
+    else
         run_streaming();
-    }
     return m_status;
 }
 
@@ -125,12 +124,10 @@ void Loop::finished(size_t index, const Ran& ran, double seconds) {
 
 void Loop::run_on_threads() {
     std::vector<std::thread> threads;
-    for (int i = 0; i < jobs(); ++i) {
+    for (int i = 0; i < jobs(); ++i)
         threads.emplace_back([this] { work(); });
-    }
-    for (std::thread& thread : threads) {
+    for (std::thread& thread : threads)
         thread.join();
-    }
 }
 
 void Loop::work() {
@@ -138,9 +135,8 @@ void Loop::work() {
         size_t index = 0;
         {
             std::lock_guard<std::mutex> lock(m_mutex);
-            if (m_next == m_plan.runs.size() || ends()) {
+            if (m_next == m_plan.runs.size() || ends())
                 return;
-            }
             index = m_next++;
         }
         Done done = run_frame(index);

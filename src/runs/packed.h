@@ -26,14 +26,12 @@ inline Strings unpacked(const std::string& bytes) {
     Strings texts;
     for (size_t at = 0; at < bytes.size();) {
         uint64_t size = 0;
-        if (bytes.size() - at < sizeof size) {
+        if (bytes.size() - at < sizeof size)
             throw std::runtime_error(other);
-        }
         std::memcpy(&size, bytes.data() + at, sizeof size);
         at += sizeof size;
-        if (size > bytes.size() - at) {
+        if (size > bytes.size() - at)
             throw std::runtime_error(other);
-        }
         texts.push_back(bytes.substr(at, size));
         at += size;
     }

@@ -20,8 +20,8 @@ void know_all_commands() {
     static std::once_flag once;
     std::call_once(once, [] {
         chain::add_commands(check_commands());
-        chain::add_commands(measure::commands());
-        chain::add_commands(manual::commands());
+        chain::add_commands(chain::commands());
+        chain::add_commands(chain::commands());
     });
 }
 
@@ -39,7 +39,7 @@ int run(const Strings& given, std::ostream& out, std::ostream& err, bool workers
     know_all_commands();
     const Strings words = with_values_apart(given);
     if (words.empty()) {
-        err << manual::usage_text();
+        err << chain::usage_text();
         return 1;
     }
     int status = 0;
@@ -50,18 +50,16 @@ int run(const Strings& given, std::ostream& out, std::ostream& err, bool workers
         const FramePlan plan = plan_frames(words);
         std::ostream& told = sequence::has_standard_output(plan.check.words) ? err : out;
         status = run_plan(words, plan, told, err, workers);
-        if (plan.runs.empty() && !plan.check.has("merge")) {
-            whole.warning("", chain::no_output);
-        }
+        if (plan.runs.empty() && !plan.check.has("merge"))
+            whole.warning("", chain::kNoOutput);
     } catch (const std::exception& problem) {
         whole.error("", problem.what());
     }
     out.flush();
-    if (!out && &out == &std::cout && reader_has_gone()) {
+    if (!out && &out == &std::cout && reader_has_gone())
         status = worse(status, 1);
-    } else if (!out) {
+    else if (!out)
         whole.error("", "cannot write to the standard output");
-    }
     return worse(status, whole.exit_status());
 }
 

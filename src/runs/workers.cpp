@@ -25,12 +25,10 @@ bool read_all(int socket, void* to, size_t size) {
     auto* at = static_cast<char*>(to);
     while (size > 0) {
         const ssize_t n = ::read(socket, at, size);
-        if (n < 0 && errno == EINTR) {
+        if (n < 0 && errno == EINTR)
             continue;
-        }
-        if (n <= 0) {
+        if (n <= 0)
             return false;
-        }
         at += n;
         size -= size_t(n);
     }
@@ -41,12 +39,10 @@ bool write_all(int socket, const void* from, size_t size) {
     const auto* at = static_cast<const char*>(from);
     while (size > 0) {
         const ssize_t n = ::send(socket, at, size, MSG_NOSIGNAL);
-        if (n < 0 && errno == EINTR) {
+        if (n < 0 && errno == EINTR)
             continue;
-        }
-        if (n <= 0) {
+        if (n <= 0)
             return false;
-        }
         at += n;
         size -= size_t(n);
     }
@@ -70,9 +66,8 @@ std::string in_words(int status) {
 void follow_the_starter(int starter) {
 #ifdef __linux__
     ::prctl(PR_SET_PDEATHSIG, SIGTERM);
-    if (::getppid() != starter) {
+    if (::getppid() != starter)
         ::_exit(1);
-    }
     std::ofstream("/proc/self/oom_score_adj") << 500;
 #else
     (void)starter;
@@ -99,9 +94,8 @@ void Workers::serve(int socket) const {
         const std::string reply = m_task(index);
         const uint64_t size = reply.size();
         if (!write_all(socket, &size, sizeof size) ||
-            !write_all(socket, reply.data(), reply.size())) {
+            !write_all(socket, reply.data(), reply.size()))
             break;
-        }
     }
     // What the libraries have printed; no destructors of what belongs to the starter.
     std::fflush(nullptr);
@@ -119,12 +113,10 @@ void Workers::start(size_t index) {
     if (process == 0) {
         follow_the_starter(starter);
         ::close(sockets[0]);
-        for (const Worker& other : m_workers) {
+        for (const Worker& other : m_workers)
             ::close(other.socket);
-        }
-        if (m_begin) {
+        if (m_begin)
             m_begin();
-        }
         serve(sockets[1]);
     }
     const int failure = errno;
@@ -158,13 +150,11 @@ bool Workers::take_reply(Worker& worker, TaskResult& result) const {
     }
     worker.received.append(bytes, size_t(n));
     uint64_t size = 0;
-    if (worker.received.size() < sizeof size) {
+    if (worker.received.size() < sizeof size)
         return false;
-    }
     std::memcpy(&size, worker.received.data(), sizeof size);
-    if (worker.received.size() < sizeof size + size) {
+    if (worker.received.size() < sizeof size + size)
         return false;
-    }
     result.reply = worker.received.substr(sizeof size);
     return true;
 }
@@ -180,35 +170,28 @@ std::string Workers::end_of(Worker& worker) const {
 
 void Workers::run(const Next& next, const Done& done) {
     std::optional<size_t> index;
-    while (int(m_workers.size()) < m_processes && (index = next())) {
+    while (int(m_workers.size()) < m_processes && (index = next()))
         start(*index);
-    }
     while (!m_workers.empty()) {
         std::vector<pollfd> polled;
-        for (const Worker& worker : m_workers) {
+        for (const Worker& worker : m_workers)
             polled.push_back({worker.socket, POLLIN, 0});
-        }
-        if (::poll(polled.data(), nfds_t(polled.size()), -1) < 0) {
+        if (::poll(polled.data(), nfds_t(polled.size()), -1) < 0)
             continue; // a signal
-        }
         for (size_t i = polled.size(); i-- > 0;) {
             TaskResult result;
-            if (polled[i].revents == 0 || !take_reply(m_workers[i], result)) {
+            if (polled[i].revents == 0 || !take_reply(m_workers[i], result))
                 continue;
-            }
             done(m_workers[i].index, result);
             index = next();
             const bool alive = result.crash.empty();
-            if (alive && index && assign(m_workers[i], *index)) {
+            if (alive && index && assign(m_workers[i], *index))
                 continue;
-            }
-            if (alive) {
+            if (alive)
                 end_of(m_workers[i]);
-            }
             m_workers.erase(m_workers.begin() + std::ptrdiff_t(i));
-            if (index) {
+            if (index)
                 start(*index);
-            }
         }
     }
 }

@@ -30,14 +30,12 @@ bool continues(const std::string& text, size_t at) {
 Character character_at(const std::string& text, size_t at) {
     const auto lead = static_cast<unsigned char>(text[at]);
     const size_t length = length_by(lead);
-    if (length <= 1) {
+    if (length <= 1)
         return {lead, 1, length == 1};
-    }
     uint32_t code = lead & (0xffU >> (length + 1));
     for (size_t i = 1; i < length; ++i) {
-        if (!continues(text, at + i)) {
+        if (!continues(text, at + i))
             return {lead, 1, false};
-        }
         code = code << 6 | (static_cast<unsigned char>(text[at + i]) & 0x3fU);
     }
     return {code, length, true};
@@ -47,9 +45,8 @@ Character character_at(const std::string& text, size_t at) {
 bool is_cut_off(const std::string& text, size_t at) {
     const size_t length = length_by(static_cast<unsigned char>(text[at]));
     size_t there = 1;
-    while (there < length && continues(text, at + there)) {
+    while (there < length && continues(text, at + there))
         ++there;
-    }
     return there < length && at + there == text.size();
 }
 
@@ -84,11 +81,10 @@ void escape(const Character& c, std::string& out) {
 
 void append(const std::string& text, size_t at, const Character& c, bool lines, std::string& out) {
     const bool kept = lines && (c.code == '\n' || c.code == '\t');
-    if (!kept && (is_control(c.code) || (c.valid && turns_text(c.code)))) {
+    if (!kept && (is_control(c.code) || (c.valid && turns_text(c.code))))
         escape(c, out);
-    } else {
+    else
         out.append(text, at, c.bytes);
-    }
 }
 
 std::string replaced(const std::string& text, bool lines) {
@@ -128,9 +124,8 @@ std::string printable_json(const std::string& json) {
 }
 
 PrintableBuffer::int_type PrintableBuffer::overflow(int_type c) {
-    if (traits_type::eq_int_type(c, traits_type::eof())) {
+    if (traits_type::eq_int_type(c, traits_type::eof()))
         return traits_type::not_eof(c);
-    }
     const char one = traits_type::to_char_type(c);
     return xsputn(&one, 1) == 1 ? c : traits_type::eof();
 }
@@ -150,15 +145,13 @@ bool PrintableBuffer::put(const std::string& more, bool all) {
     size_t at = 0;
     while (at < text.size()) {
         const bool returns = text[at] == '\r';
-        if (!all && (is_cut_off(text, at) || (returns && at + 1 == text.size()))) {
+        if (!all && (is_cut_off(text, at) || (returns && at + 1 == text.size())))
             break;
-        }
         const Character c = character_at(text, at);
-        if (returns && (m_at_start || (at + 1 < text.size() && text[at + 1] == '\n'))) {
+        if (returns && (m_at_start || (at + 1 < text.size() && text[at + 1] == '\n')))
             out += '\r';
-        } else {
+        else
             append(text, at, c, true, out);
-        }
         m_at_start = text[at] == '\n';
         at += c.bytes;
     }

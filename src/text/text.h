@@ -40,9 +40,8 @@ struct Lines {
     }
     void add(const std::string& name, double value) { add(name, format_number(value)); }
     void add_positive(const std::string& name, double value) {
-        if (value > 0) {
+        if (value > 0)
             add(name, value);
-        }
     }
     void add(const std::string& name, int64_t value) { add(name, std::to_string(value)); }
 };

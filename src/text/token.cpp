@@ -27,14 +27,12 @@ std::string take_value(const std::string& word, size_t& at) {
         return value;
     }
     size_t close = word.find(quote, at + 1);
-    if (close == std::string::npos) {
+    if (close == std::string::npos)
         throw CommandError("unfinished quotation in \"" + word.substr(at) + "\"");
-    }
     std::string value = word.substr(at + 1, close - at - 1);
     at = close + 1;
-    if (at < word.size() && word[at] != ':') {
+    if (at < word.size() && word[at] != ':')
         throw CommandError("text after the closing quote in \"" + word + "\"");
-    }
     return value;
 }
 
@@ -43,21 +41,17 @@ void take_modifier(Token& token, size_t& at, bool lenient) {
     size_t colon = std::min(word.find(':', at), word.size());
     const std::string text = word.substr(at, colon - at);
     const std::string key = text.substr(0, text.find('='));
-    if (text.empty()) {
+    if (text.empty())
         throw CommandError("empty modifier in \"" + word + "\"");
-    }
-    if (key.size() == text.size() || !is_identifier(key)) {
+    if (key.size() == text.size() || !is_identifier(key))
         throw CommandError("malformed modifier \"" + text + "\", not key=value");
-    }
     at += key.size() + 1;
     std::string value = take_value(word, at);
-    if (value.empty()) {
+    if (value.empty())
         throw CommandError("modifier \"" + key + "\" has no value");
-    }
     for (auto& [known, given] : token.modifiers) {
-        if (known == key && !lenient) {
+        if (known == key && !lenient)
             throw CommandError("modifier \"" + key + "\" is given twice");
-        }
         given = known == key ? value : given;
     }
     token.modifiers.emplace_back(key, value);
@@ -68,9 +62,8 @@ void take_modifier(Token& token, size_t& at, bool lenient) {
 Token parse_token(const std::string& word, bool lenient) {
     Token token;
     token.text = word;
-    if (word.size() < 2 || word[0] != '-') {
+    if (word.size() < 2 || word[0] != '-')
         return token;
-    }
     token.is_command = true;
     size_t begin = word[1] == '-' ? 2 : 1;
     size_t at = std::min(word.find(':', begin), word.size());
@@ -84,13 +77,11 @@ Token parse_token(const std::string& word, bool lenient) {
         try {
             take_modifier(token, at, lenient);
         } catch (const CommandError&) {
-            if (!lenient) {
+            if (!lenient)
                 throw;
-            }
             at = std::min(word.find(':', begins), word.size());
-            if (at > begins) {
+            if (at > begins)
                 token.dropped.push_back(word.substr(begins, at - begins));
-            }
         }
     }
     return token;

@@ -35,9 +35,8 @@ bool receive_all(int socket, void* to, size_t size) {
     auto* at = static_cast<char*>(to);
     while (size > 0) {
         const ssize_t n = ::read(socket, at, size);
-        if (n <= 0) {
+        if (n <= 0)
             return false;
-        }
         at += n;
         size -= size_t(n);
     }
@@ -54,14 +53,12 @@ bool receive(int socket, Request& request) {
     message.msg_iovlen = 1;
     message.msg_control = control.data();
     message.msg_controllen = control.size();
-    if (::recvmsg(socket, &message, 0) != ssize_t(sizeof sizes) || !CMSG_FIRSTHDR(&message)) {
+    if (::recvmsg(socket, &message, 0) != ssize_t(sizeof sizes) || !CMSG_FIRSTHDR(&message))
         return false;
-    }
     std::memcpy(request.streams.data(), CMSG_DATA(CMSG_FIRSTHDR(&message)), sizeof request.streams);
     std::string text(sizes[0], '\0');
-    if (!receive_all(socket, text.data(), text.size())) {
+    if (!receive_all(socket, text.data(), text.size()))
         return false;
-    }
     std::vector<std::string> words;
     for (size_t at = 0; at < text.size();) {
         const size_t end = std::min(text.find('\0', at), text.size());
@@ -69,9 +66,8 @@ bool receive(int socket, Request& request) {
         at = end + 1;
     }
     const size_t first = 1, last = first + sizes[1];
-    if (words.size() < last) {
+    if (words.size() < last)
         return false;
-    }
     request.folder = words[0];
     request.arguments.assign(words.begin() + first, words.begin() + ssize_t(last));
     request.environment.assign(words.begin() + ssize_t(last), words.end());
@@ -80,9 +76,8 @@ bool receive(int socket, Request& request) {
 
 std::vector<char*> pointers(std::vector<std::string>& words) {
     std::vector<char*> all;
-    for (std::string& word : words) {
+    for (std::string& word : words)
         all.push_back(word.data());
-    }
     all.push_back(nullptr);
     return all;
 }
@@ -97,15 +92,12 @@ void end(int status, void*) {
 
 // Never destroyed: main's arguments live as long as the process.
 int run(Request& request) {
-    for (int i = 0; i < 3; ++i) {
+    for (int i = 0; i < 3; ++i)
         ::dup2(request.streams[size_t(i)], i);
-    }
-    for (int stream : request.streams) {
+    for (int stream : request.streams)
         ::close(stream);
-    }
-    if (::chdir(request.folder.c_str()) != 0) {
+    if (::chdir(request.folder.c_str()) != 0)
         ::_exit(127);
-    }
     static std::vector<char*> arguments = pointers(request.arguments);
     static std::vector<char*> environment = pointers(request.environment);
     ::environ = environment.data();
@@ -116,42 +108,37 @@ int run(Request& request) {
 // In a process of its own, which waits for the program's. Tells its number, then how it ended.
 int answer(int connection) {
     static Request request;
-    if (!receive(connection, request)) {
+    if (!receive(connection, request))
         ::_exit(1);
-    }
     ::signal(SIGCHLD, SIG_DFL);
     const pid_t process = ::fork();
     if (process == 0) {
         ::close(connection);
         return run(request);
     }
-    for (int stream : request.streams) { // so that they end where the program ends
+    for (int stream : request.streams) // so that they end where the program ends
         ::close(stream);
-    }
     int status = 127 << 8;
     const auto tell = [connection](int32_t number) {
         return ::send(connection, &number, sizeof number, MSG_NOSIGNAL) == sizeof number;
     };
     const bool told = tell(process);
-    if (process > 0) {
+    if (process > 0)
         ::waitpid(process, &status, 0);
-    }
     ::_exit(told && tell(status) ? 0 : 1);
 }
 
 int serve(int argc, char** argv, char** environment) {
     const char* path = std::getenv("PRESTART_SOCKET");
-    if (!path) {
+    if (!path)
         return g_main(argc, argv, environment);
-    }
     sockaddr_un address{};
     address.sun_family = AF_UNIX;
     std::strncpy(address.sun_path, path, sizeof address.sun_path - 1);
     const int listening = ::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0);
     if (::bind(listening, reinterpret_cast<const sockaddr*>(&address), sizeof address) != 0 ||
-        ::listen(listening, 64) != 0) {
+        ::listen(listening, 64) != 0)
         return 1;
-    }
     ::signal(SIGCHLD, SIG_IGN); // nobody waits for those who wait
     std::array<pollfd, 2> waited{pollfd{listening, POLLIN, 0}, pollfd{STDIN_FILENO, POLLIN, 0}};
     while (::poll(waited.data(), waited.size(), -1) > 0 &&

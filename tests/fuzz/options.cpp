@@ -11,9 +11,8 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
     using namespace tonetool;
     static const char* const commands[] = {"tonemap",  "calibrate", "hdrflip", "cgtmo",
                                            "exposure", "exportlut", "ccmatrix"};
-    if (size == 0) {
+    if (size == 0)
         return 0;
-    }
     const std::string command = commands[data[0] % std::size(commands)];
     const std::string word = "--" + command + ":" + fuzz::text_of(data + 1, size - 1);
     if (command == "exportlut") {
@@ -28,9 +27,8 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
         OIIO::ImageBufAlgo::fill(images[i], {0.1f, 0.5f + float(i), 2.0f});
     }
     Strings words{word};
-    if (command == "exposure" || command == "ccmatrix") {
+    if (command == "exposure" || command == "ccmatrix")
         words.emplace_back(command == "exposure" ? "1" : "1,0,0,0,1,0,0,0,1");
-    }
     const runs::Evaluation found =
         runs::evaluate(words, std::move(images), {true, "/nonexistent", 100});
     fuzz::require(found.status != 1 || !found.err.empty(), "an error has a reason");

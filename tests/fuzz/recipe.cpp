@@ -8,9 +8,8 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
     size_t bytes = 0;
     try {
         for (const std::string& word :
-             recipe::parse("tonetool 1\n" + fuzz::text_of(data, size), {{"frame", "7"}})) {
+             recipe::parse("tonetool 1\n" + fuzz::text_of(data, size), {{"frame", "7"}}))
             bytes += word.size();
-        }
     } catch (const recipe::RecipeError& problem) {
         fuzz::require(*problem.what() != '\0', "an error has a text");
     }

@@ -46,9 +46,8 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
     const std::string text = fuzz::text_of(data, size);
     std::optional<ShotResult> shot;
     attempt([&] { shot = shot_from_json(text); });
-    if (shot) {
+    if (shot)
         look_at(*shot);
-    }
     attempt([&] { (void)frame_from_json(text); });
     attempt([&] { (void)to_json(samples_from_json(text)); });
     attempt([&] { (void)qc_from_json(text); });
@@ -58,8 +57,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
     std::optional<ShotResult> whole;
     std::vector<std::string> complaints;
     attempt([&] { whole = merged({file}, {{1, ""}, {2, ""}}, complaints); });
-    if (whole) {
+    if (whole)
         look_at(*whole);
-    }
     return 0;
 }

@@ -6,7 +6,7 @@
 #include "sequence/results/results.h"
 #include "sequence/results/shot_exposures.h"
 
-namespace tonetool::measure {
+namespace tonetool::chain {
 
 struct CheckPart {
     sequence::FrameResult* result = nullptr;   ///< gathers what commands measure
@@ -24,4 +24,4 @@ inline sequence::FramePainter* painter_of(const chain::Session& session) {
     return session.check ? session.check->painter : nullptr;
 }
 
-} // namespace tonetool::measure
+} // namespace tonetool::chain

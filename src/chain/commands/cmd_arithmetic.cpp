@@ -7,7 +7,7 @@ namespace tonetool::chain {
 
 namespace {
 
-constexpr float largest = std::numeric_limits<float>::max();
+constexpr float kLargest = std::numeric_limits<float>::max();
 
 bool invert(Op& op) {
     OIIO::ROI roi = op.a().roi();
@@ -28,22 +28,21 @@ bool contrast(Op& op) {
     const Floats low = given("min", 0), high = given("max", 1);
     bool done = IBA::contrast_remap(op.dst, op.a(), given("black", 0), given("white", 1), low, high,
                                     given("scontrast", 1), given("sthresh", 0.5F));
-    if (op.call.has("gamma")) {
+    if (op.call.has("gamma"))
         op.session.warning(op.call.text(), "gamma= has no effect, as in oiiotool (--powc has)");
-    }
     return done && (!op.flag("clamp") || IBA::clamp(op.dst, op.dst, low, high));
 }
 
 bool clamp(Op& op) {
-    return IBA::clamp(op.dst, op.a(), op.values("min", -largest), op.values("max", largest),
+    return IBA::clamp(op.dst, op.a(), op.values("min", -kLargest), op.values("max", kLargest),
                       op.flag("clampalpha"));
 }
 
-const std::string luma = "luma=0|1: on luminance instead of each channel";
-const std::string limits = "min=VALUES: lowest value, one or one per channel\n"
-                           "max=VALUES: highest value, one or one per channel\n";
+const std::string kLuma = "luma=0|1: on luminance instead of each channel";
+const std::string kLimits = "min=VALUES: lowest value, one or one per channel\n"
+                            "max=VALUES: highest value, one or one per channel\n";
 
-const std::vector<OpRow> constant_rows = {
+const std::vector<OpRow> kConstantRows = {
     {"addc|cadd VALUES", 1, "Add a constant (0.5) or one per channel (1,1.25,0.5)",
      [](Op& op) { return IBA::add(op.dst, op.a(), op.constants(0)); }},
     {"subc|csub VALUES", 1, "Subtract a constant or one per channel",
@@ -62,7 +61,7 @@ const std::vector<OpRow> constant_rows = {
      [](Op& op) { return IBA::min(op.dst, op.a(), op.constants(0)); }},
 };
 
-const std::vector<OpRow> image_rows = {
+const std::vector<OpRow> kImageRows = {
     {"add", 2, "Add two images", [](Op& op) { return IBA::add(op.dst, op.a(), op.b()); }},
     {"sub", 2, "Subtract the second image from the first",
      [](Op& op) { return IBA::sub(op.dst, op.a(), op.b()); }},
@@ -79,7 +78,7 @@ const std::vector<OpRow> image_rows = {
      [](Op& op) { return IBA::min(op.dst, op.a(), op.b()); }},
 };
 
-const std::vector<OpRow> value_rows = {
+const std::vector<OpRow> kValueRows = {
     {"abs", 1, "Absolute value", [](Op& op) { return IBA::abs(op.dst, op.a()); }},
     {"invert", 1, "Subtract the colour from 1", invert,
      "chbegin=N: first channel (0)\n"
@@ -91,21 +90,21 @@ const std::vector<OpRow> value_rows = {
     {"chsum", 1, "Sum of the channels",
      [](Op& op) { return IBA::channel_sum(op.dst, op.a(), op.values("weight", 1)); },
      "weight=VALUES: weight of each channel (1)"},
-    named("", {"clamp", 1, "Clamp the values", clamp, limits + "clampalpha=0|1: alpha to 0..1",
+    named("", {"clamp", 1, "Clamp the values", clamp, kLimits + "clampalpha=0|1: alpha to 0..1",
                Scope::Levels}),
     {"contrast", 1, "Remap black to min and white to max, with a contrast curve", contrast,
-     limits + "black=VALUES: what becomes min (0)\n"
-              "white=VALUES: what becomes max (1)\n"
-              "sthresh=VALUES: middle of the curve (0.5)\n"
-              "scontrast=VALUES: its slope (1: none)\n"
-              "gamma=VALUES: has no effect\n"
-              "clamp=0|1: clamp to min..max"},
+     kLimits + "black=VALUES: what becomes min (0)\n"
+               "white=VALUES: what becomes max (1)\n"
+               "sthresh=VALUES: middle of the curve (0.5)\n"
+               "scontrast=VALUES: its slope (1: none)\n"
+               "gamma=VALUES: has no effect\n"
+               "clamp=0|1: clamp to min..max"},
     {"saturate SCALE", 1, "Scale the saturation (0: grey)",
      [](Op& op) { return IBA::saturate(op.dst, op.a(), op.number(0)); }},
     {"rangecompress", 1, "Compress values beyond 1 by a logarithm",
-     [](Op& op) { return IBA::rangecompress(op.dst, op.a(), op.flag("luma")); }, luma},
+     [](Op& op) { return IBA::rangecompress(op.dst, op.a(), op.flag("luma")); }, kLuma},
     {"rangeexpand", 1, "Undo --rangecompress",
-     [](Op& op) { return IBA::rangeexpand(op.dst, op.a(), op.flag("luma")); }, luma},
+     [](Op& op) { return IBA::rangeexpand(op.dst, op.a(), op.flag("luma")); }, kLuma},
     {"noise", 1, "Add noise", noise, noise_modifiers() + "nchannels=N: channels that get noise"},
     {"premult", 1, "Multiply the colour by alpha",
      [](Op& op) { return IBA::premult(op.dst, op.a()); }},
@@ -129,9 +128,8 @@ bool add_noise(Op& op, bool to_blank) {
                  {"salt", "value", "portion", 0, to_blank ? 0.1F : 0.01F}};
     const std::string type = op.text("type", "gaussian");
     OIIO::ROI roi = op.dst.roi();
-    if (!to_blank) {
+    if (!to_blank)
         roi.chend = std::min(roi.chend, op.integer("nchannels", roi.chend));
-    }
     for (const auto& kind : kinds) {
         if (type == kind.type) {
             return IBA::noise(op.dst, type, op.number(kind.first, kind.first_value),
@@ -156,9 +154,9 @@ std::string noise_modifiers() {
 }
 
 std::vector<Command> arithmetic_commands() {
-    std::vector<Command> all = op_rows(Group::Arithmetic, constant_rows);
-    append(all, op_rows(Group::Arithmetic, image_rows));
-    append(all, op_rows(Group::Arithmetic, value_rows));
+    std::vector<Command> all = op_rows(Group::Arithmetic, kConstantRows);
+    append(all, op_rows(Group::Arithmetic, kImageRows));
+    append(all, op_rows(Group::Arithmetic, kValueRows));
     return all;
 }
 

@@ -5,7 +5,7 @@
 #include "chain/commands/light_args.h"
 #include "text/error.h"
 
-namespace tonetool::measure {
+namespace tonetool::chain {
 
 namespace {
 
@@ -28,9 +28,8 @@ CgTmoOptions options_of(const Call& call) {
                                                           {"weight", &options.weight},
                                                           {"maximum", &options.maximum},
                                                           {"show", &options.show}};
-    for (const auto& [key, text] : texts) {
+    for (const auto& [key, text] : texts)
         *text = call.text(key).value_or(*text);
-    }
     options.lumsigma = call.number("lumsigma", {0, 10});
     options.fov = call.number("fov", {1, 179});
     options.lmax = call.number("lmax", {1e-30, 1e30});
@@ -78,13 +77,11 @@ void run_cgtmo(Session& session, const Call& call) {
     OIIO::ImageBuf source = color_source(session, call, image, options.pixels);
     CgTmoSummary found;
     OIIO::ImageBuf result;
-    if (!ToneAlgo::cg_tmo(result, source, options, &found)) {
+    if (!ToneAlgo::cg_tmo(result, source, options, &found))
         throw CommandError(result.geterror());
-    }
     report_summary(session, label, found);
-    for (const std::string& warning : found.warnings) {
+    for (const std::string& warning : found.warnings)
         session.warning(label, image.name() + ": " + warning);
-    }
     session.push(Image::derived(image, std::move(result)));
 }
 
@@ -137,4 +134,4 @@ std::vector<Command> cgtmo_commands() {
              run_cgtmo}};
 }
 
-} // namespace tonetool::measure
+} // namespace tonetool::chain

@@ -14,8 +14,7 @@ bool ch(Op& op) {
         op.session.warning("--ch", text); // twice, as oiiotool
         op.session.warning("--ch", text);
     };
-    op.dst = files::select_channels(op.a(), op.call.argument(0),
-                                    op.session.compat ? files::Warn(warn) : nullptr);
+    op.dst = select_channels(op.a(), op.call.argument(0), op.session.compat ? Warn(warn) : nullptr);
     return !op.dst.has_error();
 }
 
@@ -27,28 +26,24 @@ void run_subimage(Session& session, const Call& call) {
     const Image& image = *call.images[0];
     auto index = std::ptrdiff_t(image.find_part(call.argument(0), session.compat));
     std::vector<PartPtr> parts = image.parts();
-    if (call.flag("delete", false)) {
+    if (call.flag("delete", false))
         parts.erase(parts.begin() + index);
-    } else {
+    else
         parts = {parts[size_t(index)]};
-    }
-    if (parts.empty()) {
+    if (parts.empty())
         throw CommandError("cannot delete the only subimage of " + image.name());
-    }
     push_parts(session, image.name(), std::move(parts));
 }
 
 void run_sisplit(Session& session, const Call& call) {
-    for (const PartPtr& part : call.images[0]->parts()) {
+    for (const PartPtr& part : call.images[0]->parts())
         push_parts(session, call.images[0]->name(), {part});
-    }
 }
 
 void push_appended(Session& session, const std::vector<ImagePtr>& images) {
     std::vector<PartPtr> parts;
-    for (const ImagePtr& image : images) {
+    for (const ImagePtr& image : images)
         parts.insert(parts.end(), image->parts().begin(), image->parts().end());
-    }
     push_parts(session, images.front()->name(), std::move(parts));
 }
 
@@ -91,41 +86,37 @@ void colorcount(const Op& op) {
     }
     std::vector<OIIO::imagesize_t> counts(colors.size());
     if (!IBA::color_count(op.a(), counts.data(), int(colors.size()), values,
-                          op.values("eps", 0.001F))) {
+                          op.values("eps", 0.001F)))
         throw CommandError(op.a().geterror());
-    }
-    for (size_t i = 0; i < colors.size(); ++i) {
+    for (size_t i = 0; i < colors.size(); ++i)
         print_count(op.session, counts[i], colors[i]);
-    }
 }
 
 void rangecheck(const Op& op) {
     OIIO::imagesize_t below = 0, above = 0, within = 0;
     const std::string &low = op.call.argument(0), &high = op.call.argument(1);
     if (!IBA::color_range_check(op.a(), &below, &above, &within, op.per_channel("MIN", low, 0),
-                                op.per_channel("MAX", high, 1))) {
+                                op.per_channel("MAX", high, 1)))
         throw CommandError(op.a().geterror());
-    }
     print_count(op.session, below, "< " + low);
     print_count(op.session, above, "> " + high);
     print_count(op.session, within, "within range");
 }
 
-const char* const count_help = "n=N: so many images instead of two\n";
+const char* const kCountHelp = "n=N: so many images instead of two\n";
 
-const std::vector<OpRow> rows = {
+const std::vector<OpRow> kRows = {
     named("", {"ch CHANLIST", 1,
                "Select or shuffle channels (\"R,G,B\", \"2,1,0\", \"R,G=0.5,B,A=1.0\")", ch, "",
                Scope::Levels}),
     named("", {"chappend", 2, "The channels of the last two images (or n=) in one",
                [](Op& op) {
                    op.dst.copy(op.a());
-                   for (size_t i = 1; i < op.src.size(); ++i) {
+                   for (size_t i = 1; i < op.src.size(); ++i)
                        op.dst = IBA::channel_append(op.dst, *op.src[i]);
-                   }
                    return !op.dst.has_error();
                },
-               count_help}),
+               kCountHelp}),
 };
 
 std::vector<Command> subimage_commands() {
@@ -136,12 +127,12 @@ std::vector<Command> subimage_commands() {
     return {
         row("subimage INDEX", 1, 1, "Select one subimage by index or name", run_subimage,
             "delete=0|1: keep all but this one"),
-        row("sisplit", 1, any_number, "An image of its own for each subimage", run_sisplit),
+        row("sisplit", 1, kAnyNumber, "An image of its own for each subimage", run_sisplit),
         row(
             "siappend", 2, 1, "The subimages of the last two images (or n=) in one image",
             [](Session& session, const Call& call) { push_appended(session, call.images); },
-            count_help),
-        row("siappendall", 0, any_number, "The subimages of all images of the stack in one image",
+            kCountHelp),
+        row("siappendall", 0, kAnyNumber, "The subimages of all images of the stack in one image",
             [](Session& session, const Call&) { push_appended(session, take_images(session, 0)); }),
         row("selectmip MIPLEVEL", 1, 1, "Select one MIP level (0: the largest)",
             [](Session& session, const Call& call) {
@@ -156,7 +147,7 @@ std::vector<Command> subimage_commands() {
 } // namespace
 
 std::vector<Command> channel_commands() {
-    std::vector<Command> all = op_rows(Group::Channels, rows);
+    std::vector<Command> all = op_rows(Group::Channels, kRows);
     append(all, subimage_commands());
     for (Command& row : all) {
         if (row.label() == "chappend" || row.label() == "siappend") {

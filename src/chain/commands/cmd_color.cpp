@@ -14,16 +14,15 @@ bool colormap(Op& op) {
         throw CommandError("\"" + op.call.images.front()->name() +
                            "\" is deep, which this command cannot use");
     }
-    op.dst = op.session.compat ? files::linear_colored(op.a(), map) : files::colored(op.a(), map);
+    op.dst = op.session.compat ? linear_colored(op.a(), map) : colored(op.a(), map);
     return !op.dst.has_error();
 }
 
 void run_colorconfig(Session& session, const Call& call) {
     session.color_config = call.argument(0);
     session.ocio.reset();
-    if (session.compat && color_config(session).has_error()) {
+    if (session.compat && color_config(session).has_error())
         throw CommandError(color_config(session).geterror());
-    }
 }
 
 } // namespace

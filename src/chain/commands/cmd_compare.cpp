@@ -12,7 +12,7 @@
 #include "sequence/results/measurement.h"
 #include "text/error.h"
 
-namespace tonetool::measure {
+namespace tonetool::chain {
 
 namespace {
 
@@ -74,9 +74,8 @@ Compared compare(Session& session, const Call& call, const Look& look, const Com
         tests.push_back(&done.views[i]);
     }
     done.maps.resize(tests.size());
-    if (!function(done.maps, done.views.front(), tests)) {
+    if (!function(done.maps, done.views.front(), tests))
         throw CommandError(done.maps.front().geterror());
-    }
     session.produced = true;
     return done;
 }
@@ -84,9 +83,8 @@ Compared compare(Session& session, const Call& call, const Look& look, const Com
 template <class Summary>
 void report(Session& session, const Call& call, const Summary& summary, size_t test = 0) {
     const std::string label = call.row().label();
-    for (const std::string& warning : summary.warnings) {
+    for (const std::string& warning : summary.warnings)
         session.warning(label, warning);
-    }
     record(session, call, sequence::measurement(summary), test);
     if (call.flag("print", true)) {
         session.report(summary_text(label, summary, call.images.front()->name(),
@@ -107,9 +105,8 @@ void show_flip(Session& session, const Call& call, sequence::PictureRequest requ
                const OIIO::ImageBuf& map, const FlipResult& result) {
     request.error = &map;
     request.exposures = result.summary.exposures;
-    if (result.exposure_stops.initialized()) {
+    if (result.exposure_stops.initialized())
         request.stops = &result.exposure_stops;
-    }
     show(session, call, std::move(request));
 }
 
@@ -147,14 +144,12 @@ int hdrflip_pushes(const Call& call) {
 
 void save(Session& session, const OIIO::ImageBuf& image, const std::string& filename) {
     session.claim(filename);
-    if (session.dry_run) {
+    if (session.dry_run)
         return;
-    }
     session.keep_pixels_of(filename);
     std::string why;
-    if (!write_image(image, filename, why)) {
+    if (!write_image(image, filename, why))
         throw CommandError(why);
-    }
 }
 
 void save_exposures(Session& session, const Call& call, const FlipResult& result, size_t test) {
@@ -225,9 +220,8 @@ void run_flipdiff(Session& session, const Call& call) {
     bool hdr = call.flag("hdr", true);
     const Limits limits = limits_of(call, {{"max"}, false}, options.quantities);
     auto colors = call.text("colormap");
-    if (colors) {
-        files::check_colormap(*colors);
-    }
+    if (colors)
+        check_colormap(*colors);
     options.want_exposure_map = hdr && shown_bytes(session, call) > 0;
     FlipResult result;
     auto [views, maps] =
@@ -236,16 +230,15 @@ void run_flipdiff(Session& session, const Call& call) {
                        : ToneAlgo::ldr_flip(to[0], reference, *tests[0], options, &result);
         });
     report(session, call, result.summary);
-    if (judge_flip(session, call, limits, result.summary.pool)) {
+    if (judge_flip(session, call, limits, result.summary.pool))
         session.print("FAILURE");
-    } else if (!limits.empty()) {
+    else if (!limits.empty())
         session.report("PASS");
-    }
     sequence::PictureRequest request = pair_request(views);
     request.look = options;
     request.hdr = hdr;
     show_flip(session, call, std::move(request), maps[0], result);
-    push_map(session, call, colors ? files::colored(maps[0], *colors) : std::move(maps[0]));
+    push_map(session, call, colors ? colored(maps[0], *colors) : std::move(maps[0]));
 }
 
 void run_filmstrip(Session& session, const Call& call) {
@@ -398,4 +391,4 @@ std::vector<Command> compare_commands() {
     return rows;
 }
 
-} // namespace tonetool::measure
+} // namespace tonetool::chain

@@ -43,7 +43,7 @@ void run_paste(Session& session, const Call& call) {
     std::vector<ImagePtr> images = take_images(session, call.flag("all", false) ? 0 : 2);
     const Position at = asked_position(session, call.argument(0));
     OIIO::ImageBuf result =
-        files::pasted(flat_pixels_of(images), at.x, at.y, call.flag("mergeroi", false));
+        pasted(flat_pixels_of(images), at.x, at.y, call.flag("mergeroi", false));
     session.push(Image::derived(*images.back(), std::move(result)));
 }
 
@@ -61,18 +61,17 @@ void run_mosaic(Session& session, const Call& call) {
                            (session.compat ? "" : " (valid: COLUMNSxROWS)"));
     }
     const auto fit = call.text("fit");
-    files::Sheet sheet{int(size->width), int(size->height)};
-    sheet.pad = call.integer("pad", any_integer).value_or(0);
+    Sheet sheet{int(size->width), int(size->height)};
+    sheet.pad = call.integer("pad", kAnyInteger).value_or(0);
     sheet.fit = fit ? parsed_size(*fit) : std::nullopt;
-    if (fit && !sheet.fit && !session.compat) {
+    if (fit && !sheet.fit && !session.compat)
         throw CommandError("fit \"" + *fit + "\" is no size (valid: WxH)");
-    }
     const size_t cells = size_t(sheet.columns) * size_t(sheet.rows);
     std::vector<ImagePtr> images = take_images(session, std::min(cells, session.stack.size()));
-    session.push(Image::created("mosaic", files::mosaic(sheet, flat_pixels_of(images))));
+    session.push(Image::created("mosaic", mosaic(sheet, flat_pixels_of(images))));
 }
 
-const std::vector<OpRow> rows = {
+const std::vector<OpRow> kRows = {
     {"over", 2, "The first image over the second",
      [](Op& op) { return IBA::over(op.dst, op.a(), op.b()); }},
     {"zover", 2, "The nearer of two images with Z channels over the other",
@@ -99,13 +98,13 @@ const std::vector<OpRow> rows = {
 } // namespace
 
 std::vector<Command> composite_commands() {
-    std::vector<Command> all = op_rows(Group::Composite, rows);
-    all.push_back(free_row(Group::Composite, "paste +X+Y", 0, any_number,
+    std::vector<Command> all = op_rows(Group::Composite, kRows);
+    all.push_back(free_row(Group::Composite, "paste +X+Y", 0, kAnyNumber,
                            "Paste the first image over the second, there or as it lies (auto, -)",
                            run_paste,
                            "all=0|1: all images of the stack over the last\n"
                            "mergeroi=0|1: a data window that holds both"));
-    all.push_back(free_row(Group::Composite, "mosaic WxH", 0, any_number,
+    all.push_back(free_row(Group::Composite, "mosaic WxH", 0, kAnyNumber,
                            "Assemble as many images as there are into columns and rows", run_mosaic,
                            "pad=N: pixels between images (0)\n"
                            "fit=WxH: fit each image to this size first"));

@@ -12,11 +12,11 @@ namespace tonetool::chain {
 namespace {
 
 // --if, --for and --while that may be within one another.
-constexpr size_t most_nested_blocks = 100;
+constexpr size_t kMostNestedBlocks = 100;
 
 void push_block(Session& session, const Block& block) {
-    if (session.flow.blocks.size() == most_nested_blocks) {
-        throw CommandError("nested deeper than " + std::to_string(most_nested_blocks) +
+    if (session.flow.blocks.size() == kMostNestedBlocks) {
+        throw CommandError("nested deeper than " + std::to_string(kMostNestedBlocks) +
                            ", the most that --if, --for and --while may be");
     }
     session.flow.blocks.push_back(block);
@@ -30,9 +30,8 @@ void begin_block(Session& session, const std::string& kind, const Call& call) {
 
 Block& innermost(Session& session, const std::string& end, const std::string& kind) {
     std::vector<Block>& blocks = session.flow.blocks;
-    if (blocks.empty() || blocks.back().kind != kind) {
+    if (blocks.empty() || blocks.back().kind != kind)
         throw CommandError(end + " without matching " + kind);
-    }
     return blocks.back();
 }
 
@@ -68,15 +67,13 @@ void run_for(Session& session, const Call& call) {
             bool lenient = session.compat && !parse_number(word);
             range.push_back(lenient ? 0 : checked_number("RANGE", word, {-1e9, 1e9}));
         }
-        if (range.size() > 3) {
+        if (range.size() > 3)
             throw CommandError("Invalid range \"" + call.argument(1) + "\"");
-        }
         block.value = range.size() > 1 ? range[0] : 0;
         block.end = range.size() > 1 ? range[1] : range[0];
         block.step = range.size() > 2 ? range[2] : 1;
-        if (block.step == 0 && !session.compat) {
+        if (block.step == 0 && !session.compat)
             throw CommandError("RANGE \"" + call.argument(1) + "\" never ends: its step is 0");
-        }
         set_loop_variable(session, block, call.argument(0));
     }
     push_block(session, block);
@@ -85,11 +82,10 @@ void run_for(Session& session, const Call& call) {
 void run_endfor(Session& session, const Call&) {
     Block& block = innermost(session, "endfor", "for");
     block.value += block.step;
-    if (block.running && set_loop_variable(session, block, block.variable)) {
+    if (block.running && set_loop_variable(session, block, block.variable))
         session.flow.next = block.begin;
-    } else {
+    else
         session.flow.blocks.pop_back();
-    }
 }
 
 void run_set(Session& session, const Call& call) {
@@ -107,7 +103,7 @@ void run_set(Session& session, const Call& call) {
     } else if (const OIIO::TypeDesc packed(type);
                packed == OIIO::TypeTimeCode || packed == OIIO::TypeRational) {
         OIIO::ImageSpec spec;
-        files::set_attribute(spec, name, value, packed);
+        set_attribute(spec, name, value, packed);
         session.variables.merge(spec.extra_attribs, true);
     } else {
         session.variables.attribute(name, OIIO::TypeDesc(type), value);

@@ -19,9 +19,8 @@ OIIO::ImageBuf blank(Session& session, const Call& call, size_t first) {
     int channels = op.integer(first + 1);
     if (channels < 1 || channels > 1024) {
         const std::string why = "Invalid number of channels: " + std::to_string(channels);
-        if (!session.compat) {
+        if (!session.compat)
             throw CommandError(why + " (valid: 1 to 1024)");
-        }
         session.warning(call.text(), why);
         channels = 3;
     }
@@ -35,9 +34,8 @@ OIIO::ImageBuf blank(Session& session, const Call& call, size_t first) {
 }
 
 void push_created(Session& session, OIIO::ImageBuf image) {
-    if (image.has_error()) {
+    if (image.has_error())
         throw CommandError(image.geterror());
-    }
     session.push(Image::created("new", std::move(image)));
 }
 
@@ -59,28 +57,22 @@ Floats color_of(const Op& op, const std::string& key, float otherwise = 1) {
 // The values of all of these modifiers, or none.
 Corners colors(const Op& op, const Strings& keys) {
     Corners found;
-    for (const std::string& key : keys) {
-        if (op.call.has(key)) {
+    for (const std::string& key : keys)
+        if (op.call.has(key))
             found.push_back(color_of(op, key));
-        }
-    }
     return found.size() == keys.size() ? found : Corners();
 }
 
 bool fill(Op& op, const OIIO::ROI& window) {
     if (Corners four = colors(op, {"topleft", "topright", "bottomleft", "bottomright"});
-        !four.empty()) {
+        !four.empty())
         return IBA::fill(op.dst, four[0], four[1], four[2], four[3], window);
-    }
-    if (Corners two = colors(op, {"top", "bottom"}); !two.empty()) {
+    if (Corners two = colors(op, {"top", "bottom"}); !two.empty())
         return IBA::fill(op.dst, two[0], two[1], window);
-    }
-    if (Corners two = colors(op, {"left", "right"}); !two.empty()) {
+    if (Corners two = colors(op, {"left", "right"}); !two.empty())
         return IBA::fill(op.dst, two[0], two[1], two[0], two[1], window);
-    }
-    if (!op.call.has("color") && op.session.compat && op.call.row().label() == "pattern") {
+    if (!op.call.has("color") && op.session.compat && op.call.row().label() == "pattern")
         return true; // black, without a word
-    }
     if (!op.call.has("color")) {
         const std::string why = "No recognized fill parameters";
         if (!op.session.compat) {
@@ -101,23 +93,18 @@ bool checker(Op& op) {
 
 bool draw_pattern(Op& op, const std::string& pattern) {
     static const Strings names = {"black", "constant", "fill", "checker", "noise"};
-    if (pattern == "noise") {
+    if (pattern == "noise")
         return add_noise(op, true);
-    }
-    if (pattern == "checker") {
+    if (pattern == "checker")
         return checker(op);
-    }
-    if (pattern == "fill") {
+    if (pattern == "fill")
         return fill(op, op.dst.roi());
-    }
-    if (pattern == "constant") {
+    if (pattern == "constant")
         return IBA::fill(op.dst, color_of(op, "color"));
-    }
-    if (!op.session.compat) {
+    if (!op.session.compat)
         check_choice("pattern", pattern, names);
-    } else if (pattern != "black") {
+    else if (pattern != "black")
         op.session.warning("--pattern", "Unknown pattern \"" + pattern + "\"");
-    }
     return true;
 }
 
@@ -132,9 +119,8 @@ void run_pattern(Session& session, const Call& call) {
 
 void run_kernel_command(Session& session, const Call& call) {
     auto size = parsed_size(call.argument(1));
-    if (!size) {
+    if (!size)
         throw CommandError("Unknown size " + call.argument(1));
-    }
     push_created(session, IBA::make_kernel(call.argument(0), size->width, size->height));
 }
 
@@ -146,9 +132,8 @@ void run_capture(Session& session, const Call& call) {
 // The positions of the argument: at least `least` numbers, in pairs.
 std::vector<int> positions(const Op& op, size_t least) {
     std::vector<int> all;
-    for (float value : op.list(op.call.row().args.front(), op.call.argument(0))) {
+    for (float value : op.list(op.call.row().args.front(), op.call.argument(0)))
         all.push_back(static_cast<int>(value));
-    }
     if (all.size() < least || (all.size() % 2 != 0 && !op.session.compat)) {
         throw CommandError("\"" + op.call.argument(0) + "\" has " + std::to_string(all.size()) +
                            " numbers (valid: " + op.call.row().args.front() + ")");
@@ -167,18 +152,16 @@ Floats paint(const Op& op) {
 bool point(Op& op) {
     const std::vector<int> at = positions(op, 2);
     bool done = op.dst.copy(op.a());
-    for (size_t i = 0; done && i + 1 < at.size(); i += 2) {
+    for (size_t i = 0; done && i + 1 < at.size(); i += 2)
         done = IBA::render_point(op.dst, at[i], at[i + 1], color_of(op, "color"));
-    }
     return done;
 }
 
 bool line(Op& op) {
     const std::vector<int> at = positions(op, 4);
     bool done = op.dst.copy(op.a());
-    for (size_t i = 0; done && i + 3 < at.size(); i += 2) {
+    for (size_t i = 0; done && i + 3 < at.size(); i += 2)
         done = IBA::render_line(op.dst, at[i], at[i + 1], at[i + 2], at[i + 3], paint(op), i > 0);
-    }
     return done;
 }
 
@@ -204,9 +187,8 @@ Align aligned(const Op& op, const std::string& key,
         valid.push_back(name);
         found = op.text(key) == name ? value : found;
     }
-    if (op.call.has(key) && !op.session.compat) {
+    if (op.call.has(key) && !op.session.compat)
         check_choice(key, op.text(key), valid);
-    }
     return found;
 }
 
@@ -226,35 +208,35 @@ bool text(Op& op) {
                             op.integer("shadow", 0));
 }
 
-const std::string color = "color=VALUES: one value, or one per channel (1)\n";
-const std::string ramps = color + "top=VALUES: colour at the top, to bottom=\n"
-                                  "bottom=VALUES: colour at the bottom\n"
-                                  "left=VALUES: colour at the left, to right=\n"
-                                  "right=VALUES: colour at the right\n"
-                                  "topleft=VALUES: colour of a corner, with the other three\n"
-                                  "topright=VALUES: colour of a corner\n"
-                                  "bottomleft=VALUES: colour of a corner\n"
-                                  "bottomright=VALUES: colour of a corner\n";
+const std::string kColor = "color=VALUES: one value, or one per channel (1)\n";
+const std::string kRamps = kColor + "top=VALUES: colour at the top, to bottom=\n"
+                                    "bottom=VALUES: colour at the bottom\n"
+                                    "left=VALUES: colour at the left, to right=\n"
+                                    "right=VALUES: colour at the right\n"
+                                    "topleft=VALUES: colour of a corner, with the other three\n"
+                                    "topright=VALUES: colour of a corner\n"
+                                    "bottomleft=VALUES: colour of a corner\n"
+                                    "bottomright=VALUES: colour of a corner\n";
 
-const std::vector<OpRow> drawing_rows = {
-    {"point X,Y[,X,Y...]", 1, "Draw points", point, color},
-    {"line X,Y,X,Y[,X,Y...]", 1, "Draw a line through these points", line, color},
-    {"box X1,Y1,X2,Y2", 1, "Draw a box", box, color + "fill=0|1: filled"},
-    named("", {"fill GEOM", 1, "Fill a window with a colour or a ramp", fill_window, ramps}),
+const std::vector<OpRow> kDrawingRows = {
+    {"point X,Y[,X,Y...]", 1, "Draw points", point, kColor},
+    {"line X,Y,X,Y[,X,Y...]", 1, "Draw a line through these points", line, kColor},
+    {"box X1,Y1,X2,Y2", 1, "Draw a box", box, kColor + "fill=0|1: filled"},
+    named("", {"fill GEOM", 1, "Fill a window with a colour or a ramp", fill_window, kRamps}),
     {"text TEXT", 1, "Draw text", text,
-     color + "x=N: position (the middle)\n"
-             "y=N: position (the middle)\n"
-             "size=N: height of the letters (16)\n"
-             "font=NAME: font, a name or a file\n"
-             "xalign=left|right|center: of the text to its position (left)\n"
-             "yalign=base|top|bottom|center: of the text to its position (base)\n"
-             "shadow=N: width of a black outline (0)"},
+     kColor + "x=N: position (the middle)\n"
+              "y=N: position (the middle)\n"
+              "size=N: height of the letters (16)\n"
+              "font=NAME: font, a name or a file\n"
+              "xalign=left|right|center: of the text to its position (left)\n"
+              "yalign=base|top|bottom|center: of the text to its position (base)\n"
+              "shadow=N: width of a black outline (0)"},
 };
 
 } // namespace
 
 std::vector<Command> create_commands() {
-    const std::string pattern = ramps + noise_modifiers() +
+    const std::string pattern = kRamps + noise_modifiers() +
                                 "width=N: of the squares of a checker (8)\n"
                                 "height=N: of the squares of a checker (width)\n"
                                 "depth=N: of the squares of a checker (width)\n"
@@ -271,10 +253,9 @@ std::vector<Command> create_commands() {
         free_row(Group::Create, "capture", 0, 1, "An image from a camera", run_capture,
                  "camera=N: which camera (0)"),
     };
-    for (Command& row : all) {
+    for (Command& row : all)
         row.operation = row.label() == "kernel" ? "-kernel" : "";
-    }
-    append(all, op_rows(Group::Create, drawing_rows));
+    append(all, op_rows(Group::Create, kDrawingRows));
     return all;
 }
 

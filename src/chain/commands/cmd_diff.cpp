@@ -17,7 +17,7 @@
 #include "text/error.h"
 #include "tonetool/color_tags.h"
 
-namespace tonetool::measure {
+namespace tonetool::chain {
 
 namespace {
 
@@ -28,9 +28,8 @@ enum class Verdict { Pass, Warning, Failure };
 
 std::string values_at(const OIIO::ImageBuf& image, const Results& found) {
     Strings words;
-    for (int c = 0; c < image.nchannels(); ++c) {
+    for (int c = 0; c < image.nchannels(); ++c)
         words.push_back(format("{:g}", image.getchannel(found.maxx, found.maxy, found.maxz, c)));
-    }
     return join(words, ", ");
 }
 
@@ -43,9 +42,8 @@ void print_maximum(Session& session, const OIIO::ImageBuf& a, const OIIO::ImageB
                               a.spec().depth > 1 ? format("{}, ", found.maxz) : "",
                               named.channel_name(found.maxc));
     }
-    if (found.maxerror != 0 && !a.deep() && !b.deep()) {
+    if (found.maxerror != 0 && !a.deep() && !b.deep())
         session.out << format("  values are {} vs {}", values_at(a, found), values_at(b, found));
-    }
     session.out << '\n';
 }
 
@@ -73,9 +71,8 @@ Verdict judge(const Results& found, const DiffLimits& limits, double pixels) {
     auto beyond = [&](OIIO::imagesize_t count, float percent, float hard) {
         return double(count) > double(percent) / 100 * pixels || found.maxerror > double(hard);
     };
-    if (beyond(found.nfail, limits.fail_percent, limits.hard_fail)) {
+    if (beyond(found.nfail, limits.fail_percent, limits.hard_fail))
         return Verdict::Failure;
-    }
     return beyond(found.nwarn, limits.warn_percent, limits.hard_warn) ? Verdict::Warning
                                                                       : Verdict::Pass;
 }
@@ -108,9 +105,8 @@ void record(Session& session, const Results& found, double pixels, Verdict verdi
 // Images that differ in more than their pixels (`unlike`) have no measurement of their own.
 void complete_record(Session& session, const Call& call, size_t before, Verdict verdict,
                      bool unlike) {
-    if (!result_of(session)) {
+    if (!result_of(session))
         return;
-    }
     auto& all = result_of(session)->measurements;
     if (all.size() == before || unlike || (verdict == Verdict::Failure && session.all_subimages)) {
         all.emplace_back();
@@ -127,19 +123,17 @@ void complete_record(Session& session, const Call& call, size_t before, Verdict 
 Results results_of(const OIIO::ImageBuf& a, const OIIO::ImageBuf& b, const DiffLimits& limits,
                    bool perceptual) {
     Results found{};
-    if (perceptual) {
+    if (perceptual)
         found.nfail = OIIO::imagesize_t(OIIO::ImageBufAlgo::compare_Yee(a, b, found));
-    } else {
+    else
         found = OIIO::ImageBufAlgo::compare(a, b, limits.fail, limits.warn);
-    }
-    if (a.has_error() || b.has_error()) {
+    if (a.has_error() || b.has_error())
         throw CommandError(a.has_error() ? a.geterror() : b.geterror());
-    }
     return found;
 }
 
 // No limit is as large as the error of the first unlike pixel.
-void add(Results& found, const files::Unlike& unlike) {
+void add(Results& found, const Unlike& unlike) {
     found.maxerror = std::numeric_limits<double>::infinity();
     found.maxx = unlike.x;
     found.maxy = unlike.y;
@@ -169,9 +163,8 @@ OIIO::imagesize_t unseen_differences(const OIIO::ImageBuf& a, const OIIO::ImageB
             const bool seen = std::all_of(one, one + colors, finite) &&
                               std::all_of(other, other + colors, finite);
             bool differs = false;
-            for (size_t c = seen ? colors : 0; c < channels; ++c) {
+            for (size_t c = seen ? colors : 0; c < channels; ++c)
                 differs = differs || std::abs(one[c] - other[c]) > limit;
-            }
             pixels += differs ? 1 : 0;
         }
     }
@@ -186,7 +179,7 @@ void compare_pixels(Session& session, const OIIO::ImageBuf& a, const OIIO::Image
     Verdict verdict = judge(found, session.diff, pixels);
     // Where oiiotool fails, too, its report is kept.
     const bool settled = session.compat && verdict == Verdict::Failure;
-    const files::Unlike unlike = settled ? files::Unlike{} : files::unlike_values(a, b);
+    const Unlike unlike = settled ? Unlike{} : unlike_values(a, b);
     if (unlike.pixels > 0) {
         add(found, unlike);
         verdict = judge(found, session.diff, pixels);
@@ -237,9 +230,8 @@ std::string difference(const OIIO::ImageSpec& a, const OIIO::ImageSpec& b) {
         return r.xbegin == t.xbegin && r.xend == t.xend && r.ybegin == t.ybegin &&
                r.yend == t.yend && r.zbegin == t.zbegin && r.zend == t.zend;
     };
-    if (!same(a.roi(), b.roi())) {
+    if (!same(a.roi(), b.roi()))
         return "Images differ in size (data windows " + windows(a.roi(), b.roi()) + ")";
-    }
     if (!same(a.roi_full(), b.roi_full())) {
         return "Images differ in their display windows (" + windows(a.roi_full(), b.roi_full()) +
                ")";
@@ -278,12 +270,10 @@ bool compares_all(const Session& session) {
 
 // Levels that only one of the two has are no difference of the pictures, but are not compared.
 int levels_of(Session& session, Part& a, Part& b) {
-    if (session.all_subimages) {
+    if (session.all_subimages)
         return a.mip_levels();
-    }
-    if (session.compat || a.mip_levels() == b.mip_levels()) {
+    if (session.compat || a.mip_levels() == b.mip_levels())
         return session.compat ? 1 : a.mip_levels();
-    }
     session.print(format("Only compared the first MIPmap level (of {} and {}, respectively)",
                          a.mip_levels(), b.mip_levels()));
     ++session.warnings;
@@ -294,14 +284,12 @@ void compare_parts(Session& session, Part& a, Part& b, bool perceptual, const st
                    Outcome& outcome) {
     const int levels = levels_of(session, a, b);
     for (int level = 0; level < levels; ++level) {
-        if (level > 0 && a.mip_levels() != b.mip_levels()) {
+        if (level > 0 && a.mip_levels() != b.mip_levels())
             return outcome.differ(session, "Files do not match in their number of MIPmap levels");
-        }
         const OIIO::ImageSpec& spec = a.header(level);
         const std::string unlike = session.compat ? "" : difference(spec, b.header(level));
-        if (!unlike.empty()) {
+        if (!unlike.empty())
             return outcome.differ(session, unlike);
-        }
         const std::string heading = format("{} {}: {} x {}, {} channel\n", which,
                                            level > 0 ? format(" MIP level {} ", level) : "",
                                            spec.width, spec.height, spec.nchannels);
@@ -356,9 +344,8 @@ void warn_of_unapplied(Session& session, const Call& call, const Image& image_a,
     told("gamma", gamma(a), gamma(b));
     told("EXPOSURE", exposure(a), exposure(b));
     told("the ICC profile", profile(a), profile(b));
-    if (image_a.file_format() == image_b.file_format()) { // formats have their own
+    if (image_a.file_format() == image_b.file_format()) // formats have their own
         told("the colour space", space(a), space(b));
-    }
 }
 
 // Limits that no number of pixels can exceed.
@@ -435,4 +422,4 @@ std::vector<Command> diff_commands() {
     return rows;
 }
 
-} // namespace tonetool::measure
+} // namespace tonetool::chain

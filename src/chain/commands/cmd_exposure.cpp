@@ -4,7 +4,7 @@
 #include "chain/commands/flip_args.h"
 #include "text/error.h"
 
-namespace tonetool::measure {
+namespace tonetool::chain {
 
 namespace {
 
@@ -13,9 +13,8 @@ void run_exposure(Session& session, const Call& call) {
     double stops = call.number_argument(0, {-126, 126});
     OIIO::ImageBuf view = color_input(session, call, image, pixel_options(call));
     OIIO::ImageBuf result = ToneAlgo::exposure(view, stops, pixel_options(call));
-    if (result.has_error()) {
+    if (result.has_error())
         throw CommandError(result.geterror());
-    }
     session.push(Image::derived(image, std::move(result)));
 }
 
@@ -47,9 +46,8 @@ void run_luminance(Session& session, const Call& call) {
     OIIO::ImageBuf view = color_source(session, call, image, pixel_options(call));
     LuminanceStats stats;
     std::string why;
-    if (!ToneAlgo::luminance_stats(stats, view, why, pixel_options(call))) {
+    if (!ToneAlgo::luminance_stats(stats, view, why, pixel_options(call)))
         throw CommandError(why);
-    }
     if (stats.nonfinite > 0) {
         session.warning(label, std::to_string(stats.nonfinite) + " non-finite pixels in " +
                                    image.name() + " are in no figure");
@@ -72,4 +70,4 @@ std::vector<Command> exposure_commands() {
              run_luminance}};
 }
 
-} // namespace tonetool::measure
+} // namespace tonetool::chain

@@ -8,9 +8,8 @@ namespace {
 Size asked_size(const Op& op) {
     const std::string& text = op.call.argument(0);
     auto size = parsed_size(text);
-    if (!size) {
+    if (!size)
         throw CommandError("Unknown size " + text + (op.session.compat ? "" : " (valid: WxH)"));
-    }
     return *size;
 }
 
@@ -26,9 +25,8 @@ bool blur(Op& op) {
     const Size size = asked_size(op);
     OIIO::ImageBuf kernel =
         IBA::make_kernel(op.text("kernel", "gaussian"), size.width, size.height, 1.0F, true);
-    if (kernel.has_error()) {
+    if (kernel.has_error())
         throw CommandError(kernel.geterror(), "", true);
-    }
     return IBA::convolve(op.dst, op.a(), kernel);
 }
 
@@ -48,15 +46,14 @@ bool fixnan(Op& op) {
         const std::string why = "\"" + strategy +
                                 "\" not recognized. Valid choices: black, box3, "
                                 "error";
-        if (!op.session.compat) {
+        if (!op.session.compat)
             throw CommandError(why);
-        }
         op.session.warning(op.call.text(), why);
     }
     return IBA::fixNonFinite(op.dst, op.a(), mode);
 }
 
-const std::vector<OpRow> neighbour_rows = {
+const std::vector<OpRow> kNeighbourRows = {
     {"convolve", 2, "Convolve the first image with the second, a kernel",
      [](Op& op) { return IBA::convolve(op.dst, op.a(), op.b()); }},
     {"blur WxH", 1, "Blur", blur, "kernel=NAME: kernel (gaussian)"},
@@ -71,7 +68,7 @@ const std::vector<OpRow> neighbour_rows = {
     {"laplacian", 1, "Laplacian", [](Op& op) { return IBA::laplacian(op.dst, op.a()); }},
 };
 
-const std::vector<OpRow> other_rows = {
+const std::vector<OpRow> kOtherRows = {
     {"fft", 1, "Fourier transform", [](Op& op) { return IBA::fft(op.dst, op.a()); }},
     {"ifft", 1, "Inverse Fourier transform", [](Op& op) { return IBA::ifft(op.dst, op.a()); }},
     {"polar", 1, "From real and imaginary to amplitude and phase",
@@ -87,8 +84,8 @@ const std::vector<OpRow> other_rows = {
 } // namespace
 
 std::vector<Command> filter_commands() {
-    std::vector<Command> all = op_rows(Group::Filter, neighbour_rows);
-    append(all, op_rows(Group::Filter, other_rows));
+    std::vector<Command> all = op_rows(Group::Filter, kNeighbourRows);
+    append(all, op_rows(Group::Filter, kOtherRows));
     return all;
 }
 

@@ -17,9 +17,8 @@ void run_oiioattrib(Session& session, const Call& call) {
     bool known = type == "string" || (type.empty() && !number) ? OIIO::attribute(name, value)
                  : type == "float" || !whole ? OIIO::attribute(name, float(number.value_or(0)))
                                              : OIIO::attribute(name, *whole);
-    if (!known && !session.compat) {
+    if (!known && !session.compat)
         throw CommandError("unknown attribute \"" + name + "\" of OpenImageIO");
-    }
 }
 
 template <bool Session::*Flag>
@@ -83,9 +82,8 @@ std::vector<Command> work_rows() {
             }),
         row("autopremult", "Multiply colour by an alpha that is not associated",
             [](Session& session, const Call&) {
-                if (session.input.config.find_attribute("oiio:UnassociatedAlpha")) {
+                if (session.input.config.find_attribute("oiio:UnassociatedAlpha"))
                     session.input.config.attribute("oiio:UnassociatedAlpha", 0);
-                }
             }),
         row("autoorient|auto-orient", "--reorient every image that is read",
             set_on<&Session::autoorient>),
@@ -111,7 +109,7 @@ std::vector<Command> process_rows() {
                       [](Session& session, const Call& call) {
                           const int threads = call.integer_argument(0, {0, 4096});
                           OIIO::attribute("threads", threads);
-                          files::limit_reader_threads(threads * session.parallel);
+                          limit_reader_threads(threads * session.parallel);
                       })),
         of_manner(row("cache MB", "Size of OpenImageIO's image cache",
                       [](Session&, const Call& call) {
@@ -132,9 +130,8 @@ std::vector<Command> process_rows() {
 
 std::vector<Command> general_commands() {
     std::vector<Command> all = process_rows();
-    for (Command& command : all) {
+    for (Command& command : all)
         command.of_process = true;
-    }
     append(all, talk_rows());
     append(all, work_rows());
     return all;

@@ -6,16 +6,15 @@ namespace tonetool::chain {
 
 namespace {
 
-const std::string filters = "filter=NAME: reconstruction filter (lanczos3, box, cubic, ...)\n";
-const std::string highlights = "highlightcomp=0|1: compress highlights while filtering\n";
-const std::string recompute = "recompute_roi=0|1: grow the data window as needed\n";
+const std::string kFilters = "filter=NAME: reconstruction filter (lanczos3, box, cubic, ...)\n";
+const std::string kHighlights = "highlightcomp=0|1: compress highlights while filtering\n";
+const std::string kRecompute = "recompute_roi=0|1: grow the data window as needed\n";
 
 // Runs a filter on the image, or between compressing and expanding its highlights.
 template <class Filter>
 bool filtered(Op& op, Filter filter) {
-    if (!op.flag("highlightcomp")) {
+    if (!op.flag("highlightcomp"))
         return filter(op.a());
-    }
     OIIO::ImageBuf compressed;
     return IBA::rangecompress(compressed, op.a()) && filter(compressed) &&
            IBA::rangeexpand(op.dst, op.dst);
@@ -58,10 +57,9 @@ bool trim(Op& op) {
 bool scale_to(Op& op, const OIIO::ROI& display, bool resample) {
     const OIIO::ROI now = op.a().roi_full();
     op.unchanged = display.width() == now.width() && display.height() == now.height();
-    if (op.unchanged) {
+    if (op.unchanged)
         return true;
-    }
-    op.dst.reset(files::scaled_spec(op.a().spec(), display));
+    op.dst.reset(scaled_spec(op.a().spec(), display));
     const OIIO::ROI roi = op.dst.roi();
     return resample ? IBA::resample(op.dst, op.a(), op.flag("interp", true), roi)
                     : filtered(op, [&](const OIIO::ImageBuf& from) {
@@ -86,9 +84,8 @@ bool fit(Op& op) {
     });
     op.dst.set_roi_full(display);
     OIIO::ImageBuf padded;
-    if (done && op.flag("pad") && IBA::crop(padded, op.dst, op.dst.roi_full())) {
+    if (done && op.flag("pad") && IBA::crop(padded, op.dst, op.dst.roi_full()))
         op.dst = std::move(padded);
-    }
     return done;
 }
 
@@ -108,11 +105,9 @@ bool pixelaspect(Op& op) {
     bool done = scale_to(op, display, false);
     if (done && !op.unchanged) {
         op.dst.specmod().attribute("PixelAspectRatio", wanted);
-        for (auto [name, scale] : {std::pair("XResolution", x), std::pair("YResolution", y)}) {
-            if (float resolution = spec.get_float_attribute(name, 0)) {
+        for (auto [name, scale] : {std::pair("XResolution", x), std::pair("YResolution", y)})
+            if (float resolution = spec.get_float_attribute(name, 0))
                 op.dst.specmod().attribute(name, resolution * scale);
-            }
-        }
     }
     return done;
 }
@@ -120,9 +115,8 @@ bool pixelaspect(Op& op) {
 bool rotate(Op& op) {
     const float angle = op.number(0) * float(M_PI / 180.0);
     const Floats center = op.call.has("center") ? op.list("center", op.text("center")) : Floats();
-    if (!op.session.compat && op.call.has("center") && center.size() != 2) {
+    if (!op.session.compat && op.call.has("center") && center.size() != 2)
         throw CommandError("center \"" + op.text("center") + "\" is not a position (valid: X,Y)");
-    }
     const std::string filter = op.text("filter");
     const bool recomputed = op.flag("recompute_roi");
     return filtered(op, [&](const OIIO::ImageBuf& from) {
@@ -134,14 +128,12 @@ bool rotate(Op& op) {
 
 bool warp(Op& op) {
     const Floats m = op.list("MATRIX", op.call.argument(0));
-    if (m.size() != 9) {
+    if (m.size() != 9)
         throw CommandError("expected 9 comma-separated floats to form a 3x3 matrix", "", true);
-    }
     const float matrix[3][3] = {{m[0], m[1], m[2]}, {m[3], m[4], m[5]}, {m[6], m[7], m[8]}};
     const std::string wrap = op.text("wrap", "black");
-    if (!op.session.compat) {
+    if (!op.session.compat)
         check_choice("wrap", wrap, {"black", "clamp", "periodic", "mirror"});
-    }
     return filtered(op, [&](const OIIO::ImageBuf& from) {
         return IBA::warp(op.dst, from, matrix, op.text("filter"), 0, op.flag("recompute_roi"),
                          OIIO::ImageBuf::WrapMode_from_string(wrap));
@@ -170,7 +162,7 @@ bool reorient(Op& op) {
     return op.unchanged || IBA::reorient(op.dst, op.a());
 }
 
-const std::vector<OpRow> window_rows = {
+const std::vector<OpRow> kWindowRows = {
     named("", {"crop GEOM", 1,
                "Set the data window, cropping or padding (WxH+X+Y or XMIN,YMIN,XMAX,YMAX)", crop}),
     named("", {"croptofull", 1, "Crop or pad to the display window",
@@ -180,31 +172,31 @@ const std::vector<OpRow> window_rows = {
     {"cshift +X+Y", 1, "Shift around the edges", cshift},
 };
 
-const std::vector<OpRow> scale_rows = {
+const std::vector<OpRow> kScaleRows = {
     named("resample", {"resample GEOM", 1, "Resample (640x480, 640x0, 50%)", resample,
                        "interp=0|1: bilinear (1) or nearest"}),
     named("resize", {"resize GEOM", 1, "Resize with a filter (640x480, 640x0, 50%)", resize,
-                     filters + highlights}),
+                     kFilters + kHighlights}),
     named("", {"fit GEOM", 1, "Resize to fit within a window", fit,
-               filters + highlights +
+               kFilters + kHighlights +
                    "pad=0|1: pad to the window\n"
                    "fillmode=letterbox|width|height: what is made to fit (letterbox)\n"
                    "exact=0|1: to fractions of pixels"}),
     named("resize",
           {"pixelaspect ASPECT", 1, "Scale up width or height for another pixel aspect ratio",
-           pixelaspect, filters + highlights}),
+           pixelaspect, kFilters + kHighlights}),
     {"rotate DEGREES", 1, "Rotate clockwise around the middle of the display window", rotate,
-     filters + highlights + recompute + "center=X,Y: around this position instead"},
+     kFilters + kHighlights + kRecompute + "center=X,Y: around this position instead"},
     {"warp MATRIX", 1, "Warp by a 3x3 matrix of 9 numbers with commas between them", warp,
-     filters + highlights + recompute + "wrap=MODE: black, clamp, periodic, mirror beyond it"},
+     kFilters + kHighlights + kRecompute + "wrap=MODE: black, clamp, periodic, mirror beyond it"},
     {"st_warp", 2, "Warp the first image by the st coordinates in the second", st_warp,
-     filters + "chan_s=N: channel of s (0)\n"
-               "chan_t=N: channel of t (1)\n"
-               "flip_s=0|1: s from the right\n"
-               "flip_t=0|1: t from the bottom"},
+     kFilters + "chan_s=N: channel of s (0)\n"
+                "chan_t=N: channel of t (1)\n"
+                "flip_s=0|1: s from the right\n"
+                "flip_t=0|1: t from the bottom"},
 };
 
-const std::vector<OpRow> turn_rows = {
+const std::vector<OpRow> kTurnRows = {
     {"rotate90", 1, "Rotate by 90 degrees clockwise",
      [](Op& op) { return IBA::rotate90(op.dst, op.a()); }},
     {"rotate180|flipflop", 1, "Rotate by 180 degrees",
@@ -220,9 +212,9 @@ const std::vector<OpRow> turn_rows = {
 } // namespace
 
 std::vector<Command> geometry_commands() {
-    std::vector<Command> all = op_rows(Group::Geometry, window_rows);
-    append(all, op_rows(Group::Geometry, scale_rows));
-    append(all, op_rows(Group::Geometry, turn_rows));
+    std::vector<Command> all = op_rows(Group::Geometry, kWindowRows);
+    append(all, op_rows(Group::Geometry, kScaleRows));
+    append(all, op_rows(Group::Geometry, kTurnRows));
     return all;
 }
 

@@ -30,13 +30,12 @@ void print_listing(Session& session, const Call& call, Listing what) {
     what.no_metamatch = session.list.no_metamatch;
     session.push(call.images[0]);
     try {
-        session.out << files::listing_text(*call.images[0], what);
+        session.out << listing_text(*call.images[0], what);
     } catch (const ReadError& problem) {
-        if (!session.compat || !what.stats) {
+        if (!session.compat || !what.stats)
             throw;
-        }
         session.error("read", problem.why);
-        session.print(OIIO::Strutil::rstrip(files::header_text(*call.images[0], 0, false)));
+        session.print(OIIO::Strutil::rstrip(header_text(*call.images[0], 0, false)));
         throw CommandError("unable to compute: " + problem.why + "\nError reading from \"" +
                                call.images[0]->name() + "\" (subimg=0, mip=0, tile@0,0,0)",
                            "stats");
@@ -49,11 +48,10 @@ void run_printinfo(Session& session, const Call& call) {
     what.verbose = call.flag("verbose", true);
     what.stats = call.flag("stats", false);
     const auto format = call.choice("format", {"text", "xml"});
-    if (format && session.compat) {
+    if (format && session.compat)
         session.warning(call.text(), "format= has no effect here, as in oiiotool");
-    } else if (call.flag("native", false) && !session.compat) {
+    else if (call.flag("native", false) && !session.compat)
         what.native = call.images[0]->part().from_file();
-    }
     what.format = session.compat ? "" : format.value_or("");
     print_listing(session, call, what);
 }
@@ -63,9 +61,8 @@ void run_printstats(Session& session, const Call& call) {
     what.stats = true;
     what.verbose = session.verbose;
     // Its help says roi=, but what oiiotool takes is window=.
-    if (call.has("roi") && session.compat) {
+    if (call.has("roi") && session.compat)
         session.warning(call.text(), "roi= has no effect, as in oiiotool (window= has)");
-    }
     auto text = call.text("window");
     text = text || session.compat ? text : call.text("roi");
     if (text) {
@@ -77,9 +74,8 @@ void run_printstats(Session& session, const Call& call) {
             window.chend = spec.nchannels;
             what.roi = window;
         } catch (const CommandError& problem) {
-            if (!session.compat) {
+            if (!session.compat)
                 throw;
-            }
             session.error(call.text(), problem.what()); // and of all pixels, as oiiotool
         }
     }
@@ -94,7 +90,7 @@ void run_echo(Session& session, const Call& call) {
 }
 
 void run_list_formats(Session& session, const Call&) {
-    session.print(files::formats_text(session.compat));
+    session.print(formats_text(session.compat));
     session.produced = true;
 }
 

@@ -5,7 +5,7 @@
 #include "chain/commands/light_args.h"
 #include "text/error.h"
 
-namespace tonetool::measure {
+namespace tonetool::chain {
 
 namespace {
 
@@ -15,27 +15,24 @@ void run_lightindex(Session& session, const Call& call) {
     OIIO::ImageBuf source = color_input(session, call, image, pixels);
     LightIndexSummary found;
     OIIO::ImageBuf result;
-    if (!ToneAlgo::light_index(result, source, light_options(call), pixels, &found)) {
+    if (!ToneAlgo::light_index(result, source, light_options(call), pixels, &found))
         throw CommandError(result.geterror());
-    }
     Lines lines(call.row().label());
     lines.add("layer", found.layer.empty() ? "R,G,B" : found.layer);
     for (size_t g = 0; g < found.groups.size(); ++g) {
         const LightGroupSummary& group = found.groups[g];
         std::string text = group.name + ": pixels " + std::to_string(group.pixels) + " maximum " +
                            format_number(group.maximum);
-        if (group.luminance) {
+        if (group.luminance)
             text += " luminance " + format_number(*group.luminance);
-        }
         lines.add("group " + std::to_string(g), text + (group.maximum > 0 ? "" : " black"));
     }
     lines.add("unlit", found.unlit);
     lines.add("sum", found.sum);
     lines.add("difference", found.difference);
     session.report(lines.text);
-    for (const std::string& warning : found.warnings) {
+    for (const std::string& warning : found.warnings)
         session.warning(call.row().label(), image.name() + ": " + warning);
-    }
     session.push(Image::computed(image.name(), std::move(result)));
 }
 
@@ -48,4 +45,4 @@ std::vector<Command> light_commands() {
              run_lightindex}};
 }
 
-} // namespace tonetool::measure
+} // namespace tonetool::chain

@@ -7,12 +7,12 @@
 #include "chain/commands/commands.h"
 #include "text/error.h"
 
-namespace tonetool::measure {
+namespace tonetool::chain {
 
 namespace {
 
 // Per thread OpenEXR's decoder holds blocks of rows of the whole width.
-constexpr int threads_within_memory = 2;
+constexpr int kThreadsWithinMemory = 2;
 
 // glibc keeps freed blocks of up to 32 MB for itself, and some for each thread; within a bound they
 // go back to the system.
@@ -32,7 +32,7 @@ void run_memory(Session& session, const Call& call) {
                            "(powers of 1024), above 0: 268435456, 256M, 1G");
     }
     session.memory = *size / uint64_t(session.parallel);
-    files::limit_reader_threads(threads_within_memory);
+    limit_reader_threads(kThreadsWithinMemory);
     give_memory_back();
 }
 
@@ -46,4 +46,4 @@ std::vector<Command> memory_commands() {
                            run_memory)))};
 }
 
-} // namespace tonetool::measure
+} // namespace tonetool::chain

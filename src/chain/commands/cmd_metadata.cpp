@@ -21,7 +21,7 @@ void attrib(ImageSpec& spec, const Call& call, Session& session) {
                            "\" is no data type (valid: int, float, string, "
                            "float[3], timecode, rational, ...)");
     }
-    files::set_attribute(spec, call.argument(0), call.argument(1), type);
+    set_attribute(spec, call.argument(0), call.argument(1), type);
 }
 
 void erase(ImageSpec& spec, const Call& call, Session& session) {
@@ -37,7 +37,7 @@ void erase(ImageSpec& spec, const Call& call, Session& session) {
 }
 
 void keyword(ImageSpec& spec, const Call& call, Session&) {
-    files::add_keyword(spec, call.argument(0));
+    add_keyword(spec, call.argument(0));
 }
 
 void orientation(ImageSpec& spec, const Call& call, Session& session) {
@@ -48,9 +48,8 @@ void orientation(ImageSpec& spec, const Call& call, Session& session) {
 
 void turn(ImageSpec& spec, const std::array<int, 9>& to) {
     const int now = spec.get_int_attribute("Orientation", 1);
-    if (now >= 0 && now <= 8) {
+    if (now >= 0 && now <= 8)
         spec.attribute("Orientation", to[size_t(now)]);
-    }
 }
 
 void fullsize(ImageSpec& spec, const Call& call, Session& session) {
@@ -83,33 +82,32 @@ void chnames(ImageSpec& spec, const Call& call, Session& session) {
     Strings sorted = names;
     std::sort(sorted.begin(), sorted.end());
     auto twice = std::adjacent_find(sorted.begin(), sorted.end());
-    if (twice != sorted.end() && !session.compat) {
+    if (twice != sorted.end() && !session.compat)
         throw CommandError("two channels would be called \"" + *twice + "\"");
-    }
 }
 
-const std::vector<HeaderRow> attribute_rows = {
+const std::vector<HeaderRow> kAttributeRows = {
     {"attrib NAME VALUE", "Set an attribute, or erase it with an empty value", attrib,
      "type=TYPE: its data type (what VALUE looks like)"},
     {"sattrib NAME VALUE", "Set an attribute that is a string",
      [](ImageSpec& spec, const Call& call, Session&) {
-         files::set_attribute(spec, call.argument(0), call.argument(1), OIIO::TypeString);
+         set_attribute(spec, call.argument(0), call.argument(1), OIIO::TypeString);
      }},
     {"eraseattrib REGEX", "Erase the attributes that match", erase},
     {"caption TEXT", "Set the caption (ImageDescription)",
      [](ImageSpec& spec, const Call& call, Session&) {
-         files::set_attribute(spec, "ImageDescription", call.argument(0), OIIO::TypeString);
+         set_attribute(spec, "ImageDescription", call.argument(0), OIIO::TypeString);
      }},
     {"keyword KEYWORD", "Add a keyword", keyword},
     {"clear-keywords", "Erase all keywords",
      [](ImageSpec& spec, const Call&, Session&) { spec.erase_attribute("Keywords"); }},
     {"iscolorspace COLORSPACE", "Say what colour space the image is in",
      [](ImageSpec& spec, const Call& call, Session&) {
-         files::set_attribute(spec, "oiio:ColorSpace", call.argument(0), OIIO::TypeString);
+         set_attribute(spec, "oiio:ColorSpace", call.argument(0), OIIO::TypeString);
      }},
 };
 
-const std::vector<HeaderRow> window_rows = {
+const std::vector<HeaderRow> kWindowRows = {
     {"orientation ORIENT", "Say how the image is turned (1 to 8)", orientation},
     {"orientcw|rotcw", "Turn the Orientation by 90 degrees clockwise",
      [](ImageSpec& spec, const Call&, Session&) {
@@ -140,8 +138,8 @@ const std::vector<HeaderRow> window_rows = {
 } // namespace
 
 std::vector<Command> metadata_commands() {
-    std::vector<Command> all = header_rows(Group::Metadata, attribute_rows);
-    append(all, header_rows(Group::Metadata, window_rows));
+    std::vector<Command> all = header_rows(Group::Metadata, kAttributeRows);
+    append(all, header_rows(Group::Metadata, kWindowRows));
     return all;
 }
 

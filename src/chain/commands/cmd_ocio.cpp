@@ -20,9 +20,8 @@ std::string space_of(const Op& op, const std::string& name) {
 
 // The source's profile and gamma do not describe converted pixels; oiiotool keeps them.
 bool converted(Op& op, bool done) {
-    if (done && !op.session.compat) {
+    if (done && !op.session.compat)
         drop_profile(op.dst.specmod());
-    }
     return done;
 }
 
@@ -55,10 +54,9 @@ void check_view(Session& session, const std::string& display, const std::string&
 bool display(Op& op) {
     const std::string& name = op.call.argument(0);
     const std::string& view = op.call.argument(1);
-    if (!op.session.compat) {
+    if (!op.session.compat)
         check_view(op.session, name, view);
-    }
-    if (op.call.has("looks") && !oiio::display_takes_looks) {
+    if (op.call.has("looks") && !oiio::kDisplayTakesLooks) {
         op.session.warning(op.call.text(),
                            "looks= has no effect with OpenImageIO " OIIO_VERSION_STRING
                            " (--ociolook before --ociodisplay applies a look)");
@@ -71,76 +69,71 @@ bool display(Op& op) {
 
 bool matrix(Op& op) {
     Floats m = op.list("MATRIXVALS", op.call.argument(0));
-    if (m.size() == 9) {
+    if (m.size() == 9)
         m = {m[0], m[1], m[2], 0, m[3], m[4], m[5], 0, m[6], m[7], m[8], 0, 0, 0, 0, 1};
-    }
-    if (m.size() != 16) {
+    if (m.size() != 16)
         throw CommandError("expected 9 or 16 comma-separated floats to form a matrix", "", true);
-    }
     Imath::M44f matrix(m[0], m[1], m[2], m[3], m[4], m[5], m[6], m[7], m[8], m[9], m[10], m[11],
                        m[12], m[13], m[14], m[15]);
-    if (op.flag("transpose")) {
+    if (op.flag("transpose"))
         matrix.transpose();
-    }
     if (op.flag("invert") || op.flag("inverse")) {
-        if (matrix.determinant() == 0 && !op.session.compat) {
+        if (matrix.determinant() == 0 && !op.session.compat)
             throw CommandError("\"" + op.call.argument(0) + "\" has no inverse matrix");
-        }
         matrix.invert();
     }
     return IBA::colormatrixtransform(op.dst, op.a(), matrix, op.flag("unpremult"));
 }
 
 void read_profile(OIIO::ImageSpec& spec, const Call& call, Session&) {
-    files::read_icc_profile(spec, call.argument(0));
+    read_icc_profile(spec, call.argument(0));
 }
 
 void write_profile(Session& session, const Call& call) {
     session.push(call.images.front());
-    if (session.compat || !session.dry_run) {
-        files::write_icc_profile(call.images.front()->part().header(), call.argument(0));
-    }
+    if (session.compat || !session.dry_run)
+        write_icc_profile(call.images.front()->part().header(), call.argument(0));
     session.produced = true;
 }
 
-const std::string alpha = "unpremult=0|1: unpremultiply before, premultiply after\n";
-const std::string context = "key=NAME: key of the configuration's context\n"
-                            "value=NAME: its value\n" +
-                            alpha;
-const std::string lenient = "strict=0|1: 0: a space that is not there is only a warning";
+const std::string kAlpha = "unpremult=0|1: unpremultiply before, premultiply after\n";
+const std::string kContext = "key=NAME: key of the configuration's context\n"
+                             "value=NAME: its value\n" +
+                             kAlpha;
+const std::string kLenient = "strict=0|1: 0: a space that is not there is only a warning";
 
-const std::vector<OpRow> rows = {
+const std::vector<OpRow> kRows = {
     named("colorconvert",
           {"tocolorspace COLORSPACE", 1, "Convert from the image's colour space to another",
-           [](Op& op) { return convert(op, "", op.call.argument(0)); }, context + lenient}),
+           [](Op& op) { return convert(op, "", op.call.argument(0)); }, kContext + kLenient}),
     named("colorconvert",
           {"colorconvert SRC DST", 1, "Convert from one colour space to another",
            [](Op& op) { return convert(op, op.call.argument(0), op.call.argument(1)); },
-           context + lenient}),
+           kContext + kLenient}),
     {"ociolook LOOK", 1, "Apply a look", look,
-     context + "from=COLORSPACE: of the image (the one that it is in)\n"
-               "to=COLORSPACE: of the result (the one that the image is in)\n"
-               "inverse=0|1: undo the look"},
+     kContext + "from=COLORSPACE: of the image (the one that it is in)\n"
+                "to=COLORSPACE: of the result (the one that the image is in)\n"
+                "inverse=0|1: undo the look"},
     {"ociodisplay DISPLAY VIEW", 1, "Show as a view of a display does", display,
-     context + "from=COLORSPACE: of the image (the one that it is in)\n"
-               "looks=NAMES: instead of those of the view"},
+     kContext + "from=COLORSPACE: of the image (the one that it is in)\n"
+                "looks=NAMES: instead of those of the view"},
     {"ociofiletransform FILENAME", 1, "Apply the transform of a file (a LUT)",
      [](Op& op) {
          return converted(op, IBA::ociofiletransform(op.dst, op.a(), op.call.argument(0),
                                                      op.flag("unpremult"), op.flag("inverse"),
                                                      &color_config(op.session)));
      },
-     alpha + "inverse=0|1: undo the transform"},
+     kAlpha + "inverse=0|1: undo the transform"},
     {"ccmatrix MATRIXVALS", 1, "Multiply the colour by a matrix of 9 or 16 numbers", matrix,
-     alpha + "transpose=0|1: the numbers go down the columns\n"
-             "invert=0|1: by the inverse of the matrix\n"
-             "inverse=0|1: the same"},
+     kAlpha + "transpose=0|1: the numbers go down the columns\n"
+              "invert=0|1: by the inverse of the matrix\n"
+              "inverse=0|1: the same"},
 };
 
 } // namespace
 
 std::vector<Command> ocio_commands() {
-    std::vector<Command> all = op_rows(Group::Color, rows);
+    std::vector<Command> all = op_rows(Group::Color, kRows);
     append(all, header_rows(Group::Color, {{"iccread FILENAME", "Take the ICC profile from a file",
                                             read_profile}}));
     all.push_back(free_row(Group::Write, "iccwrite FILENAME", 1, 1,

@@ -12,7 +12,7 @@
 #include "text/error.h"
 #include "tonetool/qc.h"
 
-namespace tonetool::measure {
+namespace tonetool::chain {
 
 namespace {
 
@@ -51,20 +51,16 @@ bool has_picture(const QcFacts& facts) {
 
 // The picture, and from near the pixels that have a fault or may turn out to have one.
 void show_faults(Session& session, const Call& call, const sequence::QcRecord& record) {
-    if (!painter_of(session) || !has_picture(record.facts)) {
+    if (!painter_of(session) || !has_picture(record.facts))
         return;
-    }
     const sequence::FrameResult before = *result_of(session);
     result_of(session)->faults = sequence::picture_faults(record);
     sequence::PictureRequest request;
-    for (const sequence::Fault& fault : result_of(session)->faults) {
-        if (fault.position) {
+    for (const sequence::Fault& fault : result_of(session)->faults)
+        if (fault.position)
             request.spots.push_back(*fault.position);
-        }
-    }
-    for (const QcSpot& spike : record.facts.picture.spikes) {
+    for (const QcSpot& spike : record.facts.picture.spikes)
         request.spots.push_back({spike.x, spike.y});
-    }
     request.look.pixels = pixel_options(call);
     const OIIO::ImageBuf picture = shown_input(session, call, *call.images[0], request.look.pixels);
     request.test = &picture;
@@ -77,29 +73,23 @@ void run_qc(Session& session, const Call& call) {
     sequence::QcRecord record{{}, limits_of(call)};
     session.push(call.images[0]);
     session.produced = true;
-    if (!result_of(session)) {
+    if (!result_of(session))
         return; // the exposures of the shot are being measured
-    }
     std::vector<OIIO::ImageBuf> parts;
     std::vector<const OIIO::ImageBuf*> pointers;
-    for (const PartPtr& part : image.parts()) {
+    for (const PartPtr& part : image.parts())
         parts.push_back(part->color_source());
-    }
-    for (const OIIO::ImageBuf& part : parts) {
+    for (const OIIO::ImageBuf& part : parts)
         pointers.push_back(&part);
-    }
     QcOptions options{pixel_options(call), {}};
-    if (const auto groups = call.text("groups")) {
+    if (const auto groups = call.text("groups"))
         options.groups = split(*groups, ',');
-    }
     std::string why;
-    if (!ToneAlgo::qc_facts(record.facts, pointers, why, options)) {
+    if (!ToneAlgo::qc_facts(record.facts, pointers, why, options))
         throw CommandError("\"" + image.name() + "\": " + why);
-    }
     take_types(image, record.facts);
-    if (has_picture(record.facts) && !painter_of(session)) { // which looks at the picture itself
+    if (has_picture(record.facts) && !painter_of(session)) // which looks at the picture itself
         tell_encoding(session, call, image, image.part().header(), options.pixels);
-    }
     result_of(session)->qc = sequence::to_json(record);
     show_faults(session, call, record);
 }
@@ -109,9 +99,8 @@ std::vector<Modifier> modifiers() {
     all.push_back({"groups", "NAME,...", "light groups that add up to the picture (all)"});
     for (const sequence::QcRule& rule : sequence::qc_rules()) {
         std::string usual = severity_name(rule.severity);
-        if (rule.threshold) {
+        if (rule.threshold)
             usual = format_number(*rule.threshold) + "," + usual;
-        }
         all.push_back(
             {rule.code, rule.threshold ? "X,SEVERITY" : "SEVERITY",
              rule.help + (rule.threshold ? "; X: " + rule.measures : "") + " (" + usual + ")"});
@@ -129,4 +118,4 @@ std::vector<Command> qc_commands() {
          run_qc}};
 }
 
-} // namespace tonetool::measure
+} // namespace tonetool::chain

@@ -31,56 +31,47 @@ namespace {
 // Of the same file in another frame, or of the first image that was read.
 OIIO::ImageSpec missing_header(const Session& session) {
     OIIO::ImageSpec usual(1920, 1080, 4, OIIO::TypeHalf);
-    if (session.compat || session.first_header) {
+    if (session.compat || session.first_header)
         return session.first_header.value_or(usual);
-    }
     for (const std::string& name :
-         session.in_all_frames ? session.in_all_frames(session.flow.next - 1) : Strings{}) {
-        if (OIIO::Filesystem::is_regular(name)) {
+         session.in_all_frames ? session.in_all_frames(session.flow.next - 1) : Strings{})
+        if (OIIO::Filesystem::is_regular(name))
             return Image::open(name, session.input)->part().header();
-        }
-    }
     return usual;
 }
 
 ImagePtr open_or_substitute(Session& session, const std::string& filename) {
     const bool exists = OIIO::Filesystem::exists(filename);
-    if (session.compat && !exists && !session.input.config.extra_attribs.empty()) {
+    if (session.compat && !exists && !session.input.config.extra_attribs.empty())
         throw CommandError("Could not open file \"" + filename + "\"");
-    }
-    if (exists || (session.missing_file != "black" && session.missing_file != "checker")) {
+    if (exists || (session.missing_file != "black" && session.missing_file != "checker"))
         return Image::open(filename, session.input);
-    }
     const std::string missing = "File does not exist: \"" + filename + "\"";
-    if (session.compat) {
+    if (session.compat)
         session.error("read", missing, false);
-    } else {
+    else
         session.warning("read", missing + ", " + session.missing_file + " instead");
-    }
     return Image::placeholder(filename, missing_header(session), session.missing_file == "checker");
 }
 
 // From the colour space that the file's name or its metadata tell to the linear one.
 void convert_input(Session& session, const std::string& filename, bool unpremult) {
     std::string space = color_config(session).getColorSpaceFromFilepath(filename);
-    if (space.empty()) {
+    if (space.empty())
         space = session.stack.back()->part().header().get_string_attribute("oiio:ColorSpace");
-    }
-    if (!space.empty()) {
+    if (!space.empty())
         convert_current(session, space, linear_space(session), unpremult);
-    }
 }
 
 // What --info, --stats, ... ask for of a file that was just read.
 void inspect_if_asked(Session& session, const Image& image) {
-    if (session.verbose) {
+    if (session.verbose)
         session.print("Reading " + image.name());
-    }
     if (session.listing()) {
         Listing what = session.list;
         what.verbose = session.verbose || what.verbose;
         what.all_subimages = session.all_subimages;
-        session.out << files::listing_text(image, what);
+        session.out << listing_text(image, what);
         session.produced = true;
     }
 }
@@ -88,9 +79,8 @@ void inspect_if_asked(Session& session, const Image& image) {
 // A recipe's run has no other place to say it; an image that was made of one says it no more.
 void warn_as_the_recipe_did(Session& session, const Image& image) {
     const std::string said = image.part().header().get_string_attribute("tone:warnings");
-    if (!said.empty() && image.file_format() == "tone") {
+    if (!said.empty() && image.file_format() == "tone")
         session.warning("read", "\"" + image.name() + "\": " + said);
-    }
 }
 
 } // namespace
@@ -99,9 +89,8 @@ void push_file(Session& session, const std::string& filename) {
     ImagePtr image = open_or_substitute(session, filename);
     bool real = image->part().from_file();
     if (real) {
-        if (!session.first_header) {
+        if (!session.first_header)
             session.first_header = image->part().header();
-        }
         session.newest_input =
             std::max(session.newest_input, OIIO::Filesystem::last_write_time(filename));
     }
@@ -110,21 +99,18 @@ void push_file(Session& session, const std::string& filename) {
         warn_as_the_recipe_did(session, *image);
         inspect_if_asked(session, *image);
     }
-    if (session.autoorient) {
+    if (session.autoorient)
         run_command(session, "reorient", {});
-    }
-    if (session.autocc) {
+    if (session.autocc)
         convert_input(session, filename, session.autocc_unpremult);
-    }
 }
 
 void push_file_or_label(Session& session, const std::string& word) {
     auto labelled = session.labels.find(word);
-    if (labelled != session.labels.end()) {
+    if (labelled != session.labels.end())
         session.push(labelled->second);
-    } else {
+    else
         push_file(session, session.file(word));
-    }
 }
 
 namespace {
@@ -144,9 +130,8 @@ void run_input(Session& session, const Call& call) {
     int level = call.integer("info", {0, 2}).value_or(0);
     const ReadOptions usual = session.input;
     const bool autocc = session.autocc, unpremult = session.autocc_unpremult;
-    if (auto type = call.text("type")) {
-        session.input.type = files::parse_data_type(*type, session.compat).type;
-    }
+    if (auto type = call.text("type"))
+        session.input.type = parse_data_type(*type, session.compat).type;
     session.autocc = call.flag("autocc", autocc);
     session.autocc_unpremult = call.flag("unpremult", unpremult);
     {
@@ -157,9 +142,8 @@ void run_input(Session& session, const Call& call) {
     session.input = usual;
     session.autocc = autocc;
     session.autocc_unpremult = unpremult;
-    if (call.flag("now", false)) {
+    if (call.flag("now", false))
         session.stack.back()->part().pixels();
-    }
     if (auto list = call.text("ch")) {
         const Strings wanted = split(*list, ',');
         const Strings names = session.stack.back()->part().header().channelnames;
@@ -173,20 +157,19 @@ void run_input(Session& session, const Call& call) {
 void run_iconfig(Session& session, const Call& call) {
     const std::string type = call.text("type").value_or("");
     const std::string& value = call.argument(1);
-    if (!type.empty()) {
+    if (!type.empty())
         session.input.config.attribute(call.argument(0), OIIO::TypeDesc(type), value);
-    } else if (auto number = parse_integer(value)) {
+    else if (auto number = parse_integer(value))
         session.input.config.attribute(call.argument(0), *number);
-    } else {
+    else
         session.input.config.attribute(call.argument(0), value);
-    }
 }
 
 } // namespace
 
 std::vector<Command> read_commands() {
     return {
-        free_row(Group::Read, "i FILENAME", 0, any_number,
+        free_row(Group::Read, "i FILENAME", 0, kAnyNumber,
                  "Read an image (as a bare file name does)", run_input,
                  "ch=CHANLIST: keep these channels only, as --ch\n"
                  "info=0|1|2: print information about the file; 2: with its metadata\n"
@@ -200,9 +183,8 @@ std::vector<Command> read_commands() {
         free_row(Group::Read, "missingfile POLICY", 0, 0,
                  "What a file that is not there becomes: error, black or checker",
                  [](Session& session, const Call& call) {
-                     if (!session.compat) {
+                     if (!session.compat)
                          check_choice("POLICY", call.argument(0), {"error", "black", "checker"});
-                     }
                      session.missing_file = call.argument(0);
                  }),
     };

@@ -6,9 +6,8 @@ namespace tonetool::chain {
 namespace {
 
 void label(Session& session, const Call& call) {
-    if (call.argument(0).empty()) {
+    if (call.argument(0).empty())
         throw CommandError("empty label");
-    }
     session.labels[call.argument(0)] = call.images[0];
     session.push(call.images[0]);
 }
@@ -34,9 +33,8 @@ std::vector<Command> stack_commands() {
         free_row(Group::Stack, "label NAME", 1, 1,
                  "Label the current image: the bare word NAME pushes it again", label),
     };
-    for (Command& row : all) {
+    for (Command& row : all)
         row.postponable = false;
-    }
     return all;
 }
 

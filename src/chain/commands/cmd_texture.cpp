@@ -49,15 +49,14 @@ const std::vector<Setting>& settings_of_textures() {
 
 void add_setting(OIIO::ImageSpec& config, const Call& call, const Setting& setting) {
     std::string key = setting.keys.back();
-    for (auto each = setting.keys.rbegin(); each != setting.keys.rend(); ++each) {
+    for (auto each = setting.keys.rbegin(); each != setting.keys.rend(); ++each)
         key = call.has(*each) ? *each : key;
-    }
     if (setting.kind == 'i') {
         config.attribute(setting.name,
-                         call.integer(key, any_integer).value_or(int(setting.otherwise)));
+                         call.integer(key, kAnyInteger).value_or(int(setting.otherwise)));
     } else if (setting.kind == 'f') {
         config.attribute(setting.name,
-                         float(call.number(key, any_number_at_all).value_or(setting.otherwise)));
+                         float(call.number(key, kAnyNumberAtAll).value_or(setting.otherwise)));
     } else if (auto value = call.text(key)) {
         config.attribute(setting.name, *value);
     }
@@ -77,33 +76,27 @@ void set_tiles(OIIO::ImageSpec& config, Session& session, const Call& call,
 }
 
 void set_layout(OIIO::ImageSpec& config, const OutputSettings& output) {
-    if (output.type && output.type->bits > 0) {
+    if (output.type && output.type->bits > 0)
         config.attribute("oiio:BitsPerSample", output.type->bits);
-    }
-    if (!output.compression.empty()) {
+    if (!output.compression.empty())
         config.attribute("compression", output.compression);
-    }
-    if (output.quality > 0) {
+    if (output.quality > 0)
         config.attribute("CompressionQuality", output.quality);
-    }
-    if (!output.planarconfig.empty() && output.planarconfig != "default") {
+    if (!output.planarconfig.empty() && output.planarconfig != "default")
         config.attribute("planarconfig", output.planarconfig);
-    }
 }
 
 // What make_texture is to do.
 OIIO::ImageSpec texture_config(Session& session, const Call& call, const Image& image,
                                const OutputSettings& output) {
     OIIO::ImageSpec config;
-    for (const Setting& setting : settings_of_textures()) {
+    for (const Setting& setting : settings_of_textures())
         add_setting(config, call, setting);
-    }
-    const auto fov = call.number("fovcot", any_number_at_all);
-    if (fov && session.compat) {
+    const auto fov = call.number("fovcot", kAnyNumberAtAll);
+    if (fov && session.compat)
         session.warning(call.text(), "fovcot= has no effect, as in oiiotool");
-    } else if (fov) {
+    else if (fov)
         config.attribute("fovcot", float(*fov));
-    }
     const std::string wrap = call.text("wrap").value_or("black");
     config.attribute("wrapmodes",
                      call.text("swrap").value_or(wrap) + "," + call.text("twrap").value_or(wrap));
@@ -132,12 +125,10 @@ void save_texture(Session& session, const Call& call, const Image& image,
     std::string why;
     OIIO::ImageBuf cropped;
     const OIIO::ImageBuf& pixels =
-        files::texture_pixels(image.part().pixels(), filename, settings, session.compat, cropped);
+        texture_pixels(image.part().pixels(), filename, settings, session.compat, cropped);
     session.keep_pixels_of(filename);
-    if (!write_texture(mode, pixels, filename, texture_config(session, call, image, settings),
-                       why)) {
+    if (!write_texture(mode, pixels, filename, texture_config(session, call, image, settings), why))
         throw CommandError("Could not make texture: " + why, call.text());
-    }
 }
 
 // -otex and its like.
@@ -169,7 +160,7 @@ std::vector<Command> texture_commands() {
         "bumpformat=height|normal|auto: of a bump map\nuvslopes_scale=X: of its slopes";
     std::vector<Command> rows;
     for (const char* usage : {"otex FILENAME", "oenv FILENAME", "obump FILENAME"}) {
-        rows.push_back(free_row(Group::Write, usage, 0, any_number,
+        rows.push_back(free_row(Group::Write, usage, 0, kAnyNumber,
                                 usage[1] == 't'   ? "Write the current image as a texture"
                                 : usage[1] == 'e' ? "Write it as an environment map"
                                                   : "Write a bump map with its slopes",

@@ -8,7 +8,7 @@
 #include "chain/commands/tone_args.h"
 #include "text/error.h"
 
-namespace tonetool::measure {
+namespace tonetool::chain {
 
 namespace {
 
@@ -27,9 +27,8 @@ void run_calibrate(Session& session, const Call& call) {
     OIIO::ImageBuf source = color_input(session, call, image, pixels);
     CalibrationSummary found;
     OIIO::ImageBuf result;
-    if (!ToneAlgo::calibrate(result, source, calibration_options(call), pixels, &found)) {
+    if (!ToneAlgo::calibrate(result, source, calibration_options(call), pixels, &found))
         throw CommandError(result.geterror());
-    }
     Lines lines(call.row().label());
     add_calibration(lines, found);
     session.report(lines.text);
@@ -44,9 +43,8 @@ TonemapOptions tonemap_options(const Session& session, const Call& call) {
     options.curve = curve_options(call, "curve");
     options.calibration = calibration_options(call);
     options.calibration.white_percentile = white_percentile(call);
-    if (options.view && (call.has("encode") || call.has("primaries") || call.has("clamp"))) {
+    if (options.view && (call.has("encode") || call.has("primaries") || call.has("clamp")))
         throw CommandError("encode=, primaries= and clamp= are of tone curves: a view has its own");
-    }
     options.primaries = call.choice("primaries", {"rec709", "image"}).value_or("rec709");
     options.encode = call.choice("encode", ToneAlgo::display_encodings()).value_or(options.encode);
     options.clamp = call.flag("clamp", true);
@@ -64,19 +62,16 @@ void run_tonemap(Session& session, const Call& call) {
     OIIO::ImageBuf source = color_input(session, call, image, checked);
     TonemapSummary found;
     OIIO::ImageBuf result;
-    if (!ToneAlgo::tonemap(result, source, options, &found)) {
+    if (!ToneAlgo::tonemap(result, source, options, &found))
         throw CommandError(result.geterror());
-    }
     Lines lines(label);
     lines.add("curve", found.curve);
-    for (const auto& [name, value] : found.parameters) {
+    for (const auto& [name, value] : found.parameters)
         lines.add(name, value);
-    }
     add_calibration(lines, found.calibration);
     session.report(lines.text);
-    for (const std::string& warning : found.warnings) {
+    for (const std::string& warning : found.warnings)
         session.warning(label, image.name() + ": " + warning);
-    }
     session.push(Image::derived(image, std::move(result)));
 }
 
@@ -89,14 +84,12 @@ void print_curve(Session& session, const ToneCurveInfo& curve) {
     }
     if (!curve.coefficients.empty()) {
         Strings numbers;
-        for (double k : curve.coefficients) {
+        for (double k : curve.coefficients)
             numbers.push_back(format_number(k));
-        }
         session.print("    coeffs=" + join(numbers, ","));
     }
-    if (!curve.note.empty()) {
+    if (!curve.note.empty())
         session.print("    " + curve.note);
-    }
     session.print("    from: " + curve.source);
 }
 
@@ -113,9 +106,8 @@ void print_table(Session& session) {
             curve.name = name;
             std::vector<double> light;
             std::string why;
-            if (!ToneAlgo::tone_curve_response(light, curve, {std::exp2(stops)}, why)) {
+            if (!ToneAlgo::tone_curve_response(light, curve, {std::exp2(stops)}, why))
                 throw CommandError(why);
-            }
             cells.push_back(format_number(std::min(1.0, std::max(0.0, light[0]))));
         }
         session.print(join(cells, ","));
@@ -123,13 +115,11 @@ void print_table(Session& session) {
 }
 
 void run_tonecurves(Session& session, const Call& call) {
-    if (call.flag("table", false)) {
+    if (call.flag("table", false))
         print_table(session);
-    } else {
-        for (const ToneCurveInfo& curve : ToneAlgo::tone_curves()) {
+    else
+        for (const ToneCurveInfo& curve : ToneAlgo::tone_curves())
             print_curve(session, curve);
-        }
-    }
     session.produced = true;
 }
 
@@ -139,9 +129,8 @@ LutOptions lut_options(const Session& session, const Call& call) {
     options.curve = curve_options(call, "curve");
     options.view = view_options(session, call);
     options.from = call.text("from").value_or("");
-    if (options.view && call.has("encode")) {
+    if (options.view && call.has("encode"))
         throw CommandError("encode= is of tone curves: a view has its own");
-    }
     options.encode = call.choice("encode", ToneAlgo::display_encodings()).value_or(options.encode);
     options.shaper = call.choice("shaper", ToneAlgo::lut_shapers()).value_or(options.shaper);
     options.min = call.number("min", {-24, 0}).value_or(options.min);
@@ -155,12 +144,10 @@ void run_exportlut(Session& session, const Call& call) {
     std::string why;
     const auto options = lut_options(session, call);
     session.produced = true;
-    if (session.dry_run) {
+    if (session.dry_run)
         return;
-    }
-    if (!ToneAlgo::export_lut(call.argument(0), options, &made, why)) {
+    if (!ToneAlgo::export_lut(call.argument(0), options, &made, why))
         throw CommandError(why);
-    }
     Lines lines(call.row().label());
     lines.add("file", call.argument(0) + ", " + made.structure);
     lines.add("input", made.input);
@@ -227,4 +214,4 @@ std::vector<Command> tone_commands() {
     };
 }
 
-} // namespace tonetool::measure
+} // namespace tonetool::chain

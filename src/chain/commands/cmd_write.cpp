@@ -30,36 +30,32 @@ void take_named_type(Session& session, const Call& call, const std::string& name
         session.warning(call.text(), "\"" + name + "\" has no effect here, as in oiiotool");
         return;
     }
-    settings.type = files::parse_data_type(name, session.compat);
+    settings.type = parse_data_type(name, session.compat);
     settings.type_of_channel.clear();
 }
 
 OutputSettings settings_of(Session& session, const Call& call) {
     OutputSettings settings = session.output;
-    if (auto name = call.has("type") ? call.text("type") : call.text("datatype")) {
+    if (auto name = call.has("type") ? call.text("type") : call.text("datatype"))
         take_named_type(session, call, *name, settings);
-    }
     if (auto bits = call.integer("bits", {1, 32})) {
-        if (!settings.type && !session.compat) {
+        if (!settings.type && !session.compat)
             settings.type = NamedType{OIIO::TypeUInt16, 0};
-        } else if (!settings.type) {
+        else if (!settings.type)
             session.warning(call.text(), "bits= has no effect without datatype=, as in oiiotool");
-        }
-        if (settings.type) {
+        if (settings.type)
             settings.type->bits = *bits;
-        }
     }
     const auto compression = call.text("compression");
     if (compression && session.compat) {
         session.warning(call.text(),
                         "compression= has no effect, as in oiiotool (--compression has)");
     } else if (compression) {
-        files::check_compression(*compression);
+        check_compression(*compression);
         settings.compression = *compression;
     }
-    if (auto tile = call.text("tile")) {
+    if (auto tile = call.text("tile"))
         settings.set_tile(*tile);
-    }
     settings.scanline = call.flag("scanline", settings.scanline);
     settings.dither = call.flag("dither", settings.dither);
     settings.autocrop = call.flag("autocrop", settings.autocrop);
@@ -77,9 +73,8 @@ void take_type_of(const std::string& space, Session& session, const Call& call,
     int bits = 0;
     const auto implied = color_config(session).getColorSpaceDataType(space, &bits);
     const auto& asked = session.output.type;
-    if (implied.basetype == OIIO::TypeDesc::UNKNOWN) {
+    if (implied.basetype == OIIO::TypeDesc::UNKNOWN)
         return;
-    }
     if (asked && asked->type != implied) {
         session.warning(call.text(),
                         OIIO::Strutil::fmt::format(
@@ -115,12 +110,10 @@ void convert_output(Session& session, const Call& call, const std::string& filen
     const std::string linear = linear_space(session);
     const Part& part = session.stack.back()->part();
     std::string space = color_config(session).getColorSpaceFromFilepath(filename);
-    if (session.compat && !space.empty()) {
+    if (session.compat && !space.empty())
         take_type_of(space, session, call, filename, settings);
-    }
-    if (space.empty()) {
+    if (space.empty())
         space = space_of_format(filename);
-    }
     if (!space.empty()) {
         convert_current(
             session, part.header().get_string_attribute("oiio:ColorSpace", linear), space,
@@ -143,26 +136,22 @@ bool keeps_old(Session& session, const Call& call, const std::string& filename) 
 void write_one(Session& session, const Call& call, const ImagePtr& image,
                const std::string& filename, const Save& save) {
     session.claim(filename);
-    if (keeps_old(session, call, filename)) {
+    if (keeps_old(session, call, filename))
         return;
-    }
     if (session.verbose) {
         session.out << (session.debug ? "Output: " + filename + "\n" : "");
         session.print("Writing " + filename);
     }
     session.wrote = image->written = true;
-    if (session.dry_run) {
+    if (session.dry_run)
         return;
-    }
     session.note_format(*image);
     OutputSettings settings = settings_of(session, call);
     session.push(image);
-    if (call.flag("autocc", session.autocc)) {
+    if (call.flag("autocc", session.autocc))
         convert_output(session, call, filename, settings);
-    }
-    if (settings.autotrim) {
+    if (settings.autotrim)
         run_command(session, "trim", {});
-    }
     save(session, call, *session.stack.back(), filename, settings);
     session.wrote = true;
     session.stack.pop_back();
@@ -170,18 +159,17 @@ void write_one(Session& session, const Call& call, const ImagePtr& image,
 
 void save_image(Session& session, const Call& call, const Image& image, const std::string& filename,
                 const OutputSettings& settings) {
-    files::write_output(image, filename, settings,
-                        session.writer(session.compat ? call.text() : call.row().label()),
-                        [&] { session.keep_pixels_of(filename); });
+    write_output(image, filename, settings,
+                 session.writer(session.compat ? call.text() : call.row().label()),
+                 [&] { session.keep_pixels_of(filename); });
 }
 
 } // namespace
 
 void write_to_files(Session& session, const Call& call, const Save& save) {
     if (session.stack.empty()) {
-        if (!session.compat) {
+        if (!session.compat)
             throw CommandError("needs 1 image(s), the stack has 0");
-        }
         session.warning(call.text(),
                         call.argument(0) + " did not have any current image to output.");
         return;
@@ -201,7 +189,7 @@ void write_to_files(Session& session, const Call& call, const Save& save) {
 }
 
 std::string output_modifiers() {
-    const std::string types = join(files::data_type_names(), "|");
+    const std::string types = join(data_type_names(), "|");
     return "datatype=TYPE: data type of this file (" + types + ")\n" +
            "type=TYPE: the same\n"
            "bits=N: of each channel\n"
@@ -230,18 +218,18 @@ void run_data_type(Session& session, const Call& call) {
 }
 
 void run_compression(Session& session, const Call& call) {
-    files::check_compression(call.argument(0));
+    check_compression(call.argument(0));
     session.output.compression = call.argument(0);
 }
 
 Command output_row() {
-    return free_row(Group::Write, "o FILENAME", 0, any_number, "Write the current image",
+    return free_row(Group::Write, "o FILENAME", 0, kAnyNumber, "Write the current image",
                     run_output, output_modifiers());
 }
 
 // What holds for the outputs that follow.
 std::vector<Command> output_setting_rows() {
-    const std::string types = join(files::data_type_names(), "|");
+    const std::string types = join(data_type_names(), "|");
     const auto set = [](const char* usage, const std::string& help, Run run) {
         return free_row(Group::Write, usage, 0, 0, help, std::move(run));
     };

@@ -6,16 +6,15 @@
 #include "text/error.h"
 #include "tonetool/color_tags.h"
 
-namespace tonetool::measure {
+namespace tonetool::chain {
 
 namespace {
 
 void check_header(const Image& image, const OIIO::ImageSpec& header, const PixelOptions& options) {
     ColorChoice choice;
     std::string why;
-    if (!ToneAlgo::find_color(header, options, choice, why)) {
+    if (!ToneAlgo::find_color(header, options, choice, why))
         throw CommandError("\"" + image.name() + "\": " + why);
-    }
 }
 
 void refuse_all(const Image& image) {
@@ -39,9 +38,8 @@ std::string left_out(const Image& image, const PartChoice& choice) {
 
 std::vector<OIIO::ImageSpec> headers_of(const Image& image) {
     std::vector<OIIO::ImageSpec> headers;
-    for (const PartPtr& part : image.parts()) {
+    for (const PartPtr& part : image.parts())
         headers.push_back(part->header());
-    }
     return headers;
 }
 
@@ -84,23 +82,19 @@ void check_nothing_left_out(const Image& image) {
 Part& color_part(Session& session, const Call& call, const Image& image,
                  const PixelOptions& options) {
     const bool compares = call.row().group == Group::Compare;
-    if (compares && session.all_subimages && options.layer.empty()) {
+    if (compares && session.all_subimages && options.layer.empty())
         refuse_all(image);
-    }
     const bool judged = compares && (call.has("fail") || call.has("warn") || result_of(session));
-    if (judged) {
+    if (judged)
         check_nothing_left_out(image);
-    }
     PartChoice choice;
     std::string why;
-    if (!ToneAlgo::find_part(headers_of(image), options, choice, why)) {
+    if (!ToneAlgo::find_part(headers_of(image), options, choice, why))
         throw CommandError("\"" + image.name() + "\": " + why);
-    }
     if (!choice.left_out.empty()) {
         const std::string text = left_out(image, choice);
-        if (judged) {
+        if (judged)
             throw CommandError(text);
-        }
         session.warning(call.row().label(), text);
     }
     Part& part = image.part(size_t(choice.part));
@@ -117,9 +111,8 @@ Part& checked_part(Session& session, const Call& call, const Image& image,
                    const PixelOptions& options) {
     Part& part = color_part(session, call, image, options);
     OIIO::ImageSpec header = part.header();
-    if (part.integer_encoded()) {
+    if (part.integer_encoded())
         header.format = part.format().value_or(DataFormat{OIIO::TypeUInt8, {}, 0}).type;
-    }
     check_header(image, header, options);
     // A tag must be a known one also where the library would take an integer file's for sRGB.
     if (header.find_attribute("oiio:ColorSpace") && header.format != OIIO::TypeFloat) {
@@ -140,4 +133,4 @@ OIIO::ImageBuf color_source(Session& session, const Call& call, const Image& ima
     return checked_part(session, call, image, options).color_source();
 }
 
-} // namespace tonetool::measure
+} // namespace tonetool::chain

@@ -4,7 +4,7 @@
 #include "chain/commands/commands.h"
 #include "tonetool/parts.h"
 
-namespace tonetool::measure {
+namespace tonetool::chain {
 
 /// The part of an image that a command looks at: that of the layer, the view or the name in the
 /// options, else the beauty. Where others have a picture, too, that nobody looks at, this is an
@@ -39,4 +39,4 @@ OIIO::ImageBuf color_input(Session& session, const Call& call, const Image& imag
 OIIO::ImageBuf color_source(Session& session, const Call& call, const Image& image,
                             const PixelOptions& options);
 
-} // namespace tonetool::measure
+} // namespace tonetool::chain

@@ -2,7 +2,7 @@
 
 #include <iterator>
 
-namespace tonetool::measure {
+namespace tonetool::chain {
 
 std::vector<Command> commands() {
     std::vector<Command> all = diff_commands();
@@ -16,4 +16,4 @@ std::vector<Command> commands() {
     return all;
 }
 
-} // namespace tonetool::measure
+} // namespace tonetool::chain

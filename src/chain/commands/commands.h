@@ -6,9 +6,7 @@
 #include "chain/session/call.h"
 #include "chain/session/session.h"
 
-namespace tonetool::measure {
-
-using namespace chain;
+namespace tonetool::chain {
 
 std::vector<Command> compare_commands();
 std::vector<Command> diff_commands();
@@ -22,4 +20,4 @@ std::vector<Command> memory_commands();
 /// All of them.
 std::vector<Command> commands();
 
-} // namespace tonetool::measure
+} // namespace tonetool::chain

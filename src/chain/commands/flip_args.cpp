@@ -7,12 +7,12 @@
 #include "chain/commands/tone_args.h"
 #include "text/error.h"
 
-namespace tonetool::measure {
+namespace tonetool::chain {
 
 namespace {
 
-const Range stops_range{-1000, 1000};
-const Range luminance_range{1e-30, 1e30};
+const Range kStopsRange{-1000, 1000};
+const Range kLuminanceRange{1e-30, 1e30};
 
 std::string choices(const Strings& names) {
     return join(names, "|");
@@ -21,9 +21,8 @@ std::string choices(const Strings& names) {
 void read_size(const Call& call, PairOptions& options) {
     bool resize = call.flag("resize", false);
     bool crop = call.flag("crop", false);
-    if (resize && crop) {
+    if (resize && crop)
         throw CommandError("resize=1 and crop=1 exclude each other (valid: one of them)");
-    }
     options.size = resize ? SizePolicy::Resize : (crop ? SizePolicy::Crop : SizePolicy::Match);
 }
 
@@ -31,9 +30,8 @@ void read_screen(const Call& call, FlipOptions& options) {
     auto distance = call.number("distance", {1e-6, 1e6});
     auto width = call.number("width", {1e-6, 1e6});
     auto pixels = call.number("pixels", {1, 1e7});
-    if (options.ppd && (distance || width || pixels)) {
+    if (options.ppd && (distance || width || pixels))
         throw CommandError("ppd= goes without distance=, width= and pixels= (valid: either)");
-    }
     options.distance = distance.value_or(options.distance);
     options.width = width.value_or(options.width);
     options.pixels_across = pixels.value_or(options.pixels_across);
@@ -41,8 +39,8 @@ void read_screen(const Call& call, FlipOptions& options) {
 
 template <class Options>
 void read_exposures(const Call& call, Options& options, double least = 1) {
-    options.start_exposure = call.number("startExposure", stops_range);
-    options.stop_exposure = call.number("stopExposure", stops_range);
+    options.start_exposure = call.number("startExposure", kStopsRange);
+    options.stop_exposure = call.number("stopExposure", kStopsRange);
     if (options.start_exposure && options.stop_exposure &&
         *options.start_exposure > *options.stop_exposure) {
         throw CommandError("startExposure " + *call.text("startExposure") +
@@ -62,13 +60,11 @@ public:
     Limits read() {
         (void)m_call.flag("print", true);
         const auto quantity = m_call.text("quantity");
-        if (quantity && !m_call.has("fail") && !m_call.has("warn")) {
+        if (quantity && !m_call.has("fail") && !m_call.has("warn"))
             throw CommandError("quantity= needs fail= or warn=");
-        }
         m_default = quantity ? resolved(*quantity) : m_measures.names.front();
-        if (m_call.has("above")) {
+        if (m_call.has("above"))
             (void)resolved("above");
-        }
         read_list("fail", &Limit::fail);
         read_list("warn", &Limit::warn);
         if (quantity && !m_used_default) {
@@ -82,9 +78,8 @@ private:
     using Member = std::optional<double> Limit::*;
 
     void read_list(const std::string& key, Member member) {
-        if (!m_call.has(key)) {
+        if (!m_call.has(key))
             return;
-        }
         for (const std::string& word : split(*m_call.text(key), ',')) {
             const size_t equals = word.find('=');
             const bool named = equals != std::string::npos;
@@ -132,9 +127,8 @@ private:
     // The name that the summary has for it.
     std::string resolved(const std::string& name) {
         const auto& names = m_measures.names;
-        if (std::find(names.begin(), names.end(), name) != names.end()) {
+        if (std::find(names.begin(), names.end(), name) != names.end())
             return name;
-        }
         const auto known = !m_measures.map ? std::nullopt
                            : name == above ? std::optional<std::string>(above + error_above())
                                            : ToneAlgo::flip_quantity_name(name);
@@ -152,9 +146,8 @@ private:
 
     Strings listed() const {
         Strings names = m_measures.names;
-        if (m_measures.map) {
+        if (m_measures.map)
             names.insert(names.end(), {"pNN", "above"});
-        }
         return names;
     }
 
@@ -174,11 +167,9 @@ private:
     }
 
     Limit& limit_of(const std::string& quantity) {
-        for (Limit& limit : m_limits) {
-            if (limit.quantity == quantity) {
+        for (Limit& limit : m_limits)
+            if (limit.quantity == quantity)
                 return limit;
-            }
-        }
         m_limits.push_back({quantity, {}, {}});
         return m_limits.back();
     }
@@ -252,9 +243,8 @@ std::vector<Modifier> threshold_modifiers(const Measures& measures, const std::s
 
 std::vector<Modifier> concatenated(const std::vector<std::vector<Modifier>>& lists) {
     std::vector<Modifier> all;
-    for (const std::vector<Modifier>& list : lists) {
+    for (const std::vector<Modifier>& list : lists)
         all.insert(all.end(), list.begin(), list.end());
-    }
     return all;
 }
 
@@ -282,9 +272,8 @@ void read_flip_options(const Session& session, const Call& call, bool screen,
                        FlipOptions& options) {
     read_pair_options(session, call, options);
     options.ppd = call.number("ppd", {1, 1000});
-    if (screen) {
+    if (screen)
         read_screen(call, options);
-    }
 }
 
 void read_hdr_options(const Session& session, const Call& call, HdrFlipOptions& options) {
@@ -296,12 +285,11 @@ void read_hdr_options(const Session& session, const Call& call, HdrFlipOptions& 
         call.choice("encoding", {"srgb", "gamma2.2", "rec1886", "gamma2.6", "linear"}).value_or("");
     options.peak = call.number("peak", {1, 10000});
     options.exact = call.flag("exact", false);
-    if (!options.view && (call.has("encoding") || call.has("peak") || call.has("exact"))) {
+    if (!options.view && (call.has("encoding") || call.has("peak") || call.has("exact")))
         throw CommandError("encoding=, peak= and exact= need display= or view=");
-    }
     read_exposures(call, options);
-    options.max_luminance = call.number("maxluminance", luminance_range);
-    options.median_luminance = call.number("medianluminance", luminance_range);
+    options.max_luminance = call.number("maxluminance", kLuminanceRange);
+    options.median_luminance = call.number("medianluminance", kLuminanceRange);
 }
 
 Limits limits_of(const Call& call, const Measures& measures, Strings& pooled) {
@@ -325,9 +313,8 @@ ErrorOptions error_options(const Session& session, const Call& call) {
     ErrorOptions options;
     read_pair_options(session, call, options);
     options.metric = call.choice("metric", ToneAlgo::error_metrics()).value_or("");
-    if (options.metric.empty()) {
+    if (options.metric.empty())
         throw CommandError("needs metric= (valid: " + join(ToneAlgo::error_metrics(), ", ") + ")");
-    }
     const std::pair<const char*, Strings> keys[] = {{"eps", {"smape", "rmae", "relmse"}},
                                                     {"peak", {"psnr"}},
                                                     {"startExposure", {"mpsnr"}},
@@ -372,9 +359,8 @@ HdrFlipOptions flipdiff_options(const Session& session, const Call& call) {
     options.curve.name =
         call.choice("tonemapper", ToneAlgo::flip_tonemappers()).value_or(options.curve.name);
     read_exposures(call, options, 0);
-    if (options.num_exposures == 0) {
+    if (options.num_exposures == 0)
         options.num_exposures.reset();
-    }
     double maximum = call.number("maxluminance", {-1e30, 1e30}).value_or(2.0);
     double median = call.number("medianluminance", {-1e30, 1e30}).value_or(0.18);
     if (maximum > 0) {
@@ -384,4 +370,4 @@ HdrFlipOptions flipdiff_options(const Session& session, const Call& call) {
     return options;
 }
 
-} // namespace tonetool::measure
+} // namespace tonetool::chain

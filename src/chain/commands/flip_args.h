@@ -9,7 +9,7 @@
 #include "chain/commands/commands.h"
 #include "tonetool/tonetool.h"
 
-namespace tonetool::measure {
+namespace tonetool::chain {
 
 /// When a quantity of the summary fails or warns.
 struct Limit {
@@ -63,4 +63,4 @@ ErrorOptions error_options(const Session& session, const Call& call);
 std::vector<Modifier> flipdiff_modifiers();
 HdrFlipOptions flipdiff_options(const Session& session, const Call& call);
 
-} // namespace tonetool::measure
+} // namespace tonetool::chain

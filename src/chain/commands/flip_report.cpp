@@ -3,7 +3,7 @@
 #include "chain/commands/check_part.h"
 #include "text/error.h"
 
-namespace tonetool::measure {
+namespace tonetool::chain {
 
 namespace {
 
@@ -25,14 +25,12 @@ void add_tone(Lines& lines, const FlipSummary& summary) {
     lines.add("tonemapper", summary.tonemapper);
     if (summary.tonemapper == "coeffs") {
         Strings numbers;
-        for (double k : summary.coeffs) {
+        for (double k : summary.coeffs)
             numbers.push_back(format_number(k));
-        }
         lines.add("coeffs", join(numbers, ","));
     }
-    for (const auto& [name, value] : summary.parameters) {
+    for (const auto& [name, value] : summary.parameters)
         lines.add("curve-" + name, value);
-    }
     if (summary.baked) {
         lines.add("bake-error", "max " + format_number(summary.bake_error_max) + " mean " +
                                     format_number(summary.bake_error_mean));
@@ -61,9 +59,8 @@ void add_pool(Lines& lines, const FlipPool& pool) {
                                             : "";
         lines.add(name, value + where);
     }
-    for (const auto& [name, value] : pool.further) {
+    for (const auto& [name, value] : pool.further)
         lines.add(name, value);
-    }
 }
 
 void add_pair(Lines& lines, const PairSummary& summary, const std::string& reference,
@@ -105,11 +102,10 @@ struct Sentences {
             (holds(threshold, *threshold.fail) ? passed : failed)
                 .push_back(compared(threshold, *threshold.fail));
         }
-        if (threshold.warn && !holds(threshold, *threshold.warn)) {
+        if (threshold.warn && !holds(threshold, *threshold.warn))
             warned.push_back(compared(threshold, *threshold.warn));
-        } else if (threshold.warn && !threshold.fail) {
+        else if (threshold.warn && !threshold.fail)
             passed.push_back(compared(threshold, *threshold.warn));
-        }
     }
 };
 
@@ -145,12 +141,10 @@ std::string summary_text(const std::string& label, const TmqiSummary& summary,
     Lines lines(label);
     add_side(lines, "hdr", first, summary.hdr);
     add_side(lines, "ldr", second, summary.ldr);
-    for (const std::string& name : ToneAlgo::tmqi_quantities()) {
+    for (const std::string& name : ToneAlgo::tmqi_quantities())
         lines.add(name, ToneAlgo::tmqi_quantity(summary.score, name).value());
-    }
-    for (size_t i = 0; i < summary.score.scales.size(); ++i) {
+    for (size_t i = 0; i < summary.score.scales.size(); ++i)
         lines.add("S" + std::to_string(i + 1), summary.score.scales[i]);
-    }
     lines.add("ldr-mean", summary.score.mean);
     lines.add("ldr-deviation", summary.score.deviation);
     return lines.text;
@@ -168,9 +162,8 @@ void record(Session& session, const Call& call, sequence::Measurement measuremen
 bool judge(Session& session, const Call& call, const Limits& limits,
            const std::function<Measured(const std::string& quantity)>& measure,
            const std::optional<sequence::Position>& worst, size_t test) {
-    if (limits.empty()) {
+    if (limits.empty())
         return false;
-    }
     Sentences said;
     std::vector<sequence::Threshold> thresholds;
     for (const Limit& limit : limits) {
@@ -179,16 +172,14 @@ bool judge(Session& session, const Call& call, const Limits& limits,
             {limit.quantity, measured.value, measured.higher_is_better, limit.fail, limit.warn});
         said.add(thresholds.back());
     }
-    if (result_of(session)) {
+    if (result_of(session))
         result_of(session)->measurements.back().thresholds = thresholds;
-    }
     const std::string label = call.row().label();
     const std::string where =
         worst ? ", worst pixel " + std::to_string(worst->x) + "," + std::to_string(worst->y) : "";
     const std::string file = " (" + call.images.at(test + 1)->name() + ")";
-    if (!said.warned.empty()) {
+    if (!said.warned.empty())
         session.warning(label, join(said.warned, ", ") + where + file);
-    }
     if (!said.failed.empty()) {
         ++session.failures;
         session.print(label + ": FAIL " + join(said.failed, ", ") + where + file);
@@ -200,4 +191,4 @@ bool judge(Session& session, const Call& call, const Limits& limits,
     return !said.failed.empty();
 }
 
-} // namespace tonetool::measure
+} // namespace tonetool::chain

@@ -9,7 +9,7 @@
 #include "chain/commands/flip_args.h"
 #include "sequence/results/results.h"
 
-namespace tonetool::measure {
+namespace tonetool::chain {
 
 // The summary, one fact a line, each with "LABEL: " before it. `first` and `second` are the names
 // of the images.
@@ -37,4 +37,4 @@ bool judge(Session& session, const Call& call, const Limits& limits,
            const std::function<Measured(const std::string& quantity)>& measure,
            const std::optional<sequence::Position>& worst, size_t test = 0);
 
-} // namespace tonetool::measure
+} // namespace tonetool::chain

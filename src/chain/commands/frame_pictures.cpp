@@ -6,7 +6,7 @@
 #include "chain/commands/color_input.h"
 #include "sequence/report/report_store.h"
 
-namespace tonetool::measure {
+namespace tonetool::chain {
 
 namespace {
 
@@ -18,33 +18,29 @@ bool is_read(const OIIO::ImageBuf* image) {
 
 uint64_t shown_bytes(const Session& session, const Call& call) {
     uint64_t bytes = 0;
-    for (const ImagePtr& image : call.images) {
+    for (const ImagePtr& image : call.images)
         bytes += image->part().header().image_pixels() * 4 * sizeof(float);
-    }
     const bool fits = session.memory == 0 || bytes <= session.memory / 3;
     return painter_of(session) && fits ? bytes : 0;
 }
 
 OIIO::ImageBuf shown_input(Session& session, const Call& call, const Image& image,
                            const PixelOptions& options) {
-    if (shown_bytes(session, call) == 0) {
+    if (shown_bytes(session, call) == 0)
         return color_source(session, call, image, options);
-    }
     Part& part = checked_part(session, call, image, options);
     ColorChoice choice;
     std::string why;
-    if (!ToneAlgo::find_color(part.header(), options, choice, why)) {
+    if (!ToneAlgo::find_color(part.header(), options, choice, why))
         return part.color_view();
-    }
     const int alpha = choice.a < 0 ? choice.r : choice.a;
     return part.color_view(std::min({choice.r, choice.g, choice.b, alpha}),
                            std::max({choice.r, choice.g, choice.b, alpha}) + 1);
 }
 
 void show(Session& session, const Call& call, sequence::PictureRequest request) {
-    if (!painter_of(session)) {
+    if (!painter_of(session))
         return;
-    }
     sequence::FramePainter& painter = *painter_of(session);
     const std::string nothing = call.row().label() + ": no pictures for the report: ";
     if (!is_read(request.reference) || !is_read(request.test)) {
@@ -54,11 +50,9 @@ void show(Session& session, const Call& call, sequence::PictureRequest request) 
     sequence::FrameResult so_far = *result_of(session);
     sequence::judge(so_far);
     request.full = painter.store.wants_full(so_far) && painter.wants(request);
-    for (const sequence::Measurement& measured : so_far.measurements) {
-        if (measured.worst && request.full) {
+    for (const sequence::Measurement& measured : so_far.measurements)
+        if (measured.worst && request.full)
             request.spots.push_back(*measured.worst);
-        }
-    }
     try {
         painter.take(sequence::draw_pictures(request), request);
     } catch (const std::exception& problem) {
@@ -66,4 +60,4 @@ void show(Session& session, const Call& call, sequence::PictureRequest request) 
     }
 }
 
-} // namespace tonetool::measure
+} // namespace tonetool::chain

@@ -6,7 +6,7 @@
 #include "chain/commands/commands.h"
 #include "sequence/report/report_pictures.h"
 
-namespace tonetool::measure {
+namespace tonetool::chain {
 
 /// What the images of a command take while the report looks at them; 0 without a report, and where
 /// that is more than a third of the frame's memory.
@@ -22,4 +22,4 @@ OIIO::ImageBuf shown_input(Session& session, const Call& call, const Image& imag
 /// added to them. What cannot be drawn is said and changes nothing of the result.
 void show(Session& session, const Call& call, sequence::PictureRequest request);
 
-} // namespace tonetool::measure
+} // namespace tonetool::chain

@@ -2,7 +2,7 @@
 
 #include "text/error.h"
 
-namespace tonetool::measure {
+namespace tonetool::chain {
 
 std::vector<Modifier> light_modifiers() {
     return {{"lights", "FILE", "table of lights, .csv or .json"},
@@ -19,13 +19,11 @@ LightOptions light_options(const Call& call) {
     options.table = call.text("lights").value_or("");
     options.unit = call.text("lightunit").value_or(options.unit);
     options.index = call.text("index").value_or(options.index);
-    if (auto groups = call.text("groups")) {
+    if (auto groups = call.text("groups"))
         options.groups = split(*groups, ',');
-    }
-    if (call.has("lightunit") && options.table.empty()) {
+    if (call.has("lightunit") && options.table.empty())
         throw CommandError("lightunit= needs a table of lights (lights=)");
-    }
     return options;
 }
 
-} // namespace tonetool::measure
+} // namespace tonetool::chain

@@ -6,10 +6,10 @@
 #include "chain/commands/commands.h"
 #include "tonetool/lights.h"
 
-namespace tonetool::measure {
+namespace tonetool::chain {
 
 /// lights=, lightunit=, index=, groups=.
 std::vector<Modifier> light_modifiers();
 LightOptions light_options(const Call& call);
 
-} // namespace tonetool::measure
+} // namespace tonetool::chain

@@ -6,7 +6,7 @@
 #include "text/error.h"
 #include "tonetool/luminance.h"
 
-namespace tonetool::measure {
+namespace tonetool::chain {
 
 namespace {
 
@@ -15,9 +15,8 @@ void measure_sample(Session& session, const Call& call, const PixelOptions& opti
     const OIIO::ImageBuf pixels = color_source(session, call, reference, options);
     LuminanceStats stats;
     std::string why;
-    if (!ToneAlgo::luminance_stats(stats, pixels, why, options)) {
+    if (!ToneAlgo::luminance_stats(stats, pixels, why, options))
         throw CommandError(why);
-    }
     session.check->sample->reference = reference.name();
     session.check->sample->max_luminance = stats.max;
     session.check->sample->median_luminance = stats.median > 0 ? stats.median : stats.median_lit;
@@ -25,12 +24,10 @@ void measure_sample(Session& session, const Call& call, const PixelOptions& opti
 }
 
 sequence::ShotExposures range_of(const Session& session, const std::string& from) {
-    if (session.check && session.check->shot) {
+    if (session.check && session.check->shot)
         return *session.check->shot;
-    }
-    if (from == "shot") {
+    if (from == "shot")
         throw CommandError("exposures=shot has no shot here (valid: frame, FILE)");
-    }
     return sequence::read_exposures(from);
 }
 
@@ -38,16 +35,14 @@ sequence::ShotExposures range_of(const Session& session, const std::string& from
 
 void read_shot_exposures(Session& session, const Call& call, HdrFlipOptions& options) {
     const std::string from = call.text("exposures").value_or("frame");
-    if (from == "frame") {
+    if (from == "frame")
         return;
-    }
     if (options.max_luminance || options.median_luminance) {
         throw CommandError("exposures=" + from +
                            " goes without maxluminance= and medianluminance= (valid: either)");
     }
-    if (from == "shot" && session.check && session.check->sample) {
+    if (from == "shot" && session.check && session.check->sample)
         measure_sample(session, call, options.pixels);
-    }
     const sequence::ShotExposures range = range_of(session, from);
     const std::string& name = call.images.front()->name();
     if (from != "shot" && !sequence::was_measured_on(range, name)) {
@@ -61,4 +56,4 @@ void read_shot_exposures(Session& session, const Call& call, HdrFlipOptions& opt
     options.median_luminance = range.median_luminance;
 }
 
-} // namespace tonetool::measure
+} // namespace tonetool::chain

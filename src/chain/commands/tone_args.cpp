@@ -4,7 +4,7 @@
 
 #include "text/error.h"
 
-namespace tonetool::measure {
+namespace tonetool::chain {
 
 namespace {
 
@@ -20,9 +20,8 @@ std::vector<Parameter> parameters(bool flip = false) {
         for (const ToneCurveParameter& parameter : curve.parameters) {
             auto same = [&](const Parameter& p) { return p.name == parameter.name; };
             auto at = std::find_if(all.begin(), all.end(), same);
-            if (at == all.end()) {
+            if (at == all.end())
                 at = all.insert(all.end(), {parameter.name, parameter.help, {}});
-            }
             double value = flip ? parameter.flip_value : parameter.value;
             at->curves.push_back(curve.name + " " + format_number(value));
         }
@@ -56,9 +55,8 @@ CurveOptions curve_options(const Call& call, const std::string& key) {
     CurveOptions options;
     auto name = call.choice(key, ToneAlgo::tone_curve_names());
     options.coeffs = call.numbers("coeffs", 6);
-    if (name && !options.coeffs.empty()) {
+    if (name && !options.coeffs.empty())
         throw CommandError(key + "= and coeffs= exclude each other (valid: one of them)");
-    }
     options.name = name.value_or(options.name);
     for (const Parameter& p : parameters()) {
         auto value = call.text(p.name);
@@ -87,29 +85,24 @@ std::optional<ViewOptions> view_options(const Session& session, const Call& call
     options.looks = call.text("looks").value_or("");
     for (const std::string& pair : split(call.text("context").value_or(""), ',')) {
         size_t equals = pair.find('=');
-        if (equals != std::string::npos && equals > 0) {
+        if (equals != std::string::npos && equals > 0)
             options.context.emplace_back(pair.substr(0, equals), pair.substr(equals + 1));
-        } else if (!pair.empty()) {
+        else if (!pair.empty())
             throw CommandError("context \"" + pair + "\" is not NAME=VALUE");
-        }
     }
-    if (call.has("display") || call.has("view")) {
+    if (call.has("display") || call.has("view"))
         return options;
-    }
-    if (call.has("looks") || call.has("context")) {
+    if (call.has("looks") || call.has("context"))
         throw CommandError("looks= and context= need display= or view=");
-    }
     return std::nullopt;
 }
 
 void check_one_way(const Call& call, const std::string& key) {
-    if (!call.has("display") && !call.has("view")) {
+    if (!call.has("display") && !call.has("view"))
         return;
-    }
     Strings of_curves{key};
-    for (const Modifier& modifier : curve_modifiers(false)) {
+    for (const Modifier& modifier : curve_modifiers(false))
         of_curves.push_back(modifier.key);
-    }
     for (const std::string& name : of_curves) {
         if (call.has(name)) {
             throw CommandError(name + "= is of tone curves and does not go with a view "
@@ -133,9 +126,8 @@ CalibrationOptions calibration_options(const Call& call) {
     options.method = method == "mean"   ? CalibrationMethod::Mean
                      : method == "auto" ? CalibrationMethod::AutoKey
                                         : CalibrationMethod::Manual;
-    if (call.has("key") && options.method != CalibrationMethod::Mean) {
+    if (call.has("key") && options.method != CalibrationMethod::Mean)
         throw CommandError("key= is of a calibration by mean, this one is " + method);
-    }
     options.stops = call.number("stops", {-126, 126}).value_or(options.stops);
     options.key = call.number("key", {1e-4, 100}).value_or(options.key);
     options.level = call.integer("level", {0, 20}).value_or(options.level);
@@ -147,10 +139,9 @@ CalibrationOptions calibration_options(const Call& call) {
 
 std::optional<double> white_percentile(const Call& call) {
     auto white = call.text("white");
-    if (!white || !is_measured(*white)) {
+    if (!white || !is_measured(*white))
         return std::nullopt;
-    }
     return *white == "max" ? 100.0 : checked_number("white=p", white->substr(1), {0.001, 100});
 }
 
-} // namespace tonetool::measure
+} // namespace tonetool::chain

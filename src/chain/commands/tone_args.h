@@ -6,7 +6,7 @@
 #include "chain/commands/commands.h"
 #include "tonetool/tonemap.h"
 
-namespace tonetool::measure {
+namespace tonetool::chain {
 
 /// The parameters of all curves, coeffs=, on=, saturation=; with `white=max|pN` if `measured`, and
 /// HDR-FLIP's defaults in the help if `flip`.
@@ -27,4 +27,4 @@ CalibrationOptions calibration_options(const Call& call);
 /// white=max or white=pN.
 std::optional<double> white_percentile(const Call& call);
 
-} // namespace tonetool::measure
+} // namespace tonetool::chain

@@ -11,7 +11,7 @@
 #include "text/text.h"
 #include "tonetool/write.h"
 
-namespace tonetool::files {
+namespace tonetool::chain {
 
 namespace {
 
@@ -28,9 +28,8 @@ void set_packed(ImageSpec& spec, const std::string& name, const std::string& val
         return;
     }
     std::sscanf(value.c_str(), "%u:%u:%u:%u", &time[0], &time[1], &time[2], &time[3]);
-    for (unsigned part : time) {
+    for (unsigned part : time)
         packed[0] = packed[0] << 8U | (part / 10 % 10) << 4U | part % 10;
-    }
     spec.attribute(name, type, packed);
 }
 
@@ -57,21 +56,20 @@ std::string geometry(OIIO::ROI roi) {
 
 void set_attribute(ImageSpec& spec, const std::string& name, const std::string& value,
                    OIIO::TypeDesc type) {
-    if (value.empty()) {
+    if (value.empty())
         spec.erase_attribute(name);
-    } else if (type == OIIO::TypeTimeCode || type == OIIO::TypeRational) {
+    else if (type == OIIO::TypeTimeCode || type == OIIO::TypeRational)
         set_packed(spec, name, value, type);
-    } else if (type.basetype == OIIO::TypeDesc::STRING && type.arraylen != 0) {
+    else if (type.basetype == OIIO::TypeDesc::STRING && type.arraylen != 0)
         set_strings(spec, name, value, type);
-    } else if (type != OIIO::TypeUnknown) {
+    else if (type != OIIO::TypeUnknown)
         spec.attribute(name, type, value);
-    } else if (OIIO::Strutil::string_is_int(value)) {
+    else if (OIIO::Strutil::string_is_int(value))
         spec.attribute(name, OIIO::Strutil::stoi(value));
-    } else if (OIIO::Strutil::string_is_float(value)) {
+    else if (OIIO::Strutil::string_is_float(value))
         spec.attribute(name, OIIO::Strutil::stof(value));
-    } else {
+    else
         spec.attribute(name, value);
-    }
 }
 
 void add_keyword(ImageSpec& spec, const std::string& word) {
@@ -79,35 +77,30 @@ void add_keyword(ImageSpec& spec, const std::string& word) {
     words.push_back(word);
     for (const std::string& each : words) {
         const std::string bare = OIIO::Strutil::strip(each);
-        if (!bare.empty() && std::find(kept.begin(), kept.end(), bare) == kept.end()) {
+        if (!bare.empty() && std::find(kept.begin(), kept.end(), bare) == kept.end())
             kept.push_back(bare);
-        }
     }
     spec.attribute("Keywords", join(kept, "; "));
 }
 
 void read_icc_profile(ImageSpec& spec, const std::string& filename) {
     std::string bytes;
-    if (!OIIO::Filesystem::exists(filename)) {
+    if (!OIIO::Filesystem::exists(filename))
         throw CommandError("ICC profile file " + filename + " does not exist");
-    }
-    if (!OIIO::Filesystem::read_text_file(filename, bytes) || bytes.empty()) {
+    if (!OIIO::Filesystem::read_text_file(filename, bytes) || bytes.empty())
         throw CommandError("ICC profile file " + filename + " could not be read");
-    }
     spec.attribute("ICCProfile", OIIO::TypeDesc(OIIO::TypeDesc::UINT8, int(bytes.size())),
                    bytes.data());
 }
 
 void write_icc_profile(const ImageSpec& spec, const std::string& filename) {
     const OIIO::ParamValue* profile = spec.find_attribute("ICCProfile");
-    if (!profile) {
+    if (!profile)
         throw CommandError("No ICC profile found in image.");
-    }
     std::string why;
     if (!write_bytes({static_cast<const char*>(profile->data()), size_t(profile->datasize())},
-                     filename, why)) {
+                     filename, why))
         throw CommandError(why);
-    }
 }
 
 std::optional<std::string> attribute_text(const Image& image, const std::string& name) {
@@ -124,9 +117,8 @@ std::optional<std::string> attribute_text(const Image& image, const std::string&
                 OIIO::ImageBufAlgo::computePixelStats(part.pixels()).*figures, ",");
         }
     }
-    if (name == "META" || name == "METABRIEF") {
+    if (name == "META" || name == "METABRIEF")
         return std::string(OIIO::Strutil::rstrip(header_text(image, 0, name == "META")));
-    }
     const std::pair<const char*, std::string> known[] = {
         {"filename", image.name()},
         {"file_extension", OIIO::Filesystem::extension(image.name())},
@@ -134,17 +126,14 @@ std::optional<std::string> attribute_text(const Image& image, const std::string&
         {"geom", geometry(spec.roi())},
         {"full_geom", geometry(spec.roi_full())},
         {"format", part.from_file() ? "float" : std::string(spec.format.c_str())}};
-    for (const auto& [key, value] : known) {
-        if (name == key) {
+    for (const auto& [key, value] : known)
+        if (name == key)
             return value;
-        }
-    }
-    if (name == "STATS") {
+    if (name == "STATS")
         return std::string(OIIO::Strutil::rstrip(stats_text(image, "")));
-    }
     OIIO::ParamValue value;
     const OIIO::ParamValue* found = spec.find_attribute(name, value);
     return found ? std::optional<std::string>(found->get_string()) : std::nullopt;
 }
 
-} // namespace tonetool::files
+} // namespace tonetool::chain

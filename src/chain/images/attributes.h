@@ -6,7 +6,7 @@
 
 #include "chain/images/image.h"
 
-namespace tonetool::files {
+namespace tonetool::chain {
 
 /// "3", "0.5", "a text", "01:02:03:04" of a time code, "30/1", "\"a\", \"b\"" of string arrays. Of
 /// an unknown type: what the value looks like. An empty value erases the attribute.
@@ -24,4 +24,4 @@ void write_icc_profile(const OIIO::ImageSpec& spec, const std::string& filename)
 /// nullopt for what the image has not.
 std::optional<std::string> attribute_text(const Image& image, const std::string& name);
 
-} // namespace tonetool::files
+} // namespace tonetool::chain

@@ -6,7 +6,7 @@
 #include "chain/language/values.h"
 #include "text/error.h"
 
-namespace tonetool::files {
+namespace tonetool::chain {
 
 namespace {
 
@@ -61,39 +61,34 @@ void add_assigned(Selection& selection, const OIIO::ImageSpec& spec, const std::
 
 int channel_index(const OIIO::ImageSpec& spec, const std::string& name) {
     int index = spec.channelindex(name);
-    for (int c = 0; index < 0 && c < spec.nchannels; ++c) {
-        if (OIIO::Strutil::iequals(std::string(spec.channel_name(c)), name)) {
+    for (int c = 0; index < 0 && c < spec.nchannels; ++c)
+        if (OIIO::Strutil::iequals(std::string(spec.channel_name(c)), name))
             index = c;
-        }
-    }
     return index;
 }
 
 OIIO::ImageBuf select_channels(const OIIO::ImageBuf& pixels, const std::string& list,
                                const Warn& lenient) {
     const OIIO::ImageSpec& spec = pixels.spec();
-    if (list.empty()) {
+    if (list.empty())
         throw CommandError("0-channel images not supported");
-    }
     Selection selection;
     const bool letters = (list == "RGB" || list == "RGBA") && channel_index(spec, list) < 0;
     const std::string names = !letters ? list : list == "RGB" ? "R,G,B" : "R,G,B,A";
     for (const std::string& part : split(names, ',')) {
         const std::string word = OIIO::Strutil::strip(part);
         size_t equals = word.find('=');
-        if (equals == std::string::npos) {
+        if (equals == std::string::npos)
             add_plain(selection, spec, word, lenient);
-        } else {
+        else
             add_assigned(selection, spec, word.substr(0, equals), word.substr(equals + 1), lenient);
-        }
     }
     OIIO::ImageBuf chosen =
         OIIO::ImageBufAlgo::channels(pixels, static_cast<int>(selection.sources.size()),
                                      selection.sources, selection.values, selection.names);
-    if (chosen.has_error()) {
+    if (chosen.has_error())
         throw CommandError(chosen.geterror());
-    }
     return chosen;
 }
 
-} // namespace tonetool::files
+} // namespace tonetool::chain

@@ -5,7 +5,7 @@
 #include <functional>
 #include <string>
 
-namespace tonetool::files {
+namespace tonetool::chain {
 
 /// Takes a text that warns.
 using Warn = std::function<void(const std::string&)>;
@@ -18,4 +18,4 @@ int channel_index(const OIIO::ImageSpec& spec, const std::string& name);
 OIIO::ImageBuf select_channels(const OIIO::ImageBuf& pixels, const std::string& list,
                                const Warn& lenient = nullptr);
 
-} // namespace tonetool::files
+} // namespace tonetool::chain

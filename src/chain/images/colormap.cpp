@@ -8,7 +8,7 @@
 #include "text/error.h"
 #include "tonetool/display.h"
 
-namespace tonetool::files {
+namespace tonetool::chain {
 
 namespace {
 
@@ -18,9 +18,8 @@ bool is_list(const std::string& map) {
 
 std::vector<float> knots_of(const std::string& list) {
     std::vector<float> knots;
-    for (const std::string& word : split(list, ',')) {
+    for (const std::string& word : split(list, ','))
         knots.push_back(static_cast<float>(checked_number("colour", word, {-1e6, 1e6})));
-    }
     if (knots.size() < 6 || knots.size() % 3 != 0) {
         throw CommandError("\"" + list + "\" has " + std::to_string(knots.size()) +
                            " numbers (valid: two or more RGB triples)");
@@ -31,11 +30,10 @@ std::vector<float> knots_of(const std::string& list) {
 } // namespace
 
 void check_colormap(const std::string& map) {
-    if (is_list(map)) {
+    if (is_list(map))
         knots_of(map);
-    } else {
+    else
         check_choice("colour map", map, ToneAlgo::color_maps());
-    }
 }
 
 OIIO::ImageBuf colored(const OIIO::ImageBuf& pixels, const std::string& map) {
@@ -44,20 +42,18 @@ OIIO::ImageBuf colored(const OIIO::ImageBuf& pixels, const std::string& map) {
     OIIO::ImageBuf result;
     const bool done = is_list(map) ? ToneAlgo::color_map(result, pixels, knots_of(map), channel)
                                    : ToneAlgo::color_map(result, pixels, map, channel);
-    if (!done) {
+    if (!done)
         throw CommandError(result.geterror());
-    }
     lie_as(pixels.spec(), result);
     return result;
 }
 
 OIIO::ImageBuf linear_colored(const OIIO::ImageBuf& pixels, const std::string& map) {
     std::vector<float> knots;
-    if (!is_list(map)) {
+    if (!is_list(map))
         return OIIO::ImageBufAlgo::color_map(pixels, -1, map);
-    }
     OIIO::Strutil::extract_from_list_string(knots, map);
     return OIIO::ImageBufAlgo::color_map(pixels, -1, int(knots.size()) / 3, 3, knots);
 }
 
-} // namespace tonetool::files
+} // namespace tonetool::chain

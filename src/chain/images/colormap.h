@@ -4,7 +4,7 @@
 #include <OpenImageIO/imagebuf.h>
 #include <string>
 
-namespace tonetool::files {
+namespace tonetool::chain {
 
 /// A CommandError unless `map` is the name of a colour map or a list of RGB triples.
 void check_colormap(const std::string& map);
@@ -15,4 +15,4 @@ OIIO::ImageBuf colored(const OIIO::ImageBuf& pixels, const std::string& map);
 /// oiiotool's: of the luminance, as linear light.
 OIIO::ImageBuf linear_colored(const OIIO::ImageBuf& pixels, const std::string& map);
 
-} // namespace tonetool::files
+} // namespace tonetool::chain

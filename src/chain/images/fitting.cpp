@@ -10,7 +10,7 @@
 #include "text/error.h"
 #include "tonetool/pixels.h"
 
-namespace tonetool::files {
+namespace tonetool::chain {
 
 namespace {
 
@@ -26,12 +26,10 @@ int most_channels(const OIIO::ImageSpec& spec, const OIIO::ImageOutput& writer) 
 std::vector<int> usual_channels(const OIIO::ImageSpec& spec, int kept) {
     static const char* const usual[] = {"R", "G", "B", "A"};
     std::vector<int> chosen;
-    for (int i = 0; i < kept; ++i) {
+    for (int i = 0; i < kept; ++i)
         chosen.push_back(channel_index(spec, usual[i]));
-    }
-    if (std::find(chosen.begin(), chosen.end(), -1) != chosen.end()) {
+    if (std::find(chosen.begin(), chosen.end(), -1) != chosen.end())
         std::iota(chosen.begin(), chosen.end(), 0);
-    }
     return chosen;
 }
 
@@ -73,9 +71,8 @@ std::vector<int> picture_channels(const OIIO::ImageSpec& spec, int most, bool& m
     }
     const int next = int(chosen.size());
     const bool first_alpha = !found && next < spec.nchannels && is_alpha(spec, next);
-    if (choice.a >= 0 || first_alpha) {
+    if (choice.a >= 0 || first_alpha)
         chosen.push_back(first_alpha ? next : choice.a);
-    }
     chosen.resize(std::min(chosen.size(), size_t(most)));
     return chosen;
 }
@@ -121,13 +118,11 @@ bool fit_windows(const OIIO::ImageBuf& image, const OIIO::ImageOutput& writer, b
         wanted = display;
         moves = std::min(display.xbegin, display.ybegin) < 0;
     }
-    if (image.deep() || (wanted == data && !moves)) {
+    if (image.deep() || (wanted == data && !moves))
         return false;
-    }
     fitted = OIIO::ImageBufAlgo::crop(image, wanted);
-    if (fitted.has_error()) {
+    if (fitted.has_error())
         throw CommandError(fitted.geterror());
-    }
     if (moves) {
         fitted.set_origin(0, 0);
         OIIO::ROI whole = fitted.roi();
@@ -140,26 +135,23 @@ void fit_channels(Outgoing& image, const OIIO::ImageOutput& writer, const Writer
     const OIIO::ImageSpec& spec = image.pixels->spec();
     const int most = most_channels(spec, writer);
     const bool lenient = from.lenient && !spec.find_attribute("tonemap:layer");
-    if (spec.deep || (most == 0 && (lenient || is_safe(spec, writer)))) {
+    if (spec.deep || (most == 0 && (lenient || is_safe(spec, writer))))
         return;
-    }
     bool mapped = false;
     const std::vector<int> chosen =
         lenient ? usual_channels(spec, most)
                 : picture_channels(spec, oiio::format_supports(writer, "alpha") ? 4 : 3, mapped);
     Strings names;
-    for (int index : chosen) {
+    for (int index : chosen)
         names.push_back(std::string(spec.channel_name(index)));
-    }
     // What was tone mapped is what is to be seen.
     if (!mapped) {
         from.warn("Can't save " + std::to_string(spec.nchannels) + " channels to " +
                   writer.format_name() + "... saving only " + join(names, ","));
     }
     OIIO::ImageBuf fitted = OIIO::ImageBufAlgo::channels(*image.pixels, int(chosen.size()), chosen);
-    if (fitted.has_error()) {
+    if (fitted.has_error())
         throw CommandError(fitted.geterror());
-    }
     image.owned = std::move(fitted);
     image.pixels = &image.owned;
     image.format.of_channel.clear();
@@ -167,9 +159,8 @@ void fit_channels(Outgoing& image, const OIIO::ImageOutput& writer, const Writer
 
 void mark_alpha(OIIO::ImageSpec& spec) {
     const int last = spec.nchannels - 1;
-    if (spec.alpha_channel < 0 && (last == 1 || last == 3) && is_alpha(spec, last)) {
+    if (spec.alpha_channel < 0 && (last == 1 || last == 3) && is_alpha(spec, last))
         spec.alpha_channel = last;
-    }
 }
 
 void warn_of_unseen(const Warn& warn, const OIIO::ImageBuf& pixels, const OIIO::ImageSpec& written,
@@ -180,15 +171,13 @@ void warn_of_unseen(const Warn& warn, const OIIO::ImageBuf& pixels, const OIIO::
     const bool integers = !written.format.is_floating_point() || !holds_floats(writer);
     const bool screen = oiio::format_supports(writer, "alpha") && integers;
     if (!screen || spec.deep || spec.depth > 1 || (alpha != 1 && alpha != 3) ||
-        !is_alpha(spec, alpha)) {
+        !is_alpha(spec, alpha))
         return;
-    }
     int64_t lit = 0, unseen = 0;
     for (OIIO::ImageBuf::ConstIterator<float> pixel(pixels); !pixel.done(); ++pixel) {
         bool light = false;
-        for (int c = 0; c < alpha; ++c) {
+        for (int c = 0; c < alpha; ++c)
             light = light || pixel[c] > 0;
-        }
         lit += light;
         unseen += light && pixel[alpha] <= 0;
     }
@@ -198,4 +187,4 @@ void warn_of_unseen(const Warn& warn, const OIIO::ImageBuf& pixels, const OIIO::
     }
 }
 
-} // namespace tonetool::files
+} // namespace tonetool::chain

@@ -7,7 +7,7 @@
 #include "chain/images/image.h"
 #include "chain/images/output.h"
 
-namespace tonetool::files {
+namespace tonetool::chain {
 
 // One subimage on its way to the file: pixels (owned here where they had to change), data types.
 struct Outgoing {
@@ -35,4 +35,4 @@ void mark_alpha(OIIO::ImageSpec& spec);
 void warn_of_unseen(const Warn& warn, const OIIO::ImageBuf& pixels, const OIIO::ImageSpec& written,
                     const OIIO::ImageOutput& writer);
 
-} // namespace tonetool::files
+} // namespace tonetool::chain

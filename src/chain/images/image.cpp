@@ -16,7 +16,7 @@
 #include "text/text.h"
 #include "tonetool/color_tags.h"
 
-namespace tonetool::files {
+namespace tonetool::chain {
 
 namespace {
 
@@ -40,9 +40,8 @@ FileState state_of(const std::string& name) {
 }
 
 std::unique_ptr<OIIO::ImageInput> open_input(const std::string& filename, const ReadOptions& how) {
-    if (!OIIO::Filesystem::exists(without_parameters(filename))) {
+    if (!OIIO::Filesystem::exists(without_parameters(filename)))
         throw CommandError("File does not exist: \"" + filename + "\"");
-    }
     std::error_code ignored;
     if (OIIO::Filesystem::exists(filename) &&
         std::filesystem::is_other(filename, ignored)) { // or a socket
@@ -53,9 +52,8 @@ std::unique_ptr<OIIO::ImageInput> open_input(const std::string& filename, const 
     auto input = OIIO::ImageInput::open(filename, &how.config);
     if (!input) {
         std::string why = OIIO::geterror();
-        if (::access(filename.c_str(), R_OK) != 0 && errno == EACCES) { // readers guess at it
+        if (::access(filename.c_str(), R_OK) != 0 && errno == EACCES) // readers guess at it
             why = std::strerror(EACCES);
-        }
         const bool named = why.find(filename) != std::string::npos;
         throw CommandError(why.empty() ? "cannot read \"" + filename + "\""
                            : named     ? why
@@ -67,9 +65,8 @@ std::unique_ptr<OIIO::ImageInput> open_input(const std::string& filename, const 
 // To read its pixels.
 std::unique_ptr<OIIO::ImageInput> open_whole(const std::string& filename, const ReadOptions& how) {
     auto input = open_input(filename, how);
-    if (const std::string why = bytes_missing(*input, filename); !why.empty()) {
+    if (const std::string why = bytes_missing(*input, filename); !why.empty())
         throw ReadError(filename, why);
-    }
     return input;
 }
 
@@ -96,9 +93,8 @@ OIIO::ImageBuf black_image(const OIIO::ImageSpec& spec, const std::string& file)
     try {
         expect_memory(spec.deep ? 0 : spec.image_bytes());
         OIIO::ImageBuf image(spec);
-        if (!spec.deep && !image.localpixels()) {
+        if (!spec.deep && !image.localpixels())
             throw std::bad_alloc();
-        }
         return image;
     } catch (const std::bad_alloc& failure) {
         throw CommandError("\"" + file + "\": " + memory_text(failure));
@@ -160,27 +156,23 @@ void Part::share(int level) {
 }
 
 const OIIO::ImageBuf& Part::pixels(int level) {
-    if (!m_pixels.at(size_t(level)).initialized()) {
+    if (!m_pixels.at(size_t(level)).initialized())
         m_source ? share(level) : read(level);
-    }
     return m_pixels[size_t(level)];
 }
 
 void Part::read_before_replacing(const std::string& filename) {
     std::error_code ignored;
-    if (m_source) {
+    if (m_source)
         m_source->read_before_replacing(filename);
-    } else if (from_file() && std::filesystem::equivalent(m_file, filename, ignored)) {
-        for (int level = 0; level < mip_levels(); ++level) {
+    else if (from_file() && std::filesystem::equivalent(m_file, filename, ignored))
+        for (int level = 0; level < mip_levels(); ++level)
             pixels(level);
-        }
-    }
 }
 
 void Part::check_unchanged() const {
-    if (!(state_of(m_file) == m_state)) {
+    if (!(state_of(m_file) == m_state))
         throw CommandError("\"" + m_file + "\" has changed since it was opened");
-    }
 }
 
 void Part::read(int level) {
@@ -188,40 +180,33 @@ void Part::read(int level) {
     auto input = open_whole(m_file, m_how);
     OIIO::ImageSpec spec = header(level);
     const OIIO::ImageSpec now = input->spec(m_subimage, level);
-    if (now.roi() != spec.roi() || now.deep != spec.deep) {
+    if (now.roi() != spec.roi() || now.deep != spec.deep)
         throw CommandError("\"" + m_file + "\" has changed since it was opened");
-    }
-    if (!spec.deep) {
+    if (!spec.deep)
         spec.set_format(m_how.type == OIIO::TypeUnknown ? spec.format : m_how.type);
-    }
     OIIO::ImageBuf buffer = black_image(spec, m_file);
     bool done = spec.deep
                     ? oiio::read_deep_pixels(*input, m_subimage, level, *buffer.deepdata())
                     : oiio::read_flat_pixels(*input, m_subimage, level, spec, buffer.localpixels());
-    if (!done || input->has_error()) {
+    if (!done || input->has_error())
         throw ReadError(m_file, input->geterror());
-    }
     m_pixels[size_t(level)] = std::move(buffer);
 }
 
 void Part::tag_encoding(OIIO::ImageSpec& spec) const {
     bool told = spec.find_attribute("oiio:ColorSpace") || spec.find_attribute("chromaticities");
-    if (!m_integer_encoded) {
+    if (!m_integer_encoded)
         return;
-    }
-    if (!told) {
+    if (!told)
         spec.attribute("oiio:ColorSpace", "sRGB");
-    }
-    if (!spec.find_attribute("tonemap:curve")) { // whose colour was encoded with its alpha in it
+    if (!spec.find_attribute("tonemap:curve")) // whose colour was encoded with its alpha in it
         spec.attribute(kStoredType, m_format ? m_format->type.c_str() : "uint8");
-    }
 }
 
 OIIO::ImageBuf Part::color_view() {
     const OIIO::ImageBuf& buffer = pixels();
-    if (buffer.deep()) {
+    if (buffer.deep())
         return buffer;
-    }
     OIIO::ImageSpec spec = buffer.spec();
     tag_encoding(spec);
     return oiio::view_with_spec(buffer, spec);
@@ -229,9 +214,8 @@ OIIO::ImageBuf Part::color_view() {
 
 OIIO::ImageBuf Part::color_view(int begin, int end) {
     const bool ready = m_source || m_pixels.front().initialized();
-    if (ready || header().deep || m_how.type != OIIO::TypeFloat) {
+    if (ready || header().deep || m_how.type != OIIO::TypeFloat)
         return color_view();
-    }
     check_unchanged();
     auto input = open_whole(m_file, m_how);
     OIIO::ImageSpec spec = header();
@@ -243,20 +227,17 @@ OIIO::ImageBuf Part::color_view(int begin, int end) {
     tag_encoding(spec);
     OIIO::ImageBuf buffer = black_image(spec, m_file);
     if (input->spec(m_subimage, 0).roi() != header().roi() ||
-        !oiio::read_channels(*input, m_subimage, begin, end, buffer.localpixels())) {
+        !oiio::read_channels(*input, m_subimage, begin, end, buffer.localpixels()))
         throw ReadError(m_file, input->geterror());
-    }
     return buffer;
 }
 
 OIIO::ImageBuf Part::color_source() {
-    if (m_source || m_pixels.front().initialized() || header().deep) {
+    if (m_source || m_pixels.front().initialized() || header().deep)
         return color_view();
-    }
     check_unchanged();
-    if (!m_cache) { // what was given away before still asks it
+    if (!m_cache) // what was given away before still asks it
         m_cache = oiio::make_header_cache();
-    }
     OIIO::ImageBuf buffer = oiio::unread_file(m_file, m_subimage, m_cache);
     return buffer.has_error() || buffer.spec().roi() != header().roi() ? color_view()
                                                                        : std::move(buffer);
@@ -270,9 +251,8 @@ ImagePtr Image::open(const std::string& filename, const ReadOptions& how) {
                                                level_headers(*input, filename, subimage), how));
     }
     (void)input->geterror();
-    if (parts.empty()) {
+    if (parts.empty())
         throw CommandError("\"" + filename + "\" holds no image");
-    }
     auto image = std::make_shared<Image>(filename, std::move(parts));
     image->m_file_format = input->format_name();
     image->lineage = lineage_of_file(filename);
@@ -281,17 +261,14 @@ ImagePtr Image::open(const std::string& filename, const ReadOptions& how) {
 
 size_t Image::find_part(const std::string& which, bool lenient) const {
     Strings names;
-    for (const PartPtr& part : m_parts) {
+    for (const PartPtr& part : m_parts)
         names.push_back(part->header().get_string_attribute("oiio:subimagename"));
-    }
     const auto named = std::find(names.begin(), names.end(), which);
-    if (named != names.end()) {
+    if (named != names.end())
         return size_t(named - names.begin());
-    }
     const auto index = parse_integer(which);
-    if (index && *index >= 0 && size_t(*index) < names.size()) {
+    if (index && *index >= 0 && size_t(*index) < names.size())
         return size_t(*index);
-    }
     const std::string count = std::to_string(names.size());
     if (lenient) {
         throw CommandError(
@@ -332,9 +309,8 @@ ImagePtr Image::placeholder(std::string name, OIIO::ImageSpec header, bool check
     OIIO::ImageBuf pixels(header);
     std::vector<float> black(size_t(header.nchannels), 0.0f);
     const std::vector<float> white(black.size(), 1.0f);
-    if (header.alpha_channel >= 0) { // only the checker's
+    if (header.alpha_channel >= 0) // only the checker's
         black[size_t(header.alpha_channel)] = 1;
-    }
     checker ? OIIO::ImageBufAlgo::checker(pixels, 64, 64, 1, black, white)
             : OIIO::ImageBufAlgo::zero(pixels);
     return created(std::move(name), std::move(pixels), format);
@@ -342,13 +318,12 @@ ImagePtr Image::placeholder(std::string name, OIIO::ImageSpec header, bool check
 
 void limit_reader_threads(int most) {
     const int now = OIIO::get_int_attribute("exr_threads");
-    if (most > 0) {
+    if (most > 0)
         OIIO::attribute("exr_threads", now > 0 ? std::min(now, most) : most);
-    }
 }
 
 ImagePtr Image::computed(std::string name, OIIO::ImageBuf pixels) {
     return created(std::move(name), std::move(pixels), DataFormat{});
 }
 
-} // namespace tonetool::files
+} // namespace tonetool::chain

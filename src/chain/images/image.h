@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-namespace tonetool::files {
+namespace tonetool::chain {
 
 /// The data types that an image would be written with.
 struct DataFormat {
@@ -154,4 +154,4 @@ private:
 /// The process decodes files on at most so many threads from now on; 0 sets no bound.
 void limit_reader_threads(int most);
 
-} // namespace tonetool::files
+} // namespace tonetool::chain

@@ -11,16 +11,15 @@
 #include "text/error.h"
 #include "text/text.h"
 
-namespace tonetool::files {
+namespace tonetool::chain {
 
 namespace {
 
 using OIIO::Strutil::fmt::format;
 
 char type_letter(OIIO::TypeDesc type) {
-    if (type == OIIO::TypeDesc::HALF) {
+    if (type == OIIO::TypeDesc::HALF)
         return 'h';
-    }
     return type.is_floating_point() ? (type == OIIO::TypeDesc::DOUBLE ? 'd' : 'f')
                                     : "uui"[type.size() == 1 ? 0 : (type.size() == 2 ? 1 : 2)];
 }
@@ -30,9 +29,8 @@ std::string subimages_line(const Image& image) {
     for (const PartPtr& part : image.parts()) {
         const OIIO::ImageSpec& spec = part->header();
         Strings letters;
-        for (int c = 0; c < spec.nchannels; ++c) {
+        for (int c = 0; c < spec.nchannels; ++c)
             letters.push_back(std::string(1, type_letter(spec.channelformat(c))));
-        }
         all.push_back(format("{}x{} [{}]", spec.width, spec.height, join(letters, ",")));
     }
     return format("    {} subimages: {}\n", image.part_count(), join(all, ", "));
@@ -40,9 +38,8 @@ std::string subimages_line(const Image& image) {
 
 std::string mip_line(const Part& part) {
     std::string line = "    MIP-map levels:";
-    for (int level = 0; level < part.mip_levels(); ++level) {
+    for (int level = 0; level < part.mip_levels(); ++level)
         line += format(" {}x{}", part.header(level).width, part.header(level).height);
-    }
     return line + "\n";
 }
 
@@ -69,9 +66,8 @@ struct Scale {
 template <typename Values, typename Show>
 std::string shown(const Values& values, Show show, const char* between = " ") {
     Strings words;
-    for (const auto& value : values) {
+    for (const auto& value : values)
         words.push_back(show(value));
-    }
     return join(words, between);
 }
 
@@ -90,9 +86,8 @@ std::string constant_lines(const OIIO::ImageBuf& pixels, const Scale& scale,
 
 std::string all_stats(const Image& image, const Listing& what, size_t subimage) {
     const Part& part = image.part(subimage);
-    if (part.mip_levels() == 1) {
+    if (part.mip_levels() == 1)
         return stats_text(image, "    ", subimage, 0, what.roi);
-    }
     std::string text;
     for (int level = 0; level < (what.all_subimages ? part.mip_levels() : 1); ++level) {
         const OIIO::ImageSpec& spec = part.header(level);
@@ -110,9 +105,8 @@ std::string pixel_text(const std::vector<float>& values, OIIO::TypeDesc type, bo
     auto stored = [&](float value) {
         return type.is_floating_point() ? format("{:.9f}", value) : scale.whole(value);
     };
-    if (in_c) {
+    if (in_c)
         return "{ " + shown(values, stored, ", ") + " }";
-    }
     std::string text = shown(values, stored);
     auto plain = [](float value) { return format("{}", value); };
     return type.is_floating_point() ? text : text + " (" + shown(values, plain) + ")";
@@ -121,18 +115,16 @@ std::string pixel_text(const std::vector<float>& values, OIIO::TypeDesc type, bo
 std::string dump_text(const Image& image, const Listing& what, size_t subimage) {
     const OIIO::ImageBuf& pixels = image.part(subimage).pixels();
     const OIIO::ImageSpec& spec = pixels.spec();
-    if (spec.deep) {
+    if (spec.deep)
         return deep_dump_text(pixels, what.dump_black);
-    }
     OIIO::TypeDesc type = image.part(subimage).format().value_or(DataFormat{}).type;
     std::string text = what.dump->empty() ? ""
                                           : format("{} {}[{}][{}][{}] =\n{{\n", type, *what.dump,
                                                    spec.height, spec.width, spec.nchannels);
     std::vector<float> values(static_cast<size_t>(spec.nchannels));
     for (OIIO::ImageBuf::ConstIterator<float> pixel(pixels); !pixel.done(); ++pixel) {
-        for (int c = 0; c < spec.nchannels; ++c) {
+        for (int c = 0; c < spec.nchannels; ++c)
             values[static_cast<size_t>(c)] = pixel[c];
-        }
         bool last = pixel.x() == spec.x + spec.width - 1;
         if (!what.dump->empty()) {
             text +=
@@ -147,9 +139,8 @@ std::string dump_text(const Image& image, const Listing& what, size_t subimage) 
 }
 
 std::string matching_lines(const std::string& text, const Listing& what) {
-    if (what.metamatch.empty() && what.no_metamatch.empty()) {
+    if (what.metamatch.empty() && what.no_metamatch.empty())
         return text;
-    }
     const std::regex wanted(what.metamatch), unwanted(what.no_metamatch);
     std::string kept;
     for (const std::string& line : OIIO::Strutil::splits(text, "\n")) {
@@ -165,9 +156,8 @@ std::string xml_text(const Image& image, size_t subimage, bool verbose) {
     std::string text = image.part(subimage).header().serialize(
         OIIO::ImageSpec::SerialXML,
         verbose ? OIIO::ImageSpec::SerialDetailed : OIIO::ImageSpec::SerialBrief);
-    if (image.part_count() > 1) {
+    if (image.part_count() > 1)
         text.insert(text.find('\n') + 1, format("<subimages>{}</subimages>\n", image.part_count()));
-    }
     return text;
 }
 
@@ -175,9 +165,8 @@ std::string xml_text(const Image& image, size_t subimage, bool verbose) {
 std::string subimage_text(const Image& image, const Listing& what, size_t subimage) {
     const Part& part = image.part(subimage);
     std::string text = what.verbose && part.mip_levels() > 1 ? mip_line(part) : "";
-    if (what.hash) {
+    if (what.hash)
         text += "    SHA-1: " + stored_hash(image.name(), int(subimage)) + "\n";
-    }
     if (what.verbose) {
         std::string detailed = header_text(image, subimage, true, what.named || what.native);
         text += detailed.substr(detailed.find('\n') + 1);
@@ -190,9 +179,8 @@ std::string subimage_text(const Image& image, const Listing& what, size_t subima
 
 std::string header_text(const Image& image, size_t subimage, bool detailed, bool native) {
     OIIO::ImageSpec spec = image.part(subimage).header();
-    if (!native && !spec.deep) {
+    if (!native && !spec.deep)
         spec.set_format(OIIO::TypeFloat);
-    }
     std::string text =
         spec.serialize(OIIO::ImageSpec::SerialText, detailed ? OIIO::ImageSpec::SerialDetailedHuman
                                                              : OIIO::ImageSpec::SerialBrief);
@@ -204,9 +192,8 @@ std::string stats_text(const Image& image, const std::string& indent, size_t sub
                        OIIO::ROI roi) {
     const OIIO::ImageBuf& pixels = image.part(subimage).pixels(level);
     auto stats = OIIO::ImageBufAlgo::computePixelStats(pixels, roi);
-    if (stats.min.empty()) {
+    if (stats.min.empty())
         throw CommandError("cannot measure \"" + image.name() + "\": " + pixels.geterror());
-    }
     Part& part = image.part(subimage);
     Scale scale(part.from_file() ? *part.format() : DataFormat{});
     auto whole = [&](float value) { return scale.whole(value); };
@@ -221,17 +208,15 @@ std::string stats_text(const Image& image, const std::string& indent, size_t sub
         {"InfCount", shown(stats.infcount, count) + " "},
         {"FiniteCount", shown(stats.finitecount, count) + " "}};
     std::string text;
-    for (const auto& [name, value] : lines) {
+    for (const auto& [name, value] : lines)
         text += indent + "Stats " + name + ": " + value + "\n";
-    }
     return text + (pixels.deep() ? deep_stats_text(pixels, indent)
                                  : constant_lines(pixels, scale, indent));
 }
 
 std::string listing_text(const Image& image, const Listing& what) {
-    if (what.format == "xml") {
+    if (what.format == "xml")
         return xml_text(image, 0, what.verbose);
-    }
     const size_t count = image.part_count();
     const bool each = what.all_subimages && count > 1;
     auto brief = [&](size_t subimage) -> std::string {
@@ -263,11 +248,10 @@ std::string formats_text(bool lenient) {
     std::string text = "All OIIO supported formats and their extensions:";
     for (const std::string& entry : entries) {
         const Strings words = split(entry, ':');
-        if (!lenient || words[0] != "tone") {
+        if (!lenient || words[0] != "tone")
             text += "\n    " + words[0] + " : " + join(split(words.back(), ','), ", ");
-        }
     }
     return text;
 }
 
-} // namespace tonetool::files
+} // namespace tonetool::chain

@@ -6,7 +6,7 @@
 
 #include "chain/images/image.h"
 
-namespace tonetool::files {
+namespace tonetool::chain {
 
 /// What is printed of an image that is read: --info, --stats, --hash, --dumpdata.
 struct Listing {
@@ -40,4 +40,4 @@ std::string deep_dump_text(const OIIO::ImageBuf& image, bool empty_ones);
 /// The image formats and their extensions; without recipes if `lenient`, as oiiotool.
 std::string formats_text(bool lenient);
 
-} // namespace tonetool::files
+} // namespace tonetool::chain

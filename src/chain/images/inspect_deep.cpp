@@ -6,7 +6,7 @@
 #include "chain/images/inspect.h"
 #include "text/text.h"
 
-namespace tonetool::files {
+namespace tonetool::chain {
 
 namespace {
 
@@ -63,17 +63,14 @@ std::string histogram(const std::vector<size_t>& pixels_with, size_t pixels) {
 
 std::string deep_stats_text(const OIIO::ImageBuf& image, const std::string& indent) {
     Samples found;
-    for (int y = image.ybegin(); y < image.yend(); ++y) {
-        for (int x = image.xbegin(); x < image.xend(); ++x) {
+    for (int y = image.ybegin(); y < image.yend(); ++y)
+        for (int x = image.xbegin(); x < image.xend(); ++x)
             found.add(image, x, y);
-        }
-    }
     const std::vector<size_t>& pixels_with = found.pixels_with;
     const size_t pixels = image.spec().image_pixels(), most = pixels_with.size() - 1;
     size_t least = 0;
-    while (pixels_with[least] == 0) {
+    while (pixels_with[least] == 0)
         ++least;
-    }
     const size_t without = pixels_with.front();
     std::string text = format("Min deep samples in any pixel : {}\n"
                               "Max deep samples in any pixel : {}\n",
@@ -93,9 +90,8 @@ std::string deep_stats_text(const OIIO::ImageBuf& image, const std::string& inde
                     : "";
     }
     std::string lines;
-    for (const std::string& line : OIIO::Strutil::splits(OIIO::Strutil::rstrip(text), "\n")) {
+    for (const std::string& line : OIIO::Strutil::splits(OIIO::Strutil::rstrip(text), "\n"))
         lines += indent + line + "\n";
-    }
     return lines;
 }
 
@@ -104,15 +100,13 @@ std::string deep_dump_text(const OIIO::ImageBuf& image, bool empty_ones) {
     const OIIO::ImageSpec& spec = image.spec();
     for (OIIO::ImageBuf::ConstIterator<float> pixel(image); !pixel.done(); ++pixel) {
         const int count = pixel.deep_samples();
-        if (count == 0 && !empty_ones) {
+        if (count == 0 && !empty_ones)
             continue;
-        }
         Strings samples;
         for (int s = 0; s < count; ++s) {
             Strings values;
-            for (int c = 0; c < spec.nchannels; ++c) {
+            for (int c = 0; c < spec.nchannels; ++c)
                 values.push_back(format("{}={}", spec.channel_name(c), pixel.deep_value(c, s)));
-            }
             samples.push_back(" " + join(values, " "));
         }
         text += format("    Pixel ({}, {}): {} samples {}{}\n", pixel.x(), pixel.y(), count,
@@ -121,4 +115,4 @@ std::string deep_dump_text(const OIIO::ImageBuf& image, bool empty_ones) {
     return text;
 }
 
-} // namespace tonetool::files
+} // namespace tonetool::chain

@@ -15,7 +15,7 @@
 #include "tonetool/color_tags.h"
 #include "tonetool/tonetool.h"
 
-namespace tonetool::files {
+namespace tonetool::chain {
 
 namespace {
 
@@ -27,7 +27,7 @@ struct TypeRow {
     int bits;
 };
 
-const TypeRow type_rows[] = {
+const TypeRow kTypeRows[] = {
     {"uint1", OIIO::TypeDesc::UINT8, 1},    {"uint2", OIIO::TypeDesc::UINT8, 2},
     {"uint4", OIIO::TypeDesc::UINT8, 4},    {"uint6", OIIO::TypeDesc::UINT8, 6},
     {"uint8", OIIO::TypeDesc::UINT8, 0},    {"sint8", OIIO::TypeDesc::INT8, 0},
@@ -51,9 +51,8 @@ std::unique_ptr<OIIO::ImageOutput> find_writer(const std::string& filename,
 
 void choose_format(DataFormat& format, const OIIO::ImageSpec& spec, const OutputSettings& asked,
                    const Writer& writer) {
-    if (asked.type) {
+    if (asked.type)
         format = {asked.type->type, {}, asked.type->bits};
-    }
     for (const auto& [name, type] : asked.type_of_channel) {
         for (size_t c = 0; c < spec.channelnames.size(); ++c) {
             if (spec.channelnames[c] == name) {
@@ -74,9 +73,8 @@ void choose_format(DataFormat& format, const OIIO::ImageSpec& spec, const Output
 void note_history(OIIO::ImageSpec& spec, const std::string& line) {
     spec.attribute("Software", "tonetool " TONETOOL_VERSION " : " + line);
     std::string history = spec.get_string_attribute("Exif:ImageHistory");
-    if (!history.empty() && history.back() != '\n') {
+    if (!history.empty() && history.back() != '\n')
         history += '\n';
-    }
     spec.attribute("Exif:ImageHistory", history + line);
 }
 
@@ -90,38 +88,31 @@ void set_layout(OIIO::ImageSpec& spec, const OutputSettings& settings,
     } else if (!tiles || lenient) { // oiiotool keeps no tiles
         spec.tile_width = spec.tile_height = spec.tile_depth = 0;
     }
-    if (!settings.planarconfig.empty() && settings.planarconfig != "default") {
+    if (!settings.planarconfig.empty() && settings.planarconfig != "default")
         spec.attribute("planarconfig", settings.planarconfig);
-    }
 }
 
 // A PNG file's gamma, which its writer knows by the tag alone; and the primaries of a known space.
 void state_color(OIIO::ImageSpec& spec, const OIIO::ImageOutput& writer) {
     const double gamma = stated_gamma(spec);
-    if (gamma > 0 && spec.find_attribute("oiio:Gamma") && writer.format_name() == "png"s) {
+    if (gamma > 0 && spec.find_attribute("oiio:Gamma") && writer.format_name() == "png"s)
         spec.attribute("oiio:ColorSpace", "GammaCorrected" + format_number(gamma));
-    }
-    if (writer.format_name() == "openexr"s) {
+    if (writer.format_name() == "openexr"s)
         state_chromaticities(spec);
-    }
 }
 
 OIIO::ImageSpec output_spec(const Outgoing& image, const Writer& from,
                             const OutputSettings& settings, const std::string& filename,
                             const OIIO::ImageOutput& writer) {
     OIIO::ImageSpec spec = image.pixels->spec();
-    for (const char* hint : {"oiio:ConstantColor", "oiio:AverageColor", "oiio:SHA-1"}) {
+    for (const char* hint : {"oiio:ConstantColor", "oiio:AverageColor", "oiio:SHA-1"})
         spec.erase_attribute(hint); // of the pixels that some texture had
-    }
-    if (settings.history) {
+    if (settings.history)
         note_history(spec, from.command_line);
-    }
-    if (!settings.compression.empty()) {
+    if (!settings.compression.empty())
         spec.attribute("compression", settings.compression);
-    }
-    if (settings.quality > 0) {
+    if (settings.quality > 0)
         spec.attribute("CompressionQuality", settings.quality);
-    }
     if (settings.dither) {
         int seed = int(OIIO::Strutil::strhash(filename));
         spec.attribute("oiio:dither", seed != 0 ? seed : 1);
@@ -132,9 +123,8 @@ OIIO::ImageSpec output_spec(const Outgoing& image, const Writer& from,
         mark_alpha(spec);
     }
     spec.erase_attribute("oiio:BitsPerSample");
-    if (image.format.bits > 0) {
+    if (image.format.bits > 0)
         spec.attribute("oiio:BitsPerSample", image.format.bits);
-    }
     spec.set_format(image.format.type);
     spec.channelformats = image.format.of_channel;
     return spec;
@@ -187,9 +177,8 @@ void ReadTypes::note(const Image& image) {
 }
 
 DataFormat ReadTypes::of(const Part& part, bool uniform) const {
-    if (part.format()) {
+    if (part.format())
         return uniform ? DataFormat{part.format()->type, {}, part.format()->bits} : *part.format();
-    }
     const std::string name = part.header().get_string_attribute("oiio:subimagename");
     auto known = m_of_subimage.find(name);
     return !name.empty() && known != m_of_subimage.end()
@@ -200,20 +189,17 @@ DataFormat ReadTypes::of(const Part& part, bool uniform) const {
 const Strings& data_type_names() {
     static const Strings names = [] {
         Strings all;
-        for (const TypeRow& row : type_rows) {
+        for (const TypeRow& row : kTypeRows)
             all.push_back(row.name);
-        }
         return all;
     }();
     return names;
 }
 
 NamedType parse_data_type(const std::string& name, bool lenient) {
-    for (const TypeRow& row : type_rows) {
-        if (name == row.name && (!lenient || name.front() != 's')) {
+    for (const TypeRow& row : kTypeRows)
+        if (name == row.name && (!lenient || name.front() != 's'))
             return {row.type, row.bits};
-        }
-    }
     const std::string valid = " (valid: " + join(data_type_names(), ", ") + ")";
     throw CommandError("Unknown data format \"" + name + "\"" + (lenient ? "" : valid));
 }
@@ -234,9 +220,8 @@ void OutputSettings::set_type(const std::string& text, bool lenient) {
             type_of_channel[word.substr(0, equals)] =
                 parse_data_type(word.substr(equals + 1), lenient);
         } catch (const CommandError&) {
-            if (!lenient) {
+            if (!lenient)
                 throw;
-            }
         }
     }
 }
@@ -258,17 +243,15 @@ void check_compression(const std::string& compression) {
         throw CommandError("unknown compression \"" + compression +
                            "\" (valid: " + join(known, ", ") + ")");
     }
-    if (name.size() < compression.size() && !parse_number(compression.substr(name.size() + 1))) {
+    if (name.size() < compression.size() && !parse_number(compression.substr(name.size() + 1)))
         throw CommandError("compression \"" + compression + "\" is not name or name:quality");
-    }
 }
 
 OIIO::TypeDesc output_type(const Part& part, const OutputSettings& settings, const Writer& writer) {
     DataFormat format = writer.types->of(part, writer.lenient);
     choose_format(format, part.header(), settings, writer);
-    for (const OIIO::TypeDesc& type : format.of_channel) {
+    for (const OIIO::TypeDesc& type : format.of_channel)
         format.type = OIIO::TypeDesc(OIIO::TypeDesc::basetype_merge(format.type, type));
-    }
     return format.type;
 }
 
@@ -278,12 +261,10 @@ namespace {
 void avoid_broken_type(DataFormat& format, const OIIO::ImageOutput& writer,
                        const OutputSettings& asked, const Writer& from) {
     const std::string name = writer.format_name();
-    if (name == "fits" && format.type == OIIO::TypeHalf) {
+    if (name == "fits" && format.type == OIIO::TypeHalf)
         format = DataFormat{}; // it calls half float, and writes half the bytes
-    }
-    if (name == "pnm" && asked.type && asked.type->type == OIIO::TypeUInt16) {
+    if (name == "pnm" && asked.type && asked.type->type == OIIO::TypeUInt16)
         from.warn("PNM files of 16 bits would have their bytes swapped: 8 bits are written");
-    }
 }
 
 // The levels of a part on their way to the file.
@@ -297,17 +278,15 @@ void prepare_part(const Image& image, Part& part, const std::string& filename,
         Outgoing& next = outgoing.emplace_back();
         next.pixels = &part.pixels(level);
         next.format = from.types->of(part, from.lenient);
-        if (settings.autocrop && fit_windows(*next.pixels, writer, from.lenient, next.owned)) {
+        if (settings.autocrop && fit_windows(*next.pixels, writer, from.lenient, next.owned))
             next.pixels = &next.owned;
-        }
         fit_channels(next, writer, from);
         choose_format(next.format, next.pixels->spec(), settings, from);
         avoid_broken_type(next.format, writer, settings, from);
         ready.push_back({next.pixels, output_spec(next, from, settings, filename, writer),
                          level > 0, settings.format_name, !from.lenient});
-        if (levels == 1) { // OpenEXR would wait for more
+        if (levels == 1) // OpenEXR would wait for more
             ready.back().spec.erase_attribute("textureformat");
-        }
         warn_of_encoding(from.warn, ready.back().spec, writer);
         if (!from.lenient) {
             warn_of_lost(from.warn, next.pixels->spec(), writer);
@@ -347,9 +326,8 @@ void write_output(const Image& image, const std::string& filename, const OutputS
     std::deque<Outgoing> outgoing; // addresses stay
     std::vector<OutputImage> ready;
     const size_t count = parts_to_write(from.warn, image, *writer);
-    for (size_t i = 0; i < count; ++i) {
+    for (size_t i = 0; i < count; ++i)
         prepare_part(image, image.part(i), filename, settings, from, *writer, outgoing, ready);
-    }
     before();
     std::string why;
     if (!write_images(ready, filename, why)) {
@@ -359,9 +337,8 @@ void write_output(const Image& image, const std::string& filename, const OutputS
                                ? "Could not open \"" + filename + "\" (No such file or directory)"
                                : why);
     }
-    if (settings.adjust_time) {
+    if (settings.adjust_time)
         adjust_time(ready.front().spec, filename);
-    }
 }
 
-} // namespace tonetool::files
+} // namespace tonetool::chain

@@ -11,7 +11,7 @@
 #include "chain/images/image.h"
 #include "text/text.h"
 
-namespace tonetool::files {
+namespace tonetool::chain {
 
 /// A data type as -d and datatype= name it.
 struct NamedType {
@@ -81,4 +81,4 @@ const OIIO::ImageBuf& texture_pixels(const OIIO::ImageBuf& image, const std::str
 void write_output(const Image& image, const std::string& filename, const OutputSettings& settings,
                   const Writer& from, const std::function<void()>& before);
 
-} // namespace tonetool::files
+} // namespace tonetool::chain

@@ -6,7 +6,7 @@
 #include "imagebuf/pixels/oiio_compat.h"
 #include "text/error.h"
 
-namespace tonetool::files {
+namespace tonetool::chain {
 
 namespace {
 
@@ -39,11 +39,10 @@ std::vector<OIIO::ImageBuf> fitted(const Pictures& images, const Size& size) {
     for (const OIIO::ImageBuf* pixels : images) {
         const OIIO::ROI cell(0, int(size.width), 0, int(size.height), 0, 1, 0, pixels->nchannels());
         OIIO::ImageBuf& image = all.emplace_back();
-        if (cell.npixels() > 0) {
+        if (cell.npixels() > 0)
             oiio::fit(image, *pixels, "", "letterbox", false, cell);
-        } else {
+        else
             image = pixels->copy(OIIO::TypeUnknown);
-        }
     }
     return all;
 }
@@ -54,12 +53,10 @@ OIIO::ImageBuf pasted(const Pictures& images, int x, int y, bool merge) {
     OIIO::ImageBuf result =
         merge ? background_of_all(images) : images.back()->copy(OIIO::TypeUnknown);
     bool done = !result.has_error();
-    for (size_t i = images.size() - 1; done && i-- > 0;) {
+    for (size_t i = images.size() - 1; done && i-- > 0;)
         done = IBA::paste(result, x, y, 0, 0, *images[i]);
-    }
-    if (!done) {
+    if (!done)
         throw CommandError(result.geterror());
-    }
     return result;
 }
 
@@ -83,4 +80,4 @@ OIIO::ImageBuf mosaic(const Sheet& sheet, const Pictures& images) {
     return result;
 }
 
-} // namespace tonetool::files
+} // namespace tonetool::chain

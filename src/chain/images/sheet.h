@@ -7,7 +7,7 @@
 
 #include "chain/images/windows.h"
 
-namespace tonetool::files {
+namespace tonetool::chain {
 
 using Pictures = std::vector<const OIIO::ImageBuf*>;
 
@@ -25,4 +25,4 @@ struct Sheet {
 /// As large as the largest display window needs in each cell, black where there is no image.
 OIIO::ImageBuf mosaic(const Sheet& sheet, const Pictures& images);
 
-} // namespace tonetool::files
+} // namespace tonetool::chain

@@ -7,13 +7,12 @@
 #include "imagebuf/pixels/oiio_compat.h"
 #include "text/error.h"
 
-namespace tonetool::files {
+namespace tonetool::chain {
 
 std::string stored_hash(const std::string& file, int subimage) {
     auto input = OIIO::ImageInput::open(file);
-    if (!input) {
+    if (!input)
         throw ReadError(file, OIIO::geterror());
-    }
     OIIO::SHA1 sum;
     bool done = false;
     const OIIO::ImageSpec spec = input->spec(subimage, 0);
@@ -28,10 +27,9 @@ std::string stored_hash(const std::string& file, int subimage) {
         done = input->read_image(subimage, 0, 0, spec.nchannels, OIIO::TypeUnknown, values.data());
         sum.append(values.data(), values.size());
     }
-    if (!done || input->has_error()) {
+    if (!done || input->has_error())
         throw ReadError(file, input->geterror());
-    }
     return sum.digest();
 }
 
-} // namespace tonetool::files
+} // namespace tonetool::chain

@@ -6,11 +6,11 @@
 
 #include "text/error.h"
 
-namespace tonetool::files {
+namespace tonetool::chain {
 
 namespace {
 
-constexpr int64_t values_at_once = int64_t(1) << 21; // of one image
+constexpr int64_t kValuesAtOnce = int64_t(1) << 21; // of one image
 
 bool unlike(float a, float b) {
     return std::isnan(a) != std::isnan(b) || ((std::isinf(a) || std::isinf(b)) && a != b);
@@ -31,9 +31,8 @@ public:
           m_values(size_t(rows.npixels()) * size_t(m_channels)) {
         rows.chbegin = 0;
         rows.chend = m_channels;
-        if (!image.get_pixels(rows, OIIO::TypeFloat, m_values.data())) {
+        if (!image.get_pixels(rows, OIIO::TypeFloat, m_values.data()))
             throw CommandError(image.geterror());
-        }
     }
 
     bool finite() const {
@@ -61,9 +60,8 @@ void note(Unlike& found, int x, int y, int z, int channel) {
 void look_at_rows(const OIIO::ImageBuf& a, const OIIO::ImageBuf& b, const OIIO::ROI& rows,
                   Unlike& found) {
     const Rows of_a(a, rows), of_b(b, rows);
-    if (of_a.finite() && of_b.finite()) {
+    if (of_a.finite() && of_b.finite())
         return;
-    }
     const int channels = std::max(a.nchannels(), b.nchannels());
     for (size_t i = 0; i < rows.npixels(); ++i) {
         for (int c = 0; c < channels; ++c) {
@@ -85,9 +83,8 @@ int unlike_samples(const OIIO::ImageBuf& a, const OIIO::ImageBuf& b, int x, int 
         for (int s = 0; s < std::max(of_a, of_b); ++s) {
             const float value_a = s < of_a && c < a.nchannels() ? a.deep_value(x, y, z, c, s) : 0;
             const float value_b = s < of_b && c < b.nchannels() ? b.deep_value(x, y, z, c, s) : 0;
-            if (unlike(value_a, value_b)) {
+            if (unlike(value_a, value_b))
                 return c;
-            }
         }
     }
     return -1;
@@ -98,9 +95,8 @@ void look_at_samples(const OIIO::ImageBuf& a, const OIIO::ImageBuf& b, const OII
     for (int y = rows.ybegin; y < rows.yend; ++y) {
         for (int x = rows.xbegin; x < rows.xend; ++x) {
             const int channel = unlike_samples(a, b, x, y, rows.zbegin);
-            if (channel >= 0) {
+            if (channel >= 0)
                 note(found, x, y, rows.zbegin, channel);
-            }
         }
     }
 }
@@ -110,12 +106,11 @@ void look_at_samples(const OIIO::ImageBuf& a, const OIIO::ImageBuf& b, const OII
 Unlike unlike_values(const OIIO::ImageBuf& a, const OIIO::ImageBuf& b) {
     Unlike found;
     const bool deep = a.deep() && b.deep();
-    if ((has_numbers_only(a) && has_numbers_only(b)) || (a.deep() != b.deep())) {
+    if ((has_numbers_only(a) && has_numbers_only(b)) || (a.deep() != b.deep()))
         return found;
-    }
     const OIIO::ROI all = OIIO::roi_union(a.roi(), b.roi());
     const int64_t in_row = int64_t(all.width()) * std::max(a.nchannels(), b.nchannels());
-    const int step = int(std::clamp<int64_t>(values_at_once / std::max<int64_t>(in_row, 1), 1,
+    const int step = int(std::clamp<int64_t>(kValuesAtOnce / std::max<int64_t>(in_row, 1), 1,
                                              std::max(all.height(), 1)));
     for (int z = all.zbegin; z < all.zend; ++z) {
         for (int y = all.ybegin; y < all.yend; y += step) {
@@ -130,4 +125,4 @@ Unlike unlike_values(const OIIO::ImageBuf& a, const OIIO::ImageBuf& b) {
     return found;
 }
 
-} // namespace tonetool::files
+} // namespace tonetool::chain

@@ -3,7 +3,7 @@
 
 #include <OpenImageIO/imagebuf.h>
 
-namespace tonetool::files {
+namespace tonetool::chain {
 
 /// Pixels with a value that is NaN in one image alone, or infinite in one alone, or infinite with
 /// both signs.
@@ -17,4 +17,4 @@ struct Unlike {
 /// an image has no pixel, channel or deep sample for is 0.
 Unlike unlike_values(const OIIO::ImageBuf& a, const OIIO::ImageBuf& b);
 
-} // namespace tonetool::files
+} // namespace tonetool::chain

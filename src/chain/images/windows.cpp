@@ -6,7 +6,7 @@
 
 #include "text/text.h"
 
-namespace tonetool::files {
+namespace tonetool::chain {
 
 namespace {
 
@@ -23,11 +23,10 @@ int rounded(float size) {
 
 // A size of 0 follows the other one.
 void keep_aspect(const Window& old, Window& now) {
-    if (now.width == 0 && now.height != 0) {
+    if (now.width == 0 && now.height != 0)
         now.width = rounded(float(now.height) * float(old.width) / float(old.height));
-    } else if (now.height == 0 && now.width != 0) {
+    else if (now.height == 0 && now.width != 0)
         now.height = rounded(float(now.width) * float(old.height) / float(old.width));
-    }
 }
 
 // `end` is where the text that was understood ends.
@@ -57,9 +56,8 @@ Found parse(const char* text, const Window& old, Window& now, int& end) {
         now.height = rounded(float(old.height) * std::max(0.0F, y * 0.01F));
         return Found::Scaled;
     }
-    if (std::sscanf(text, "%d%d%n", &now.x, &now.y, &end) == 2) {
+    if (std::sscanf(text, "%d%d%n", &now.x, &now.y, &end) == 2)
         return Found::Origin;
-    }
     now = old;
     if (std::sscanf(text, "%f%n%%%n", &x, &end, &end) == 1) {
         const float scale = text[end - 1] == '%' ? x * 0.01F : x;
@@ -84,17 +82,15 @@ Adjusted adjust_window(const std::string& text, Geometry allowed, OIIO::ROI& win
     int end = 0;
     Found found = parse(text.c_str(), old, now, end);
     const std::string valid = lenient ? "" : " (valid: " + valid_geometry(allowed) + ")";
-    if (found == Found::Nothing || !(lenient || size_t(end) == text.size())) {
+    if (found == Found::Nothing || !(lenient || size_t(end) == text.size()))
         return {"Unrecognized geometry \"" + text + "\"" + valid, ""};
-    }
     const bool rescales = found == Found::Scaled && allowed != Geometry::Scalable;
     const bool resizes = found == Found::Sized && allowed == Geometry::Position;
     const std::string why = rescales  ? "can't be used to rescale the size"
                             : resizes ? "can't be used to change the size, only the origin"
                                       : "";
-    if (!why.empty() && !lenient) {
+    if (!why.empty() && !lenient)
         return {"\"" + text + "\": " + why + valid, ""};
-    }
     if (!why.empty()) {
         now.width = old.width;
         now.height = old.height;
@@ -127,4 +123,4 @@ OIIO::ImageSpec scaled_spec(OIIO::ImageSpec spec, const OIIO::ROI& display) {
     return spec;
 }
 
-} // namespace tonetool::files
+} // namespace tonetool::chain

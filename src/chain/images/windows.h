@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-namespace tonetool::files {
+namespace tonetool::chain {
 
 /// Position: only the origin may change; Scalable: also "50%", "0.5".
 enum class Geometry { Position, Window, Scalable };
@@ -29,4 +29,4 @@ struct Size {
 };
 std::optional<Size> parsed_size(const std::string& text);
 
-} // namespace tonetool::files
+} // namespace tonetool::chain

@@ -21,15 +21,14 @@ std::string shortened(const std::string& text) {
 }
 
 bool find_global(const std::string& name, OIIO::ParamValue& value) {
-    if (int number = 0; OIIO::getattribute(name, number)) {
+    if (int number = 0; OIIO::getattribute(name, number))
         value = {name, number};
-    } else if (float real = 0; OIIO::getattribute(name, real)) {
+    else if (float real = 0; OIIO::getattribute(name, real))
         value = {name, real};
-    } else if (std::string text; OIIO::getattribute(name, text)) {
+    else if (std::string text; OIIO::getattribute(name, text))
         value = {name, text};
-    } else {
+    else
         return false;
-    }
     return true;
 }
 
@@ -45,9 +44,8 @@ public:
     std::string value() {
         std::string result = binary(0);
         Strutil::skip_whitespace(m_rest);
-        if (!m_rest.empty()) {
+        if (!m_rest.empty())
             fail("syntax error");
-        }
         return result;
     }
 
@@ -126,9 +124,8 @@ std::string Evaluator::combined(const std::string& left, const Operator& with,
 
 std::string Evaluator::binary(int level) {
     constexpr int atoms = 5;
-    if (level == atoms) {
+    if (level == atoms)
         return atom();
-    }
     std::string left = binary(level + 1);
     for (bool found = true; found;) {
         found = false;
@@ -146,10 +143,10 @@ std::string Evaluator::binary(int level) {
 
 // Text from a file must not exhaust the stack of the program that reads it.
 std::string Evaluator::atom() {
-    if (m_depth == most_nested_expressions) {
+    if (m_depth == kMostNestedExpressions) {
         throw CommandError(Strutil::fmt::format(
             "nested deeper than {}, the most that parentheses and signs may be, at char {} of '{}'",
-            most_nested_expressions, m_text.size() - m_rest.size() + 1, shortened(m_text)));
+            kMostNestedExpressions, m_text.size() - m_rest.size() + 1, shortened(m_text)));
     }
     ++m_depth;
     std::string value = value_of_atom();
@@ -161,48 +158,39 @@ std::string Evaluator::value_of_atom() {
     Strutil::skip_whitespace(m_rest);
     if (Strutil::parse_char(m_rest, '(')) {
         std::string inner = binary(0);
-        if (!Strutil::parse_char(m_rest, ')')) {
+        if (!Strutil::parse_char(m_rest, ')'))
             fail("missing `)'");
-        }
         return inner;
     }
     if (!m_rest.empty() && (m_rest.front() == '\'' || m_rest.front() == '"')) {
         OIIO::string_view text;
-        if (!Strutil::parse_string(m_rest, text)) {
+        if (!Strutil::parse_string(m_rest, text))
             fail("unfinished string");
-        }
         return text;
     }
-    if (Strutil::parse_char(m_rest, '!')) {
+    if (Strutil::parse_char(m_rest, '!'))
         return is_true(atom()) ? "0" : "1";
-    }
-    if (float number = 0; Strutil::parse_float(m_rest, number)) {
+    if (float number = 0; Strutil::parse_float(m_rest, number))
         return expression_number(double(number));
-    }
-    if (Strutil::parse_char(m_rest, '-')) {
+    if (Strutil::parse_char(m_rest, '-'))
         return expression_number(-double(Strutil::stof(atom())));
-    }
-    if (Strutil::parse_char(m_rest, '+')) {
+    if (Strutil::parse_char(m_rest, '+'))
         return atom();
-    }
     std::string name = Strutil::parse_identifier(m_rest, ":");
-    if (name.empty()) {
+    if (name.empty())
         fail("syntax error");
-    }
     return Strutil::parse_char(m_rest, '(') ? function(name) : named(name);
 }
 
 std::string Evaluator::function(const std::string& name) {
     auto argument = [&](char end) {
         std::string value = binary(0);
-        if (!Strutil::parse_char(m_rest, end)) {
+        if (!Strutil::parse_char(m_rest, end))
             fail(name + "() lacks `" + end + "'");
-        }
         return value;
     };
-    if (name == "not") {
+    if (name == "not")
         return is_true(argument(')')) ? "0" : "1";
-    }
     if (name == "eq" || name == "neq") {
         std::string first = argument(',');
         return (first == argument(')')) == (name == "eq") ? "1" : "0";
@@ -210,9 +198,8 @@ std::string Evaluator::function(const std::string& name) {
     if (name == "getattribute") {
         std::string key = Strutil::strip(Strutil::parse_until(m_rest, ")"), " '\"");
         (void)Strutil::parse_char(m_rest, ')');
-        if (OIIO::ParamValue value; find_global(key, value)) {
+        if (OIIO::ParamValue value; find_global(key, value))
             return value.get_string();
-        }
         return m_lenient ? m_text : (fail("unknown attribute name '" + key + "'"), "");
     }
     if (name == "var") {
@@ -224,31 +211,25 @@ std::string Evaluator::function(const std::string& name) {
 }
 
 std::string Evaluator::named(const std::string& name) {
-    if (name == "TOP") {
+    if (name == "TOP")
         return image_attribute(m_names.select_top());
-    }
-    if (name == "IMG") {
+    if (name == "IMG")
         return image_attribute(select_indexed());
-    }
-    if (auto value = m_names.value(name)) {
+    if (auto value = m_names.value(name))
         return *value;
-    }
     m_rest = OIIO::string_view(m_text).substr(m_text.size() - m_rest.size() - name.size());
     fail("syntax error");
 }
 
 bool Evaluator::select_indexed() {
-    if (!Strutil::parse_char(m_rest, '[')) {
+    if (!Strutil::parse_char(m_rest, '['))
         fail("expected `[`");
-    }
     std::string which = Strutil::strip(Strutil::parse_until(m_rest, "]"));
-    if (!Strutil::parse_char(m_rest, ']')) {
+    if (!Strutil::parse_char(m_rest, ']'))
         fail("expected `]`");
-    }
     which = Strutil::strip(which, "'\"");
-    if (which.find_first_of("+*/% (") != std::string::npos || m_names.value(which)) {
+    if (which.find_first_of("+*/% (") != std::string::npos || m_names.value(which))
         which = Evaluator(m_names, which, m_lenient).value();
-    }
     return m_names.select(which);
 }
 
@@ -258,34 +239,28 @@ std::string Evaluator::attribute_name() {
         const bool quoted = !m_rest.empty() && (m_rest.front() == '\'' || m_rest.front() == '"');
         std::string key = m_lenient && !quoted ? Strutil::parse_identifier(m_rest)
                                                : Strutil::strip(Strutil::parse_until(m_rest, "]"));
-        if (!Strutil::parse_char(m_rest, ']')) {
+        if (!Strutil::parse_char(m_rest, ']'))
             fail("expected `]`");
-        }
         return Strutil::strip(key, "'\"");
     }
-    if (!Strutil::parse_char(m_rest, '.')) {
+    if (!Strutil::parse_char(m_rest, '.'))
         fail("expected `.` or `[`");
-    }
     bool quoted = !m_rest.empty() && (m_rest.front() == '\'' || m_rest.front() == '"');
     if (quoted ? !Strutil::parse_string(m_rest, name)
-               : (name = Strutil::parse_identifier(m_rest, ":")).empty()) {
+               : (name = Strutil::parse_identifier(m_rest, ":")).empty())
         fail("syntax error");
-    }
     return name;
 }
 
 std::string Evaluator::image_attribute(bool found) {
-    if (!found) {
+    if (!found)
         fail("not a valid image");
-    }
     const bool in_brackets = !m_rest.empty() && m_rest.front() == '[';
     const std::string name = attribute_name();
-    if (auto value = m_names.attribute(name)) {
+    if (auto value = m_names.attribute(name))
         return *value;
-    }
-    if (in_brackets) { // TOP[name]: what is not there is empty
+    if (in_brackets) // TOP[name]: what is not there is empty
         return "";
-    }
     fail("unknown attribute name '" + name + "'");
 }
 

@@ -21,7 +21,7 @@ public:
 };
 
 /// Parentheses and signs that may be within one another.
-inline constexpr int most_nested_expressions = 100;
+inline constexpr int kMostNestedExpressions = 100;
 
 /// The value, as text; what is not understood is a CommandError, as is what is nested deeper than
 /// `most_nested_expressions`. If `lenient`, text in place of a

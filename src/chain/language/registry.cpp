@@ -30,7 +30,7 @@ std::deque<Command>& registry() {
 } // namespace
 
 std::string group_title(Group group) {
-    static const char* const titles[group_count] = {
+    static const char* const titles[kGroupCount] = {
         "General",
         "Control flow and scripting",
         "Commands that read images",
@@ -96,11 +96,9 @@ const std::deque<Command>& all_commands() {
 }
 
 const Command* find_command(const std::string& name) {
-    for (const Command& row : all_commands()) {
-        if (std::find(row.names.begin(), row.names.end(), name) != row.names.end()) {
+    for (const Command& row : all_commands())
+        if (std::find(row.names.begin(), row.names.end(), name) != row.names.end())
             return &row;
-        }
-    }
     return nullptr;
 }
 
@@ -108,13 +106,11 @@ namespace {
 
 Strings near_commands(const std::string& name, size_t most) {
     Strings names;
-    for (const Command& row : all_commands()) {
+    for (const Command& row : all_commands())
         names.insert(names.end(), row.names.begin(), row.names.end());
-    }
     Strings near = nearest_names(name, names, most);
-    for (std::string& word : near) {
+    for (std::string& word : near)
         word.insert(0, word.size() == 1 ? "-" : "--");
-    }
     return near;
 }
 

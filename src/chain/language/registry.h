@@ -43,7 +43,7 @@ enum class Group {
     Channels,
     Stack
 };
-inline constexpr int group_count = 17;
+inline constexpr int kGroupCount = 17;
 std::string group_title(Group group);
 
 /// What a command takes and leaves, and where help lists it.
@@ -56,7 +56,7 @@ struct Shape {
 };
 
 using Run = std::function<void(Session&, const Call&)>;
-inline constexpr int any_number = -1;
+inline constexpr int kAnyNumber = -1;
 
 struct Command : Shape {
     std::vector<Modifier> modifiers;

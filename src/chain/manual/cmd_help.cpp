@@ -7,9 +7,7 @@
 #include "chain/session/session.h"
 #include "text/error.h"
 
-namespace tonetool::manual {
-
-using namespace chain;
+namespace tonetool::chain {
 
 namespace {
 
@@ -42,4 +40,4 @@ std::vector<Command> commands() {
         run_help)};
 }
 
-} // namespace tonetool::manual
+} // namespace tonetool::chain

@@ -5,9 +5,7 @@
 #include "text/error.h"
 #include "tonetool/export.h"
 
-namespace tonetool::manual {
-
-using namespace chain;
+namespace tonetool::chain {
 
 namespace {
 
@@ -30,16 +28,13 @@ std::string troff(const std::string& text) {
 
 template <class Visit>
 void for_each_group(const Visit& visit) {
-    for (int group = 0; group < group_count; ++group) {
+    for (int group = 0; group < kGroupCount; ++group) {
         std::vector<const Command*> rows;
-        for (const Command& row : all_commands()) {
-            if (row.group == static_cast<Group>(group)) {
+        for (const Command& row : all_commands())
+            if (row.group == static_cast<Group>(group))
                 rows.push_back(&row);
-            }
-        }
-        if (!rows.empty()) {
+        if (!rows.empty())
             visit(group_title(static_cast<Group>(group)), rows);
-        }
     }
 }
 
@@ -71,9 +66,8 @@ std::string bash_completion() {
     std::string names, cases;
     for (const Command& row : all_commands()) {
         Strings keys;
-        for (const Modifier& modifier : row.modifiers) {
+        for (const Modifier& modifier : row.modifiers)
             keys.push_back(modifier.key + "=");
-        }
         for (const std::string& name : row.names) {
             names += " " + dashed(name);
             cases += keys.empty()
@@ -109,9 +103,8 @@ std::string zsh_completion() {
         for (const std::string& name : row.names) {
             commands += "    '" + dashed(name) + ":" + replaced(row.help, "'", "'\\'") + "'\n";
             std::string keys;
-            for (const Modifier& modifier : row.modifiers) {
+            for (const Modifier& modifier : row.modifiers)
                 keys += " '" + modifier.key + "=:" + replaced(modifier.help, "'", "'\\'") + "'";
-            }
             text += keys.empty() ? "" : "    " + dashed(name) + ") modifiers=(" + keys + " ) ;;\n";
         }
     }
@@ -146,27 +139,23 @@ struct Format {
     const char* name;
     std::string (*text)();
 };
-const Format formats[] = {
+const Format kFormats[] = {
     {"man", man_page}, {"bash", bash_completion}, {"zsh", zsh_completion}, {"json", json_text}};
 
 } // namespace
 
 bool is_registry_format(const std::string& format) {
-    for (const Format& known : formats) {
-        if (format == known.name) {
+    for (const Format& known : kFormats)
+        if (format == known.name)
             return true;
-        }
-    }
     return false;
 }
 
 std::string registry_text(const std::string& format) {
-    for (const Format& known : formats) {
-        if (format == known.name) {
+    for (const Format& known : kFormats)
+        if (format == known.name)
             return known.text();
-        }
-    }
     throw CommandError("unknown format \"" + format + "\" (valid: man, bash, zsh, json)");
 }
 
-} // namespace tonetool::manual
+} // namespace tonetool::chain

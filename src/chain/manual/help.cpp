@@ -4,9 +4,7 @@
 
 #include "tonetool/export.h"
 
-namespace tonetool::manual {
-
-using namespace chain;
+namespace tonetool::chain {
 
 namespace {
 
@@ -17,13 +15,11 @@ std::string padded(std::string text, size_t width) {
 
 std::string signature(const Command& row) {
     Strings names;
-    for (const std::string& name : row.names) {
+    for (const std::string& name : row.names)
         names.push_back((name.size() == 1 ? "-" : "--") + name);
-    }
     std::string text = join(names, ", ");
-    for (const std::string& argument : row.args) {
+    for (const std::string& argument : row.args)
         text += " " + argument;
-    }
     return text;
 }
 
@@ -51,29 +47,24 @@ std::string usage_text() {
 
 std::string help_text() {
     std::string text = "tonetool -- " TONETOOL_VERSION "\n\n" + usage_text();
-    for (int group = 0; group < group_count; ++group) {
+    for (int group = 0; group < kGroupCount; ++group) {
         std::string rows;
-        for (const Command& row : all_commands()) {
-            if (row.group == static_cast<Group>(group)) {
+        for (const Command& row : all_commands())
+            if (row.group == static_cast<Group>(group))
                 rows += "    " + padded(signature(row), 30) + row.help + "\n";
-            }
-        }
-        if (!rows.empty()) {
+        if (!rows.empty())
             text += "\n" + group_title(static_cast<Group>(group)) + ":\n" + rows;
-        }
     }
     return text;
 }
 
 std::string help_text(const Command& row) {
     std::string text = signature(row) + "\n    " + row.help + "\n" + images_text(row);
-    if (!row.modifiers.empty()) {
+    if (!row.modifiers.empty())
         text += "    modifiers:\n";
-    }
-    for (const Modifier& modifier : row.modifiers) {
+    for (const Modifier& modifier : row.modifiers)
         text += "      " + padded(modifier.key + "=" + modifier.hint, 34) + modifier.help + "\n";
-    }
     return text;
 }
 
-} // namespace tonetool::manual
+} // namespace tonetool::chain

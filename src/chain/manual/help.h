@@ -6,7 +6,7 @@
 
 #include "chain/language/registry.h"
 
-namespace tonetool::manual {
+namespace tonetool::chain {
 
 using chain::Command;
 
@@ -24,4 +24,4 @@ bool is_registry_format(const std::string& format);
 /// The row of --help.
 std::vector<Command> commands();
 
-} // namespace tonetool::manual
+} // namespace tonetool::chain

@@ -12,9 +12,8 @@ namespace {
 void note_lineage(const Session& session, const Call& call, size_t first) {
     std::string of_popped;
     for (const ImagePtr& image : call.images) {
-        if (image->lineage == 0) {
+        if (image->lineage == 0)
             return;
-        }
         of_popped += std::to_string(image->lineage) + ' ';
     }
     for (size_t i = first; i < session.stack.size() && !of_popped.empty(); ++i) {
@@ -54,15 +53,12 @@ bool chooses_a_part(const Call& call) {
 
 void note_ancestry(const Session& session, const Call& call, size_t first) {
     note_lineage(session, call, first);
-    if (call.row().group == Group::Compare || chooses_a_part(call)) {
+    if (call.row().group == Group::Compare || chooses_a_part(call))
         return;
-    }
     for (size_t i = first; i < session.stack.size(); ++i) {
-        for (const ImagePtr& from : call.images) {
-            if (from != session.stack[i]) {
+        for (const ImagePtr& from : call.images)
+            if (from != session.stack[i])
                 note_left_out(*session.stack[i], *from);
-            }
-        }
     }
 }
 

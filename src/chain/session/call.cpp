@@ -12,9 +12,8 @@ namespace {
 
 Strings keys_of(const Command& row) {
     Strings keys;
-    for (const Modifier& modifier : row.modifiers) {
+    for (const Modifier& modifier : row.modifiers)
         keys.push_back(modifier.key);
-    }
     return keys;
 }
 
@@ -36,19 +35,16 @@ Call::Call(const Command& row, Token token, Strings arguments, bool lenient)
       m_token(std::move(token)),
       m_arguments(std::move(arguments)),
       m_lenient(lenient && !row.own) {
-    if (!m_lenient) {
+    if (!m_lenient)
         check_keys(row, m_token);
-    }
 }
 
 Strings Call::dropped() const {
     const Strings keys = keys_of(*m_row);
     Strings found = m_token.dropped;
-    for (const auto& [key, value] : m_token.modifiers) {
-        if (std::find(keys.begin(), keys.end(), key) == keys.end()) {
+    for (const auto& [key, value] : m_token.modifiers)
+        if (std::find(keys.begin(), keys.end(), key) == keys.end())
             found.push_back(key + "=" + value);
-        }
-    }
     return found;
 }
 
@@ -69,11 +65,9 @@ double Call::parsed(const std::string& what, const std::string& value, Range ran
 }
 
 std::optional<std::string> Call::text(const std::string& key) const {
-    for (const auto& [name, value] : m_token.modifiers) {
-        if (name == key) {
+    for (const auto& [name, value] : m_token.modifiers)
+        if (name == key)
             return value;
-        }
-    }
     return std::nullopt;
 }
 
@@ -96,21 +90,18 @@ bool Call::flag(const std::string& key, bool otherwise) const {
 
 std::optional<std::string> Call::choice(const std::string& key, const Strings& valid) const {
     std::optional<std::string> value = text(key);
-    if (value && !m_lenient) {
+    if (value && !m_lenient)
         check_choice(key, *value, valid);
-    }
     return value;
 }
 
 std::vector<double> Call::numbers(const std::string& key, size_t count) const {
     std::vector<double> values;
     std::optional<std::string> list = text(key);
-    if (!list) {
+    if (!list)
         return values;
-    }
-    for (const std::string& word : split(*list, ',')) {
+    for (const std::string& word : split(*list, ','))
         values.push_back(checked_number(key, word, {-1e30, 1e30}));
-    }
     if (values.size() != count) {
         throw CommandError(key + " \"" + *list + "\" has " + std::to_string(values.size()) +
                            " numbers (valid: " + std::to_string(count) +

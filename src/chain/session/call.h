@@ -14,7 +14,7 @@
 
 namespace tonetool::chain {
 
-using files::ImagePtr;
+using ImagePtr;
 
 class Call {
 public:

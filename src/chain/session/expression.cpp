@@ -18,15 +18,12 @@ public:
 
     std::optional<std::string> value(const std::string& name) override {
         const Frame& frame = m_session.frame;
-        if (name == "FRAME_NUMBER") {
+        if (name == "FRAME_NUMBER")
             return std::to_string(frame.number);
-        }
-        if (name == "FRAME_NUMBER_PAD") {
+        if (name == "FRAME_NUMBER_PAD")
             return OIIO::Strutil::fmt::format("{:0{}d}", frame.number, frame.padding);
-        }
-        if (!m_session.variables.contains(name)) {
+        if (!m_session.variables.contains(name))
             return std::nullopt;
-        }
         const OIIO::ParamValue& variable = *m_session.variables.find(name);
         const OIIO::TypeDesc type = variable.type();
         // Of several values oiiotool marks where they begin and end: {1,2,3}, (0.5,0.5,0.5).
@@ -46,27 +43,23 @@ public:
         return m_image != nullptr;
     }
     std::optional<std::string> attribute(const std::string& name) override {
-        return files::attribute_text(*m_image, name);
+        return attribute_text(*m_image, name);
     }
 
 private:
     ImagePtr found(const std::string& which) const {
         const std::vector<ImagePtr>& stack = m_session.stack;
         auto index = parse_integer(which);
-        if (index && *index >= 0 && size_t(*index) < stack.size()) {
+        if (index && *index >= 0 && size_t(*index) < stack.size())
             return stack[stack.size() - 1 - size_t(*index)];
-        }
-        if (auto labelled = m_session.labels.find(which); labelled != m_session.labels.end()) {
+        if (auto labelled = m_session.labels.find(which); labelled != m_session.labels.end())
             return labelled->second;
-        }
-        if (which == "TOP" && !stack.empty()) {
+        if (which == "TOP" && !stack.empty())
             return stack.back();
-        }
         auto named = std::find_if(stack.rbegin(), stack.rend(),
                                   [&](const ImagePtr& image) { return image->name() == which; });
-        if (named != stack.rend()) {
+        if (named != stack.rend())
             return *named;
-        }
         const std::string file = m_session.file(which);
         return OIIO::Filesystem::exists(file) ? Image::open(file) : nullptr;
     }
@@ -80,9 +73,8 @@ std::string value_or_text(Session& session, const std::string& text) {
     try {
         return evaluated(text, names, session.compat);
     } catch (const CommandError& problem) {
-        if (!session.compat) {
+        if (!session.compat)
             throw CommandError(std::string("expression : ") + problem.what());
-        }
         session.error("expression", problem.what());
         return text;
     }
@@ -90,10 +82,10 @@ std::string value_or_text(Session& session, const std::string& text) {
 
 // Values of variables that hold variables grow without an end.
 void check_size(size_t size) {
-    if (size > most_bytes_of_a_word) {
+    if (size > kMostBytesOfAWord) {
         throw CommandError("expression : a word with the values of its {expressions} is longer "
                            "than " +
-                           OIIO::Strutil::memformat(most_bytes_of_a_word) +
+                           OIIO::Strutil::memformat(kMostBytesOfAWord) +
                            ", the most that it may be");
     }
 }
@@ -101,17 +93,15 @@ void check_size(size_t size) {
 } // namespace
 
 std::string with_values(Session& session, const std::string& word) {
-    if (!session.evaluate || word.find('{') == std::string::npos) {
+    if (!session.evaluate || word.find('{') == std::string::npos)
         return word;
-    }
     Strings plain, nested; // a plain text, an expression, a plain text, ...
     OIIO::string_view rest = word;
     for (size_t brace = rest.find('{'); brace != OIIO::string_view::npos; brace = rest.find('{')) {
         OIIO::string_view behind = rest.substr(brace);
         const OIIO::string_view inner = OIIO::Strutil::parse_nested(behind);
-        if (inner.empty()) {
+        if (inner.empty())
             break;
-        }
         plain.push_back(rest.substr(0, brace));
         nested.push_back(inner.substr(1, inner.size() - 2));
         rest = behind;

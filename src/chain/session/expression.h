@@ -8,7 +8,7 @@
 namespace tonetool::chain {
 
 /// The most that a word may be with the values in it.
-inline constexpr size_t most_bytes_of_a_word = 1 << 20;
+inline constexpr size_t kMostBytesOfAWord = 1 << 20;
 
 /// The word with each {...} replaced by its value. What is not understood is a CommandError; with
 /// --compat it is reported and the text stays.

@@ -56,15 +56,12 @@ OIIO::ImageBuf made(Session& session, const Call& call, const Kernel& kernel, in
         op.src.push_back(&part.pixels(std::min(level, part.mip_levels() - 1)));
     }
     bool done = kernel(op);
-    if (!done || result.has_error()) {
+    if (!done || result.has_error())
         throw CommandError(result.has_error() ? result.geterror() : "failed");
-    }
-    if (op.unchanged) {
+    if (op.unchanged)
         result.copy(op.a());
-    }
-    for (size_t i = 1; i < op.src.size() && session.metamerge; ++i) {
+    for (size_t i = 1; i < op.src.size() && session.metamerge; ++i)
         result.specmod().extra_attribs.merge(op.src[i]->spec().extra_attribs);
-    }
     changed |= !op.unchanged;
     return result;
 }
@@ -98,9 +95,8 @@ std::string Op::text(const std::string& key, const std::string& otherwise) const
 
 Floats Op::list(const std::string& what, const std::string& words) const {
     Floats values;
-    for (const std::string& word : split(words, ',')) {
-        values.push_back(float(call.parsed(what, OIIO::Strutil::strip(word), any_number_at_all)));
-    }
+    for (const std::string& word : split(words, ','))
+        values.push_back(float(call.parsed(what, OIIO::Strutil::strip(word), kAnyNumberAtAll)));
     return values;
 }
 
@@ -121,17 +117,14 @@ Floats Op::per_value(const std::string& what, const std::string& words, float re
         session.warning(call.row().label(),
                         what + " \"" + words + "\" has " + std::to_string(given.size()) +
                             " numbers, of which the image's channels use " + std::to_string(count));
-        for (const std::string& word : given) {
+        for (const std::string& word : given)
             (void)list(what, OIIO::Strutil::strip(word).empty() ? "0" : word);
-        }
         given.resize(std::max<size_t>(count, 1));
     }
-    if (given.size() == 1) {
+    if (given.size() == 1)
         return Floats(count, list(what, words).front());
-    }
-    for (size_t i = 0; i < given.size(); ++i) { // ",,3": the first two stay as they are
+    for (size_t i = 0; i < given.size(); ++i) // ",,3": the first two stay as they are
         values[i] = OIIO::Strutil::strip(given[i]).empty() ? rest : list(what, given[i]).front();
-    }
     return values;
 }
 
@@ -154,9 +147,8 @@ Chosen chosen_subimages(const Session& session, const Call& call, const Image& i
         return {all ? count : 1, std::vector<bool>(all ? count : 1, true)};
     }
     Chosen chosen{count, {}};
-    for (size_t s = 0; s < count; ++s) {
+    for (size_t s = 0; s < count; ++s)
         chosen.active.push_back(which.has(s));
-    }
     if (!session.compat && std::count(chosen.active.begin(), chosen.active.end(), true) == 0) {
         throw CommandError("subimages \"" + *subimages + "\" chooses none of the " +
                            std::to_string(count) + " subimages of " + image.name());
@@ -182,24 +174,20 @@ void run_kernel(Session& session, const Call& call, const Kernel& kernel, Scope 
         session.push(call.images.front());
         return;
     }
-    if (chosen.count == 1 && !session.compat) {
+    if (chosen.count == 1 && !session.compat)
         session.warn_of_other_parts(call.row().label(), first);
-    }
     ImagePtr result = Image::derived(first, std::move(subimages));
-    if (session.compat && !call.operation().empty()) {
+    if (session.compat && !call.operation().empty())
         result->rename(call.operation());
-    }
     session.push(std::move(result));
 }
 
 ImagePtr with_headers(const Image& image, const Chosen& chosen,
                       const std::function<void(OIIO::ImageSpec&)>& edit) {
     std::vector<PartPtr> parts = image.parts();
-    for (size_t s = 0; s < chosen.count; ++s) {
-        if (chosen.active[s]) {
+    for (size_t s = 0; s < chosen.count; ++s)
+        if (chosen.active[s])
             parts[s] = Part::with_headers(parts[s], edit);
-        }
-    }
     return std::make_shared<Image>(image.name(), std::move(parts));
 }
 
@@ -238,13 +226,11 @@ Command free_row(Group group, const std::string& usage, int pops, int pushes,
 
 bool adjust_window(Session& session, const Call& call, const std::string& text, Geometry allowed,
                    OIIO::ROI& window) {
-    const files::Adjusted adjusted = files::adjust_window(text, allowed, window, session.compat);
-    if (!adjusted.error.empty()) {
+    const Adjusted adjusted = adjust_window(text, allowed, window, session.compat);
+    if (!adjusted.error.empty())
         throw CommandError(adjusted.error, call.text());
-    }
-    if (!adjusted.warning.empty()) {
+    if (!adjusted.warning.empty())
         session.warning(call.text(), adjusted.warning);
-    }
     return adjusted.warning.empty();
 }
 
@@ -259,9 +245,8 @@ std::vector<ImagePtr> take_images(Session& session, size_t count) {
     session.stack.resize(session.stack.size() - count);
     for (const ImagePtr& image : images) {
         image->used = true;
-        if (some || !session.compat) { // oiiotool does not look at the types of "all"
+        if (some || !session.compat) // oiiotool does not look at the types of "all"
             session.note_format(*image);
-        }
     }
     return images;
 }

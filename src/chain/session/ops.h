@@ -12,12 +12,12 @@
 namespace tonetool::chain {
 
 namespace IBA = OIIO::ImageBufAlgo;
-using files::Geometry;
-using files::parsed_size;
-using files::Size;
+using Geometry;
+using parsed_size;
+using Size;
 using Floats = std::vector<float>;
-inline constexpr Range any_number_at_all{-3.4e38, 3.4e38};
-inline constexpr Range any_integer{-2147483648.0, 2147483647.0};
+inline constexpr Range kAnyNumberAtAll{-3.4e38, 3.4e38};
+inline constexpr Range kAnyInteger{-2147483648.0, 2147483647.0};
 
 /// What a kernel works on: one MIP level of one subimage of the images that were popped, with the
 /// arguments and modifiers as it needs them.
@@ -34,14 +34,14 @@ struct Op {
     const OIIO::ImageBuf& c() const { return *src.at(2); }
 
     float number(size_t argument) const {
-        return float(call.number_argument(argument, any_number_at_all));
+        return float(call.number_argument(argument, kAnyNumberAtAll));
     }
     float number(const std::string& key, float otherwise) const {
-        return float(call.number(key, any_number_at_all).value_or(double(otherwise)));
+        return float(call.number(key, kAnyNumberAtAll).value_or(double(otherwise)));
     }
-    int integer(size_t argument) const { return call.integer_argument(argument, any_integer); }
+    int integer(size_t argument) const { return call.integer_argument(argument, kAnyInteger); }
     int integer(const std::string& key, int otherwise) const {
-        return call.integer(key, any_integer).value_or(otherwise);
+        return call.integer(key, kAnyInteger).value_or(otherwise);
     }
     bool flag(const std::string& key, bool otherwise = false) const {
         return call.flag(key, otherwise);
@@ -107,7 +107,7 @@ void run_kernel(Session& session, const Call& call, const Kernel& kernel, Scope 
 ImagePtr with_headers(const Image& image, const Chosen& chosen,
                       const std::function<void(OIIO::ImageSpec&)>& edit);
 
-/// files::adjust_window for the command. False where --compat let something pass.
+/// adjust_window for the command. False where --compat let something pass.
 bool adjust_window(Session& session, const Call& call, const std::string& text, Geometry allowed,
                    OIIO::ROI& window);
 

@@ -26,9 +26,8 @@ void refuse_deep(const Session& session, const Call& call) {
                                       "minchan",    "chsum",     "colormap", "colorcount",
                                       "rangecheck", "pdiff"};
     const std::string& name = call.row().names.front();
-    if (std::find(flat_only.begin(), flat_only.end(), name) == flat_only.end()) {
+    if (std::find(flat_only.begin(), flat_only.end(), name) == flat_only.end())
         return;
-    }
     for (const ImagePtr& image : call.images) {
         const Chosen chosen = chosen_subimages(session, call, *image);
         for (size_t s = 0; s < chosen.count; ++s) {
@@ -50,27 +49,23 @@ void execute(Session& session, Call& call) {
     for (const ImagePtr& image : call.images) {
         image->used = true;
         image->worked_on |= call.row().group != Group::Stack && call.row().group != Group::Print;
-        if (call.row().group != Group::Stack) {
+        if (call.row().group != Group::Stack)
             session.note_format(*image);
-        }
     }
     refuse_deep(session, call);
     const size_t below = stack.size();
     const size_t expected = below + static_cast<size_t>(call.pushes());
     call.row().run(session, call);
     note_ancestry(session, call, below);
-    if (call.pushes() != any_number && stack.size() != expected) {
+    if (call.pushes() != kAnyNumber && stack.size() != expected)
         throw CommandError("internal error: wrong number of images on the stack");
-    }
 }
 
 // Files that a command reads are where the policy says.
 void locate_files(Session& session, const Command& row, Token& token, Strings& arguments) {
-    for (size_t i = 0; i < arguments.size() && i < row.args.size() && !row.writes(); ++i) {
-        if (names_file(row.args[i])) {
+    for (size_t i = 0; i < arguments.size() && i < row.args.size() && !row.writes(); ++i)
+        if (names_file(row.args[i]))
             arguments[i] = session.file(arguments[i]);
-        }
-    }
     for (auto& [key, value] : token.modifiers) {
         for (const Modifier& modifier : row.modifiers) {
             if (modifier.key == key && names_file(modifier.hint)) {
@@ -92,9 +87,8 @@ std::string name_in_messages(const Call& call, bool compat) {
 void run_command(Session& session, const std::string& word, Strings arguments) {
     Token token = parse_token("--" + word, session.compat);
     const Command* row = find_command(token.name);
-    if (!row) {
+    if (!row)
         throw CommandError("internal error: no command " + word);
-    }
     Call call(*row, std::move(token), std::move(arguments), session.compat);
     execute(session, call);
 }
@@ -107,12 +101,10 @@ void Runner::run_all() {
         guarded(&Runner::run_word);
     }
     m_where.clear();
-    if (!m_session.aborted && !m_ended) {
+    if (!m_session.aborted && !m_ended)
         guarded(&Runner::finish);
-    }
-    if (m_session.runstats) {
+    if (m_session.runstats)
         print_statistics();
-    }
 }
 
 void Runner::guarded(void (Runner::*step)()) {
@@ -134,9 +126,8 @@ void Runner::guarded(void (Runner::*step)()) {
     } catch (const CommandError& problem) {
         const bool renamed = m_session.compat && !problem.place.empty();
         m_session.error(renamed ? problem.place : m_where, problem.what());
-        if (m_session.compat && problem.again) {
+        if (m_session.compat && problem.again)
             m_session.error(m_where, "");
-        }
     } catch (const std::exception& problem) {
         m_session.error(m_where, problem.what());
     } catch (...) {
@@ -184,9 +175,8 @@ void Runner::count_word() {
 }
 
 void Runner::check_policy(const Call& call) const {
-    if (!m_session.policy.read_only) {
+    if (!m_session.policy.read_only)
         return;
-    }
     if (call.row().outlives_chain()) {
         throw CommandError(std::string("not allowed here: it ") +
                            (call.row().writes() ? "writes a file" : "sets up the whole process") +
@@ -209,9 +199,8 @@ void Runner::run_file(const std::string& word) {
         const bool from_file = m_session.labels.count(word) == 0;
         push_file_or_label(m_session, word);
         seconds += time();
-        if (from_file) {
+        if (from_file)
             mark_frames(*m_session.stack.back());
-        }
         run_postponed();
     }
 }
@@ -245,9 +234,8 @@ Strings Runner::take_arguments(const Command& row, const Token& token) {
         const std::string& name = row.args[i];
         bool optional = name.front() == '[';
         const bool other = m_session.compat && next < m_words.size() && m_words[next][0] == '-';
-        if (name.front() == '=' || is_left_out(name, m_words, next) || (optional && other)) {
+        if (name.front() == '=' || is_left_out(name, m_words, next) || (optional && other))
             break;
-        }
         if (next >= m_words.size()) {
             if (m_session.compat) {
                 throw UsageError("Missing parameter " + std::to_string(i + 1) + " from option \"" +
@@ -306,9 +294,8 @@ void Runner::note_varying(size_t begin) {
 // Against a sequence it is a slip as often as it is meant: what is meant has to be said. And what
 // is compared once is not to be counted as a comparison of each frame.
 void Runner::refuse_the_same_in_all_frames(const Call& call) const {
-    if (!m_session.judges || m_varies || call.row().group != Group::Compare) {
+    if (!m_session.judges || m_varies || call.row().group != Group::Compare)
         return;
-    }
     const std::vector<ImagePtr> images(m_session.stack.end() - call.pops(), m_session.stack.end());
     for (const ImagePtr& image : images) {
         if (image->same_in_all_frames && !image->meant_for_all_frames) {
@@ -346,9 +333,8 @@ void Runner::mark_pushed(const Call& call, size_t first) const {
     const bool measured = call.row().group == Group::Compare || call.row().group == Group::Measure;
     for (size_t i = first; i < m_session.stack.size(); ++i) {
         const ImagePtr& image = m_session.stack[i];
-        if (std::find(popped.begin(), popped.end(), image) != popped.end()) {
+        if (std::find(popped.begin(), popped.end(), image) != popped.end())
             continue;
-        }
         if (call.row().group == Group::Read) {
             mark_frames(*image);
         } else {
@@ -372,9 +358,8 @@ void Runner::run_or_postpone(Call call) {
         throw CommandError("needs " + std::to_string(call.pops()) + " image(s), the stack has " +
                            std::to_string(m_session.stack.size()));
     }
-    if (m_session.compat) { // as oiiotool, which has room for one
+    if (m_session.compat) // as oiiotool, which has room for one
         m_postponed.clear();
-    }
     m_postponed.push_back(std::move(call));
     m_session.waiting = m_postponed.front().row().label();
 }
@@ -391,9 +376,8 @@ void Runner::run_call(Call& call) {
     const size_t first = m_session.stack.size() - size_t(call.pops());
     execute(m_session, call);
     mark_pushed(call, first);
-    if (call.row().group != Group::General && call.row().group != Group::Control) {
+    if (call.row().group != Group::General && call.row().group != Group::Control)
         m_session.seconds["-" + call.row().names.front()] += time();
-    }
     if (told) {
         m_session.print(OIIO::Strutil::fmt::format(
             "    -{} took {:.2f}s  (total time {:.2f}s, mem {})", call.row().names.front(), time(),
@@ -443,9 +427,8 @@ void Runner::warn_of_unused() {
     const bool listing = m_session.listing() || m_session.produced_by_name;
     for (const ImagePtr& image : m_session.stack) {
         const bool result = m_session.for_images && image == m_session.stack.back();
-        if (!listing && !result && !image->used && image->part().from_file()) {
+        if (!listing && !result && !image->used && image->part().from_file())
             m_session.warning("", "\"" + image->name() + "\" was read, but no command used it");
-        }
     }
 }
 
@@ -472,16 +455,14 @@ void Runner::finish() {
     check_outputs(m_session);
     refuse_what_was_not_compared();
     warn_of_unused();
-    if (!m_session.produced && !m_session.wrote && !m_session.for_images) {
+    if (!m_session.produced && !m_session.wrote && !m_session.for_images)
         throw CommandError("produced no output. Did you forget -o?");
-    }
 }
 
 void Runner::finish_leniently() {
     refuse_what_was_not_compared();
-    if (!m_postponed.empty()) {
+    if (!m_postponed.empty())
         m_session.warning(m_postponed.front().text(), "pending command never executed");
-    }
     if (!m_session.flow.blocks.empty()) {
         const std::string& kind = m_session.flow.blocks.back().kind;
         m_session.warning(kind, "unterminated " + kind);
@@ -489,11 +470,10 @@ void Runner::finish_leniently() {
     if (!m_session.produced && !m_session.listing() && !m_session.dry_run &&
         !m_session.for_images) {
         const Image* top = m_session.stack.empty() ? nullptr : m_session.stack.back().get();
-        if (top && !top->written && !top->part().from_file()) {
+        if (top && !top->written && !top->part().from_file())
             m_session.warning("", "modified images without outputting them. Did you forget -o?");
-        } else if (!m_session.wrote) {
-            m_session.warning("", no_output);
-        }
+        else if (!m_session.wrote)
+            m_session.warning("", kNoOutput);
     }
 }
 

@@ -10,7 +10,7 @@
 
 namespace tonetool::chain {
 
-inline constexpr char no_output[] = "oiiotool produced no output. Did you forget -o?";
+inline constexpr char kNoOutput[] = "oiiotool produced no output. Did you forget -o?";
 
 class Runner {
 public:

@@ -33,9 +33,8 @@ std::string of_frame(const Session& session) {
 void Session::error(const std::string& where, const std::string& what, bool ends) {
     ++errors;
     aborted |= ends;
-    if (first_error.empty()) {
+    if (first_error.empty())
         first_error = (where.empty() ? "" : where + " : ") + what;
-    }
     out.flush();
     complaints() << (what.empty() ? "tonetool ERROR: " + where + " (unknown error)"
                                   : prefix("ERROR", where, compat) + indented(what, compat) +
@@ -59,9 +58,8 @@ void Session::warn_of_other_parts(const std::string& where, const Image& image) 
 }
 
 void Session::report(const std::string& line) {
-    if (!quiet) {
+    if (!quiet)
         print(line);
-    }
 }
 
 void Session::print(const std::string& line) {
@@ -69,9 +67,8 @@ void Session::print(const std::string& line) {
 }
 
 void Session::note_format(Image& image) {
-    if (image.noted || !image.part().from_file()) {
+    if (image.noted || !image.part().from_file())
         return;
-    }
     image.noted = true;
     types.note(image);
     const OIIO::ImageSpec& spec = image.part().header();
@@ -81,7 +78,7 @@ void Session::note_format(Image& image) {
     }
 }
 
-files::Writer Session::writer(const std::string& where) {
+Writer Session::writer(const std::string& where) {
     return {command_line, compat, &types,
             [this, where](const std::string& text) { warning(where, text); }, &matched_channels};
 }
@@ -98,16 +95,13 @@ std::string Session::file(const std::string& name) {
 
 void Session::keep_pixels_of(const std::string& filename) {
     const auto keep = [&](const Image& image) {
-        for (const PartPtr& part : image.parts()) {
+        for (const PartPtr& part : image.parts())
             part->read_before_replacing(filename);
-        }
     };
-    for (const ImagePtr& image : stack) {
+    for (const ImagePtr& image : stack)
         keep(*image);
-    }
-    for (const auto& [name, image] : labels) {
+    for (const auto& [name, image] : labels)
         keep(*image);
-    }
 }
 
 void WrittenFiles::claim(const std::string& filename, int number, const std::string& view) {
@@ -123,29 +117,24 @@ void WrittenFiles::claim(const std::string& filename, int number, const std::str
 }
 
 void Session::claim(const std::string& filename) {
-    if (dry_run) {
+    if (dry_run)
         return;
-    }
-    if (written && !compat) {
+    if (written && !compat)
         written->claim(filename, frame.number, frame.view);
-    }
     claimed.push_back(filename);
 }
 
 OIIO::ColorConfig& color_config(Session& session) {
-    if (!session.ocio) {
+    if (!session.ocio)
         session.ocio = std::make_shared<OIIO::ColorConfig>(session.color_config);
-    }
     return *session.ocio;
 }
 
 int Session::exit_status() const {
-    if (errors > 0 || differs) {
+    if (errors > 0 || differs)
         return 1;
-    }
-    if (failures > 0) {
+    if (failures > 0)
         return compat ? 1 : 3;
-    }
     return warnings > 0 && warnings_exit ? 2 : 0;
 }
 

@@ -19,21 +19,21 @@
 #include "sequence/frames/file_stamp.h"
 #include "text/text.h"
 
-namespace tonetool::measure {
+namespace tonetool::chain {
 struct CheckPart;
-} // namespace tonetool::measure
+} // namespace tonetool::chain
 
 namespace tonetool::chain {
 
-using files::DataFormat;
-using files::Image;
-using files::ImagePtr;
-using files::Listing;
-using files::NamedType;
-using files::OutputSettings;
-using files::Part;
-using files::PartPtr;
-using files::ReadOptions;
+using DataFormat;
+using Image;
+using ImagePtr;
+using Listing;
+using NamedType;
+using OutputSettings;
+using Part;
+using PartPtr;
+using ReadOptions;
 
 /// What the frame loop has put in place of wildcards.
 struct Frame {
@@ -112,7 +112,7 @@ struct Session {
 
     ReadOptions input;
     std::string missing_file = "error"; ///< or what stands in for it: "black", "checker"
-    files::ReadTypes types;
+    ReadTypes types;
     std::optional<OIIO::ImageSpec> first_header; ///< of the image read first
     std::time_t newest_input = 0;
     OutputSettings output;
@@ -137,7 +137,7 @@ struct Session {
     int errors = 0, warnings = 0, failures = 0;
     std::string first_error;
     Strings warning_texts;
-    measure::CheckPart* check = nullptr; ///< of a check: what its commands find goes there
+    CheckPart* check = nullptr; ///< of a check: what its commands find goes there
 
     /// The name of an operator that waits for images; empty if none does.
     std::string waiting;
@@ -164,7 +164,7 @@ struct Session {
     void note_format(Image& image);
 
     /// What outputs are told; `where` is the command that their warnings name.
-    files::Writer writer(const std::string& where);
+    Writer writer(const std::string& where);
 
     void push(ImagePtr image) { stack.push_back(std::move(image)); }
 

@@ -78,9 +78,8 @@ void linearize_row(const ColorSpace& space, bool rec709, ToneRow& row, size_t co
     const bool convert = rec709 && !space.is_rec709;
     for (size_t x = 0; x < count; ++x) {
         double v[3];
-        for (int c = 0; c < 3; ++c) {
+        for (int c = 0; c < 3; ++c)
             v[c] = space.light(double(row.rgb[c][x]), double(row.alpha[x]));
-        }
         bool negative = false;
         for (size_t c = 0; c < 3; ++c) {
             const auto& m = space.to_rec709[c];

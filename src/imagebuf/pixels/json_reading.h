@@ -14,20 +14,19 @@ namespace tonetool {
 
 /// Lists and objects that may be within one another: the library below goes down into each of them
 /// by a call, and a text of brackets would exhaust the stack.
-inline constexpr int most_nested_json = 100;
+inline constexpr int kMostNestedJson = 100;
 
 inline int depth_of_json(const std::string& text) {
     int depth = 0, most = 0;
     for (size_t at = 0; at < text.size(); ++at) {
         const char c = text[at];
-        if (c == '"') {
+        if (c == '"')
             for (++at; at < text.size() && text[at] != '"'; ++at)
                 at += text[at] == '\\' ? 1 : 0;
-        } else if (c == '[' || c == '{') {
+        else if (c == '[' || c == '{')
             most = std::max(most, ++depth);
-        } else if (c == ']' || c == '}') {
+        else if (c == ']' || c == '}')
             --depth;
-        }
     }
     return most;
 }
@@ -43,9 +42,9 @@ inline std::string reason_of(const nlohmann::json::exception& problem) {
 /// with it and where.
 template <class Json>
 Json parse_json(const std::string& text) {
-    if (depth_of_json(text) > most_nested_json)
+    if (depth_of_json(text) > kMostNestedJson)
         throw std::runtime_error("lists and objects are nested deeper than " +
-                                 std::to_string(most_nested_json) + ", the most that they may be");
+                                 std::to_string(kMostNestedJson) + ", the most that they may be");
     try {
         return Json::parse(text);
     } catch (const nlohmann::json::exception& problem) {

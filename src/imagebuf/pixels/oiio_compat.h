@@ -36,7 +36,7 @@
 namespace tonetool::oiio {
 
 /// Whether ociodisplay heeds looks.
-inline constexpr bool display_takes_looks = OIIO_VERSION >= 20500;
+inline constexpr bool kDisplayTakesLooks = OIIO_VERSION >= 20500;
 
 /// Whether an image only knows its file so far: its header is read, its pixels are not.
 inline bool is_unread_file(const OIIO::ImageBuf& image) {

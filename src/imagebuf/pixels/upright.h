@@ -21,9 +21,8 @@ inline bool lies_on_its_side(int orientation) {
 
 /// Says of a picture that was made of another that it lies as that does.
 inline void lie_as(const OIIO::ImageSpec& other, OIIO::ImageBuf& picture) {
-    if (orientation_of(other) != 1) {
+    if (orientation_of(other) != 1)
         picture.specmod().attribute("Orientation", orientation_of(other));
-    }
 }
 
 /// The picture as it is meant to be seen. A runtime_error if there is no memory for it.
@@ -32,9 +31,8 @@ inline OIIO::ImageBuf upright(OIIO::ImageBuf picture, int orientation) {
         picture.specmod().attribute("Orientation", orientation);
         picture = OIIO::ImageBufAlgo::reorient(picture);
     }
-    if (picture.has_error()) {
+    if (picture.has_error())
         throw std::runtime_error(picture.geterror());
-    }
     return picture;
 }
 

@@ -22,14 +22,11 @@ Parsed parse(const std::string& pattern, int padding) {
     Parsed result{pattern, ""};
     while (result.printf_style.find_first_of("#@") != std::string::npos || result.frames.empty()) {
         std::string before = result.printf_style, frames;
-        if (!OIIO::Filesystem::parse_pattern(before.c_str(), padding, result.printf_style,
-                                             frames)) {
+        if (!OIIO::Filesystem::parse_pattern(before.c_str(), padding, result.printf_style, frames))
             throw std::runtime_error("Could not parse pattern: " + pattern);
-        }
         result.frames = result.frames.empty() ? frames : result.frames;
-        if (before == result.printf_style) {
+        if (before == result.printf_style)
             break;
-        }
     }
     return result;
 }
@@ -42,9 +39,8 @@ std::vector<Item> items_of(const std::vector<int>& frames, const NamePattern& pa
             items.push_back({frame, ""});
             continue;
         }
-        for (const std::string& view : options.views) {
+        for (const std::string& view : options.views)
             items.push_back({frame, view});
-        }
     }
     return items;
 }
@@ -63,25 +59,22 @@ void look_into_folder(const std::string& printf_style, const std::string& view, 
     const size_t begin = printf_style.rfind('/') + 1; // 0 without a folder
     const NamePattern folder(begin == 0 ? "./" : printf_style.substr(0, begin));
     const NamePattern name(printf_style.substr(begin));
-    if (folder.has_number()) { // only views have folders of their own
+    if (folder.has_number()) // only views have folders of their own
         return;
-    }
     const std::string place = folder.filled({0, view});
     std::error_code problem;
     for (fs::directory_iterator entry(place, problem), end; !problem && entry != end;
          entry.increment(problem)) {
         const std::string file = entry->path().filename().string();
         const auto number = name.number_of(file, view);
-        if (!number || (number->value < 0 && !negative)) {
+        if (!number || (number->value < 0 && !negative))
             continue;
-        }
         if (!number->of_width) {
             listing.narrow.push_back(place + file);
             continue;
         }
-        if (number->beyond) {
+        if (number->beyond)
             listing.beyond.push_back(place + file);
-        }
         found.push_back({{number->value, view}, place + file});
     }
     // Half a folder would be checked for the whole of it.
@@ -98,9 +91,8 @@ Files on_disk(const std::string& printf_style, const PatternOptions& options) {
     listing.from_disk = true;
     std::vector<Found> found;
     const bool views = NamePattern(printf_style).has_view();
-    for (const std::string& view : views ? options.views : std::vector<std::string>{""}) {
+    for (const std::string& view : views ? options.views : std::vector<std::string>{""})
         look_into_folder(printf_style, view, !options.lenient, found, listing);
-    }
     std::sort(found.begin(), found.end());
     for (Found& one : found) {
         listing.items.push_back(std::move(one.item));
@@ -129,9 +121,8 @@ void check_each_once(const std::string& pattern, const Files& files) {
 // Of the files on the disk those whose numbers are `meant`.
 Files with_numbers_of(const std::vector<Item>& meant, const Files& found) {
     std::set<Key> keys;
-    for (const Item& item : meant) {
+    for (const Item& item : meant)
         keys.emplace(item.frame, item.view);
-    }
     Files files;
     for (size_t i = 0; i < found.items.size(); ++i) {
         if (keys.count({found.items[i].frame, found.items[i].view}) > 0) {
@@ -160,9 +151,8 @@ bool has_range(const std::string& word) {
 Files list_files(const std::string& pattern, const PatternOptions& options) {
     const Parsed parsed = parse(pattern, options.padding);
     const std::string& range = parsed.frames.empty() ? options.frames : parsed.frames;
-    if (range.empty()) {
+    if (range.empty())
         return on_disk(parsed.printf_style, options);
-    }
     Files listing;
     listing.own_range = !parsed.frames.empty();
     listing.items =
@@ -195,9 +185,8 @@ std::vector<std::string> file_names(const std::string& pattern, const PatternOpt
                                     const std::vector<Item>& items) {
     const NamePattern name(parse(pattern, options.padding).printf_style);
     std::vector<std::string> names;
-    for (const Item& item : items) {
+    for (const Item& item : items)
         names.push_back(name.filled(item));
-    }
     return names;
 }
 
@@ -208,9 +197,8 @@ std::vector<std::string> input_names(const std::string& pattern, const PatternOp
     for (size_t i = 0; i < items.size(); ++i) {
         const std::string other = items[i].frame < 0 ? name.filled(items[i], true) : "";
         if (!other.empty() && !OIIO::Filesystem::exists(names[i]) &&
-            OIIO::Filesystem::exists(other)) {
+            OIIO::Filesystem::exists(other))
             names[i] = other;
-        }
     }
     return names;
 }

@@ -16,7 +16,7 @@ int64_t nanoseconds(const timespec& time) {
 }
 
 // File systems tell times of a tick of the kernel's clock, up to 10 ms.
-constexpr int64_t tick = 20000000;
+constexpr int64_t kTick = 20000000;
 
 struct Behind {
     std::mutex mutex;
@@ -56,28 +56,25 @@ int64_t now_in_nanoseconds() {
 
 bool are_older(const Stamps& stamps, int64_t time) {
     return std::all_of(stamps.begin(), stamps.end(), [time](const Stamp& stamp) {
-        return std::max(stamp.written, stamp.changed) < time - tick;
+        return std::max(stamp.written, stamp.changed) < time - kTick;
     });
 }
 
 void FileLog::note(const std::string& file) {
     const auto same = [&](const Stamp& stamp) { return stamp.file == file; };
-    if (std::any_of(m_stamps.begin(), m_stamps.end(), same)) {
+    if (std::any_of(m_stamps.begin(), m_stamps.end(), same))
         return;
-    }
     m_stamps.push_back(stamp_of(file));
     // "file?name=value" opens the file, unless there is one of the whole name.
     const size_t question = file.find('?');
-    if (m_stamps.back().inode == 0 && question != std::string::npos) {
+    if (m_stamps.back().inode == 0 && question != std::string::npos)
         note(file.substr(0, question));
-    }
 }
 
 std::vector<std::string> FileLog::names() const {
     std::vector<std::string> all;
-    for (const Stamp& stamp : m_stamps) {
+    for (const Stamp& stamp : m_stamps)
         all.push_back(stamp.file);
-    }
     return all;
 }
 

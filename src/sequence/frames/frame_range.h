@@ -7,7 +7,7 @@
 namespace tonetool::sequence {
 
 /// So many frames are the most that a range or a pair of sequences may have.
-inline constexpr long long most_frames = 1000000;
+inline constexpr long long kMostFrames = 1000000;
 
 /// "1-10", "1,3,5-9", "10-1", "-3-2", "1-10x2" (every second), "1-10y3" (all but every third). A
 /// runtime_error for anything else, and for what is left behind a range; if `lenient`, what is not

@@ -18,9 +18,8 @@ bool is_digit(char c) {
 size_t end_of_number(const std::string& name, size_t at) {
     size_t end = at + (at < name.size() && name[at] == '-' ? 1 : 0);
     const size_t first = end;
-    while (end < name.size() && is_digit(name[end])) {
+    while (end < name.size() && is_digit(name[end]))
         ++end;
-    }
     return end == first ? at : end;
 }
 
@@ -30,10 +29,8 @@ NamePattern::NamePattern(const std::string& printf_style) {
     m_pieces.push_back({Kind::Text});
     for (size_t at = 0; at < printf_style.size(); ++at) {
         size_t end = at + 1;
-        while (printf_style[at] == '%' && end < printf_style.size() &&
-               is_digit(printf_style[end])) {
+        while (printf_style[at] == '%' && end < printf_style.size() && is_digit(printf_style[end]))
             ++end;
-        }
         const char kind =
             printf_style[at] == '%' && end < printf_style.size() ? printf_style[end] : '\0';
         if (kind == 'd') {
@@ -42,9 +39,8 @@ NamePattern::NamePattern(const std::string& printf_style) {
         } else if ((kind == 'V' || kind == 'v') && end == at + 1) {
             m_pieces.push_back({kind == 'V' ? Kind::View : Kind::Initial});
         } else {
-            if (m_pieces.back().kind != Kind::Text) {
+            if (m_pieces.back().kind != Kind::Text)
                 m_pieces.push_back({Kind::Text});
-            }
             m_pieces.back().text += printf_style[at];
             continue;
         }
@@ -74,9 +70,8 @@ std::string NamePattern::filled(const Item& item, bool more_digits) const {
 // `digits` are those of the first number: all others are the same.
 bool NamePattern::fits(const std::string& name, const std::string& view, size_t piece, size_t at,
                        std::string& digits) const {
-    if (piece == m_pieces.size()) {
+    if (piece == m_pieces.size())
         return at == name.size();
-    }
     const Piece& one = m_pieces[piece];
     if (one.kind != Kind::Number) {
         const std::string text = one.kind == Kind::Text   ? one.text
@@ -90,9 +85,8 @@ bool NamePattern::fits(const std::string& name, const std::string& view, size_t 
         const std::string here = name.substr(at, end - at), before = digits;
         if (before.empty() || before == here) {
             digits = here;
-            if (fits(name, view, piece + 1, end, digits)) {
+            if (fits(name, view, piece + 1, end, digits))
                 return true;
-            }
             digits = before;
         }
     }
@@ -102,13 +96,11 @@ bool NamePattern::fits(const std::string& name, const std::string& view, size_t 
 std::optional<NamePattern::Number> NamePattern::number_of(const std::string& name,
                                                           const std::string& view) const {
     std::string digits;
-    if (!fits(name, view, 0, 0, digits)) {
+    if (!fits(name, view, 0, 0, digits))
         return std::nullopt;
-    }
     Number number;
-    if (digits.empty()) {
+    if (digits.empty())
         return number;
-    }
     int value = 0;
     const auto problem = std::from_chars(digits.data(), digits.data() + digits.size(), value).ec;
     number.beyond = problem != std::errc();

@@ -34,22 +34,19 @@ void fill_holes(std::set<Key>& keys) {
     }
     step = numbers.size() == 2 ? 1 : step; // two alone are no evidence of a step
     const long long first = *numbers.begin(), last = *numbers.rbegin();
-    if (step > 0 && (last - first) / step >= most_frames) {
+    if (step > 0 && (last - first) / step >= kMostFrames) {
         throw std::runtime_error("frames " + std::to_string(first) + " to " + std::to_string(last) +
                                  " are too many to look for missing ones (valid: --frames)");
     }
-    for (long long number = first; step > 0 && number <= last; number += step) {
-        for (const std::string& view : views) {
+    for (long long number = first; step > 0 && number <= last; number += step)
+        for (const std::string& view : views)
             keys.emplace(int(number), view);
-        }
-    }
 }
 
 std::vector<int> numbers_of(const std::vector<Item>& items) {
     std::set<int> numbers;
-    for (const Item& item : items) {
+    for (const Item& item : items)
         numbers.insert(item.frame);
-    }
     return {numbers.begin(), numbers.end()};
 }
 
@@ -142,28 +139,23 @@ std::vector<Item> paired(const std::vector<Side>& sides) {
     bool from_disk = true;
     for (const Side& side : sides) {
         from_disk = from_disk && side.files.from_disk;
-        for (const Item& item : side.files.items) {
+        for (const Item& item : side.files.items)
             keys.insert(key(item));
-        }
     }
-    if (from_disk && !keys.empty()) {
+    if (from_disk && !keys.empty())
         fill_holes(keys);
-    }
     std::vector<Item> items;
-    for (const auto& [number, view] : keys) {
+    for (const auto& [number, view] : keys)
         items.push_back({number, view});
-    }
     return items;
 }
 
 Pairing pair_sides(const std::vector<Side>& sides, const PatternOptions& options) {
-    if (differ_by_range(sides)) {
+    if (differ_by_range(sides))
         return by_position(sides, options);
-    }
     const Side* range = first_range(sides);
-    if (!range) {
+    if (!range)
         check_common_number(sides);
-    }
     Pairing pairing{paired(range ? std::vector<Side>{*range} : sides), {}, {}};
     for (const Side& side : sides) {
         pairing.names.push_back(names_of(side, options, pairing.items));

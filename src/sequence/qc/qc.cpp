@@ -27,11 +27,9 @@ void take_record(QcFrame& frame, QcRecord record) {
 }
 
 void search(QcShot& shot) {
-    for (QcFrame& frame : shot.frames) {
-        if (frame.measured) {
+    for (QcFrame& frame : shot.frames)
+        if (frame.measured)
             find_picture_faults(shot, frame);
-        }
-    }
     find_gaps(shot);
     find_odd_headers(shot);
     find_lost_layers(shot);
@@ -60,9 +58,8 @@ void judge_view(const std::vector<FrameResult*>& frames) {
     }
     const bool any = std::any_of(found.begin(), found.end(),
                                  [](const QcFrame& frame) { return frame.measured; });
-    if (!any) {
+    if (!any)
         return;
-    }
     for (FrameResult* result : frames) {
         auto& faults = result->faults;
         faults.erase(std::remove_if(faults.begin(), faults.end(), is_found_here), faults.end());
@@ -94,12 +91,10 @@ void judge_qc(std::vector<FrameResult>& frames) {
         return std::tie(a.frame, a.view) < std::tie(b.frame, b.view);
     });
     std::map<std::string, std::vector<FrameResult*>> views;
-    for (FrameResult& frame : frames) {
+    for (FrameResult& frame : frames)
         views[frame.view].push_back(&frame);
-    }
-    for (const auto& [view, of_view] : views) {
+    for (const auto& [view, of_view] : views)
         judge_view(of_view);
-    }
 }
 
 std::string faults_text(const ShotResult& shot) {
@@ -118,9 +113,8 @@ std::string faults_text(const ShotResult& shot) {
 void QcShot::add(QcFrame& frame, const std::string& code, const std::string& sentence,
                  const QcDetail& detail) const {
     const auto severity = m_limits.severity(code);
-    if (!severity) {
+    if (!severity)
         return;
-    }
     Fault fault;
     fault.code = code;
     fault.severity = *severity;
@@ -128,9 +122,8 @@ void QcShot::add(QcFrame& frame, const std::string& code, const std::string& sen
     fault.layer = detail.layer;
     fault.position = detail.position;
     fault.value = detail.value;
-    if (detail.value) {
+    if (detail.value)
         fault.threshold = threshold(code);
-    }
     frame.result->faults.push_back(std::move(fault));
 }
 
@@ -144,29 +137,24 @@ std::vector<QcFrame*> QcShot::pictures() {
 
 std::vector<QcFrame*> QcShot::filled() {
     std::vector<QcFrame*> chosen;
-    for (QcFrame& frame : frames) {
-        if (frame.measured && !frame.blank) {
+    for (QcFrame& frame : frames)
+        if (frame.measured && !frame.blank)
             chosen.push_back(&frame);
-        }
-    }
     return chosen;
 }
 
 std::vector<QcFrame*> QcShot::measured() {
     std::vector<QcFrame*> chosen;
-    for (QcFrame& frame : frames) {
-        if (frame.measured) {
+    for (QcFrame& frame : frames)
+        if (frame.measured)
             chosen.push_back(&frame);
-        }
-    }
     return chosen;
 }
 
 void mark_change(const std::vector<QcFrame*>& frames, size_t first, size_t last) {
     frames[first]->changed = true;
-    if (last + 1 < frames.size()) {
+    if (last + 1 < frames.size())
         frames[last + 1]->changed = true;
-    }
 }
 
 const QcLayer* find_layer(const QcFacts& facts, const std::string& name) {
@@ -198,9 +186,8 @@ std::string layer_text(const QcLayer& layer) {
 }
 
 double median(std::vector<double> values) {
-    if (values.empty()) {
+    if (values.empty())
         return 0;
-    }
     const auto middle = values.begin() + std::ptrdiff_t(values.size() / 2);
     std::nth_element(values.begin(), middle, values.end());
     return *middle;

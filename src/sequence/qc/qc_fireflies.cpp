@@ -39,9 +39,8 @@ double luminance_of(int cell) {
 
 double mean_luminance(const QcFacts& facts) {
     double sum = 0;
-    for (int cell : facts.picture.thumbnail) {
+    for (int cell : facts.picture.thumbnail)
         sum += luminance_of(cell);
-    }
     return sum / double(facts.picture.thumbnail.size());
 }
 
@@ -94,9 +93,8 @@ Spikes spikes_of(QcFrame& frame, const Neighbours& neighbours, double usual_mean
             std::any_of(neighbours.begin(), neighbours.end(),
                         [&](const QcFrame* other) { return is_seen_in(other->facts, spot); });
         const bool unsure = neighbours.empty() || (neighbours.size() < 2 && is_at_border(cell));
-        if (is_inside(cell) && !known && !unsure && around > 0) {
+        if (is_inside(cell) && !known && !unsure && around > 0)
             spikes.lone.push_back({&spot, spot.value / around});
-        }
     }
     std::stable_sort(spikes.lone.begin(), spikes.lone.end(),
                      [](const Lone& a, const Lone& b) { return a.ratio > b.ratio; });
@@ -105,11 +103,9 @@ Spikes spikes_of(QcFrame& frame, const Neighbours& neighbours, double usual_mean
 
 void judge_frame(QcShot& shot, const std::vector<Spikes>& all, size_t i) {
     std::vector<double> largest;
-    for (size_t k = 0; k < all.size(); ++k) {
-        if (k != i) {
+    for (size_t k = 0; k < all.size(); ++k)
+        if (k != i)
             largest.push_back(all[k].largest());
-        }
-    }
     const std::vector<Lone>& lone = all[i].lone;
     const double limit = std::max(shot.threshold("firefly"),
                                   kNoise * std::max(all[i].noise(), median(std::move(largest))));
@@ -137,24 +133,20 @@ void find_fireflies(QcShot& shot) {
     const std::vector<Thumbnail> thumbnails = thumbnails_of(frames);
     const double step = usual_step_of(thumbnails);
     std::vector<double> means;
-    for (const QcFrame* frame : frames) {
+    for (const QcFrame* frame : frames)
         means.push_back(mean_luminance(frame->facts));
-    }
     const double usual_mean = median(std::move(means));
     std::vector<Spikes> all;
     for (size_t i = 0; i < frames.size(); ++i) {
         Neighbours neighbours;
-        if (i > 0 && !is_cut(thumbnails[i - 1], thumbnails[i], step)) {
+        if (i > 0 && !is_cut(thumbnails[i - 1], thumbnails[i], step))
             neighbours.push_back(frames[i - 1]);
-        }
-        if (i + 1 < frames.size() && !is_cut(thumbnails[i], thumbnails[i + 1], step)) {
+        if (i + 1 < frames.size() && !is_cut(thumbnails[i], thumbnails[i + 1], step))
             neighbours.push_back(frames[i + 1]);
-        }
         all.push_back(spikes_of(*frames[i], neighbours, usual_mean));
     }
-    for (size_t i = 0; i < all.size(); ++i) {
+    for (size_t i = 0; i < all.size(); ++i)
         judge_frame(shot, all, i);
-    }
 }
 
 } // namespace tonetool::sequence

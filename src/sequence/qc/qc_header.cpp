@@ -26,9 +26,8 @@ using ValueOf = std::function<std::string(const QcFacts&)>;
 // The value most frames have; of equally frequent ones that which comes first.
 std::string usual_value(const std::vector<std::string>& values, size_t& frames) {
     std::map<std::string, size_t> count;
-    for (const std::string& value : values) {
+    for (const std::string& value : values)
         ++count[value];
-    }
     std::string usual;
     frames = 0;
     for (const std::string& value : values) {
@@ -44,33 +43,28 @@ std::string usual_value(const std::vector<std::string>& values, size_t& frames) 
 // there and back, or in a tenth of the frames.
 bool changes_often(const std::vector<std::string>& values) {
     size_t changes = 0;
-    for (size_t i = 1; i < values.size(); ++i) {
+    for (size_t i = 1; i < values.size(); ++i)
         changes += values[i] != values[i - 1];
-    }
     return changes > std::max<size_t>(4, values.size() / 5) || changes + 1 >= values.size();
 }
 
 std::vector<OddRun> odd_runs(const std::vector<QcFrame*>& frames, const ValueOf& value_of,
                              bool may_vary) {
     std::vector<std::string> values;
-    for (const QcFrame* frame : frames) {
+    for (const QcFrame* frame : frames)
         values.push_back(value_of(frame->facts));
-    }
-    if (may_vary && values.size() > 2 && changes_often(values)) {
+    if (may_vary && values.size() > 2 && changes_often(values))
         return {};
-    }
     size_t frames_with = 0;
     const std::string usual = usual_value(values, frames_with);
     std::vector<OddRun> runs;
     for (size_t i = 0; i < values.size(); ++i) {
-        if (values[i] == usual) {
+        if (values[i] == usual)
             continue;
-        }
-        if (!runs.empty() && runs.back().last + 1 == i && runs.back().value == values[i]) {
+        if (!runs.empty() && runs.back().last + 1 == i && runs.back().value == values[i])
             runs.back().last = i;
-        } else {
+        else
             runs.push_back({i, i, values[i], usual, frames_with});
-        }
     }
     return runs;
 }
@@ -103,9 +97,8 @@ void find_odd(QcShot& shot, const std::string& code, const std::string& what,
     const std::vector<QcFrame*> frames = shot.measured();
     for (const OddRun& run : odd_runs(frames, value_of, may_vary)) {
         shot.add(*frames[run.first], code, sentence(frames, run, what));
-        if (change == Change::Picture) {
+        if (change == Change::Picture)
             mark_change(frames, run.first, run.last);
-        }
     }
 }
 
@@ -116,9 +109,8 @@ std::string window_text(const std::array<int, 4>& window) {
 std::string of_parts(const QcFacts& facts,
                      const std::function<std::string(const QcPart&)>& text_of) {
     std::vector<std::string> texts;
-    for (const QcPart& part : facts.parts) {
+    for (const QcPart& part : facts.parts)
         texts.push_back(text_of(part));
-    }
     const bool same =
         std::adjacent_find(texts.begin(), texts.end(), std::not_equal_to<>()) == texts.end();
     return same ? texts.front() : OIIO::Strutil::join(texts, " ");
@@ -134,24 +126,19 @@ Types types_of(const QcFacts& facts) {
 std::vector<std::string> channel_difference(const QcFacts& facts, const QcFacts& usual) {
     const Types here = types_of(facts), there = types_of(usual);
     std::vector<std::string> names;
-    for (const auto& channel : there) {
-        if (here.count(channel.first) == 0) {
+    for (const auto& channel : there)
+        if (here.count(channel.first) == 0)
             names.push_back("-" + channel.first);
-        }
-    }
-    for (const auto& channel : here) {
-        if (there.count(channel.first) == 0) {
+    for (const auto& channel : here)
+        if (there.count(channel.first) == 0)
             names.push_back("+" + channel.first);
-        }
-    }
     return names;
 }
 
 std::string channel_names(const QcFacts& facts) {
     std::string names;
-    for (const auto& [name, type] : facts.channels) {
+    for (const auto& [name, type] : facts.channels)
         names += name + "\n";
-    }
     return names;
 }
 
@@ -181,9 +168,8 @@ std::string shortened(const std::vector<std::string>& names) {
     constexpr size_t most = 4;
     const size_t shown = names.size() > most + 1 ? most : names.size();
     std::string text;
-    for (size_t i = 0; i < shown; ++i) {
+    for (size_t i = 0; i < shown; ++i)
         text += (i > 0 ? ", " : "") + names[i];
-    }
     return shown < names.size() ? format("{} and {} more", text, names.size() - shown) : text;
 }
 
@@ -199,9 +185,8 @@ void find_odd_channels(QcShot& shot) {
     for (const OddRun& run : odd_runs(frames, channel_names, false)) {
         QcFrame& frame = *frames[run.first];
         const QcFacts& usual = usual_frame(frames, run, channel_names)->facts;
-        if (lacks_only_layers(frame.facts, usual)) {
+        if (lacks_only_layers(frame.facts, usual))
             continue;
-        }
         const std::vector<std::string> names = channel_difference(frame.facts, usual);
         shot.add(frame, "channels",
                  format("{}the channels are not those of {}: {}", run_text(frames, run),
@@ -214,16 +199,13 @@ void find_odd_channels(QcShot& shot) {
 void find_odd_types(QcShot& shot) {
     const std::vector<QcFrame*> frames = shot.measured();
     std::map<std::string, size_t> count;
-    for (const QcFrame* frame : frames) {
-        for (const auto& channel : frame->facts.channels) {
+    for (const QcFrame* frame : frames)
+        for (const auto& channel : frame->facts.channels)
             ++count[channel.first];
-        }
-    }
     const ValueOf value_of = [&](const QcFacts& facts) {
         std::string text;
-        for (const auto& [name, type] : types_of(facts)) {
+        for (const auto& [name, type] : types_of(facts))
             text += count[name] == frames.size() ? name + " " + type + "\n" : "";
-        }
         return text;
     };
     for (const OddRun& run : odd_runs(frames, value_of, false)) {
@@ -232,9 +214,8 @@ void find_odd_types(QcShot& shot) {
         std::vector<std::string> names;
         for (const auto& [name, type] : types_of(frame.facts)) {
             const auto other = usual.find(name);
-            if (other != usual.end() && other->second != type) {
+            if (other != usual.end() && other->second != type)
                 names.push_back(format("{} is {}, not {}", name, type, other->second));
-            }
         }
         shot.add(frame, "type",
                  format("{}data types are not those of {}: {}", run_text(frames, run),
@@ -245,34 +226,28 @@ void find_odd_types(QcShot& shot) {
 // What is different in every frame of a shot by its meaning, in lower case without punctuation.
 bool varies_by_nature(const std::string& name) {
     std::string word;
-    for (char c : lower_case(name)) {
+    for (char c : lower_case(name))
         word += std::isalnum(static_cast<unsigned char>(c)) ? std::string(1, c) : "";
-    }
     for (const char* part :
          {"datetime",   "capdate",   "timecode",         "keycode",      "rendertime", "frame",
           "worldto",    "tocamera",  "totoscreen",       "camera",       "hostname",   "memory",
           "chunkcount", "caption",   "imagedescription", "documentname", "uuid",       "uniqueid",
-          "stats",      "thumbnail", "envmap",           "imagecounter", "history"}) {
-        if (word.find(part) != std::string::npos && word.find("framespersecond") != 0) {
+          "stats",      "thumbnail", "envmap",           "imagecounter", "history"})
+        if (word.find(part) != std::string::npos && word.find("framespersecond") != 0)
             return true;
-        }
-    }
     return word == "time" || word == "date" || word == "samples";
 }
 
 void find_odd_metadata(QcShot& shot) {
     std::set<std::string> names;
     for (const QcFrame* frame : shot.measured()) {
-        for (const QcPart& part : frame->facts.parts) {
-            for (const auto& [name, value] : part.metadata) {
+        for (const QcPart& part : frame->facts.parts)
+            for (const auto& [name, value] : part.metadata)
                 names.insert(name);
-            }
-        }
     }
     for (const std::string& name : names) {
-        if (varies_by_nature(name)) {
+        if (varies_by_nature(name))
             continue;
-        }
         find_odd(
             shot, "metadata", name,
             [&](const QcFacts& facts) {

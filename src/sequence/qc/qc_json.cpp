@@ -22,9 +22,8 @@ void read_real(const ordered_json& from, const char* key, double& to) {
 template <class Ints>
 void read_whole_numbers(const ordered_json& from, const char* key, Ints& to) {
     to = from.at(key).get<Ints>();
-    for (size_t i = 0; i < to.size(); ++i) {
+    for (size_t i = 0; i < to.size(); ++i)
         to[i] = whole_number<int>(from[key].at(i), key);
-    }
 }
 
 ordered_json json_of(const QcSpot& spot) {
@@ -38,25 +37,22 @@ QcSpot spot_of(const ordered_json& from) {
 
 ordered_json json_of(const std::vector<QcSpot>& spots) {
     ordered_json list = ordered_json::array();
-    for (const QcSpot& spot : spots) {
+    for (const QcSpot& spot : spots)
         list.push_back(json_of(spot));
-    }
     return list;
 }
 
 std::vector<QcSpot> spots_of(const ordered_json& from) {
     std::vector<QcSpot> spots;
-    for (const ordered_json& spot : from) {
+    for (const ordered_json& spot : from)
         spots.push_back(spot_of(spot));
-    }
     return spots;
 }
 
 // Nothing is the usual finding.
 void put(ordered_json& to, const char* key, const QcCount& count) {
-    if (count.pixels > 0) {
+    if (count.pixels > 0)
         to[key] = {{"pixels", count.pixels}, {"first", json_of(count.first)}};
-    }
 }
 
 QcCount count_of(const ordered_json& from, const char* key) {
@@ -156,9 +152,8 @@ QcPicture picture_of(const ordered_json& from) {
     picture.spikes = spots_of(from.at("spikes"));
     picture.alpha_low = count_of(from, "alpha_low");
     picture.alpha_high = count_of(from, "alpha_high");
-    if (from.contains("lit")) {
+    if (from.contains("lit"))
         read_whole(from, "lit", picture.lit);
-    }
     picture.unseen = count_of(from, "unseen");
     if (from.contains("groups")) {
         const ordered_json& groups = from["groups"];
@@ -173,28 +168,24 @@ QcPicture picture_of(const ordered_json& from) {
 template <class Item>
 ordered_json list_of(const std::vector<Item>& items) {
     ordered_json list = ordered_json::array();
-    for (const Item& item : items) {
+    for (const Item& item : items)
         list.push_back(json_of(item));
-    }
     return list;
 }
 
 QcFacts facts_of(const ordered_json& from) {
     QcFacts facts;
-    for (const ordered_json& part : from.at("parts")) {
+    for (const ordered_json& part : from.at("parts"))
         facts.parts.push_back(part_of(part));
-    }
     for (const ordered_json& channel : from.at("channels")) {
         facts.channels.emplace_back(channel.at(0).get<std::string>(),
                                     channel.at(1).get<std::string>());
     }
-    for (const ordered_json& layer : from.at("layers")) {
+    for (const ordered_json& layer : from.at("layers"))
         facts.layers.push_back(layer_of(layer));
-    }
     facts.picture = picture_of(from.at("picture"));
-    if (facts.parts.empty()) {
+    if (facts.parts.empty())
         throw std::runtime_error("no part of a file");
-    }
     return facts;
 }
 
@@ -205,9 +196,8 @@ namespace sequence {
 std::string to_json(const QcRecord& record) {
     const QcFacts& facts = record.facts;
     ordered_json channels = ordered_json::array();
-    for (const auto& [name, type] : facts.channels) {
+    for (const auto& [name, type] : facts.channels)
         channels.push_back({name, type});
-    }
     ordered_json to = {{"limits", record.limits.texts()},
                        {"picture", json_of(facts.picture)},
                        {"layers", list_of(facts.layers)},
@@ -221,9 +211,8 @@ QcRecord qc_from_json(const std::string& text) {
     try {
         const auto from = parse_json<ordered_json>(text);
         record.facts = facts_of(from);
-        for (const auto& [code, limit] : from.at("limits").items()) {
+        for (const auto& [code, limit] : from.at("limits").items())
             record.limits.set(code, limit.get<std::string>());
-        }
     } catch (const nlohmann::json::exception& problem) {
         throw std::runtime_error("not what --qc measured: " + reason_of(problem));
     } catch (const std::exception& problem) {

@@ -39,14 +39,12 @@ void add_black_run(QcShot& shot, const std::vector<LayerFrame>& frames, size_t f
                    double usual) {
     const bool before = first > 0 && is_steady(frames[first - 1], usual);
     const bool after = last + 1 < frames.size() && is_steady(frames[last + 1], usual);
-    if (!before && !after) {
+    if (!before && !after)
         return;
-    }
     const LayerFrame& at = frames[first];
     at.frame->changed = true;
-    if (last + 1 < frames.size()) {
+    if (last + 1 < frames.size())
         frames[last + 1].frame->changed = true;
-    }
     const int neighbour = before ? frames[first - 1].frame->number : frames[last + 1].frame->number;
     shot.add(*at.frame, "blacklayer",
              format("{} is black in {}, but not in frame {}", layer_text(*at.layer),
@@ -56,23 +54,18 @@ void add_black_run(QcShot& shot, const std::vector<LayerFrame>& frames, size_t f
 
 void find_black(QcShot& shot, const std::vector<LayerFrame>& frames) {
     std::vector<double> lights;
-    for (const LayerFrame& at : frames) {
-        if (!is_black(*at.layer)) {
+    for (const LayerFrame& at : frames)
+        if (!is_black(*at.layer))
             lights.push_back(light_of(*at.layer));
-        }
-    }
     const double usual = median(lights);
     for (size_t first = 0; first < frames.size(); ++first) {
         size_t last = first;
-        if (!is_black(*frames[first].layer)) {
+        if (!is_black(*frames[first].layer))
             continue;
-        }
-        while (last + 1 < frames.size() && is_black(*frames[last + 1].layer)) {
+        while (last + 1 < frames.size() && is_black(*frames[last + 1].layer))
             ++last;
-        }
-        if (!lights.empty()) {
+        if (!lights.empty())
             add_black_run(shot, frames, first, last, usual);
-        }
         first = last;
     }
 }
@@ -80,21 +73,17 @@ void find_black(QcShot& shot, const std::vector<LayerFrame>& frames) {
 void find_missing(QcShot& shot, const std::string& name, const QcLayer& like) {
     const std::vector<QcFrame*> frames = shot.measured();
     size_t there = 0;
-    for (const QcFrame* frame : frames) {
+    for (const QcFrame* frame : frames)
         there += find_layer(frame->facts, name) != nullptr;
-    }
     // A layer that only a few frames have is theirs too many: their channels differ.
-    if (2 * there < frames.size()) {
+    if (2 * there < frames.size())
         return;
-    }
     for (size_t first = 0; first < frames.size(); ++first) {
         size_t last = first;
-        if (find_layer(frames[first]->facts, name)) {
+        if (find_layer(frames[first]->facts, name))
             continue;
-        }
-        while (last + 1 < frames.size() && !find_layer(frames[last + 1]->facts, name)) {
+        while (last + 1 < frames.size() && !find_layer(frames[last + 1]->facts, name))
             ++last;
-        }
         shot.add(*frames[first], "missinglayer",
                  format("{} is not there in {}, but in {} other frames", layer_text(like),
                         frames_text(frames[first]->number, frames[last]->number), there),
@@ -124,18 +113,14 @@ void add_group_fault(QcShot& shot, QcFrame& frame, const std::string& more) {
 void find_lost_layers(QcShot& shot) {
     // A copy: the first frame's layer tells what the others' is called in sentences.
     std::map<std::string, QcLayer> layers;
-    for (const QcFrame* frame : shot.measured()) {
-        for (const QcLayer& layer : frame->facts.layers) {
+    for (const QcFrame* frame : shot.measured())
+        for (const QcLayer& layer : frame->facts.layers)
             layers.emplace(layer.name, layer);
-        }
-    }
     for (const auto& [name, like] : layers) {
         std::vector<LayerFrame> frames;
-        for (QcFrame* frame : shot.filled()) {
-            if (const QcLayer* layer = find_layer(frame->facts, name)) {
+        for (QcFrame* frame : shot.filled())
+            if (const QcLayer* layer = find_layer(frame->facts, name))
                 frames.push_back({frame, layer});
-            }
-        }
         find_black(shot, frames);
         find_missing(shot, name, like);
     }
@@ -146,9 +131,8 @@ void find_lost_layers(QcShot& shot) {
 void find_group_faults(QcShot& shot) {
     constexpr double times = 10, rounding = 0.002;
     int groups = 1;
-    for (const QcFrame* frame : shot.pictures()) {
+    for (const QcFrame* frame : shot.pictures())
         groups = std::max(groups, frame->facts.picture.groups);
-    }
     std::vector<QcFrame*> frames;
     std::vector<double> differences;
     for (QcFrame* frame : shot.pictures()) {
@@ -166,9 +150,8 @@ void find_group_faults(QcShot& shot) {
     const bool alone = frames.size() < 3;
     for (QcFrame* frame : frames) {
         const bool odd = !alone && difference_of(*frame) > std::max(rounding, times * usual);
-        if (difference_of(*frame) > limit || odd) {
+        if (difference_of(*frame) > limit || odd)
             add_group_fault(shot, *frame, "");
-        }
     }
 }
 

@@ -16,9 +16,8 @@ const QcRule& rule_of(const std::string& code) {
     const size_t rank = qc_rank(code);
     if (rank == rules.size()) {
         std::vector<std::string> codes;
-        for (const QcRule& rule : rules) {
+        for (const QcRule& rule : rules)
             codes.push_back(rule.code);
-        }
         throw std::runtime_error(unknown_name("fault", code, codes));
     }
     return rules[rank];
@@ -90,9 +89,8 @@ void QcLimits::set(const std::string& code, const std::string& text) {
         }
     }
     const bool valid = !limit.threshold || (*limit.threshold >= 0 && *limit.threshold < HUGE_VAL);
-    if ((!has_severity && !has_threshold) || !valid) {
+    if ((!has_severity && !has_threshold) || !valid)
         refuse(rule, text);
-    }
     m_changed[code] = limit;
     m_texts[code] = text;
 }

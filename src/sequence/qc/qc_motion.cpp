@@ -19,9 +19,8 @@ constexpr double kUnusual = 5;
 // The step most numbers are apart, the smallest of the most frequent; 0 without a rule.
 int usual_step(const std::vector<QcFrame>& frames) {
     std::map<int, size_t> count;
-    for (size_t i = 1; i < frames.size(); ++i) {
+    for (size_t i = 1; i < frames.size(); ++i)
         ++count[frames[i].number - frames[i - 1].number];
-    }
     int step = 0;
     size_t most = 0;
     for (const auto& [apart, times] : count) {
@@ -36,16 +35,14 @@ int usual_step(const std::vector<QcFrame>& frames) {
 // Pixels of a still, or of animation on twos or threes, are those of the frame before by intent.
 bool is_held(const std::vector<QcFrame*>& frames) {
     size_t same = 0;
-    for (size_t i = 1; i < frames.size(); ++i) {
+    for (size_t i = 1; i < frames.size(); ++i)
         same += frames[i]->facts.picture.hash == frames[i - 1]->facts.picture.hash;
-    }
     return 3 * same >= frames.size() && same > 1;
 }
 
 void find_identical(QcShot& shot, const std::vector<QcFrame*>& frames) {
-    if (is_held(frames)) {
+    if (is_held(frames))
         return;
-    }
     std::map<std::string, const QcFrame*> first;
     for (QcFrame* frame : frames) {
         const auto [same, is_new] = first.emplace(frame->facts.picture.hash, frame);
@@ -62,9 +59,8 @@ void find_stalls(QcShot& shot, const std::vector<QcFrame*>& frames,
                  const std::vector<Thumbnail>& thumbnails) {
     constexpr double visible = 0.005; // stops; less is no motion
     std::vector<double> change{0};
-    for (size_t i = 1; i < frames.size(); ++i) {
+    for (size_t i = 1; i < frames.size(); ++i)
         change.push_back(distance(thumbnails[i - 1], thumbnails[i]));
-    }
     // Beside a flash all motion is small: what is usual counts, too.
     const double usual = usual_step_of(thumbnails);
     for (size_t i = 2; i + 1 < frames.size(); ++i) {
@@ -88,20 +84,17 @@ public:
           m_frames(std::move(frames)),
           m_thumbnails(thumbnails_of(m_frames)),
           m_gains{0} {
-        for (size_t i = 1; i < m_frames.size(); ++i) {
+        for (size_t i = 1; i < m_frames.size(); ++i)
             m_gains.push_back(gain(m_thumbnails[i - 1], m_thumbnails[i]));
-        }
-        for (const QcFrame* frame : m_frames) {
+        for (const QcFrame* frame : m_frames)
             m_explained.push_back(frame->changed);
-        }
         m_usual_step = usual_step_of(m_thumbnails);
     }
 
     void find() {
         find_alternation();
-        for (size_t length = 1; length <= 3; ++length) {
+        for (size_t length = 1; length <= 3; ++length)
             find_runs(length);
-        }
         find_jumps();
     }
 
@@ -127,11 +120,9 @@ private:
 // Of all steps but one.
 double Flicker::usual_gain(size_t but) const {
     std::vector<double> others;
-    for (size_t i = 1; i < m_gains.size(); ++i) {
-        if (i != but) {
+    for (size_t i = 1; i < m_gains.size(); ++i)
+        if (i != but)
             others.push_back(std::abs(m_gains[i]));
-        }
-    }
     return median(std::move(others));
 }
 
@@ -154,20 +145,17 @@ double Flicker::there_and_back(size_t first, size_t last) const {
 // Several times what is usual in the shot: noise and fire flicker by nature.
 void Flicker::find_runs(size_t length) {
     std::vector<double> detours;
-    for (size_t i = 1; i + length < m_frames.size(); ++i) {
+    for (size_t i = 1; i + length < m_frames.size(); ++i)
         detours.push_back(detour(i, i + length - 1));
-    }
     m_unusual = std::max(m_unusual, kUnusual * median(detours));
     for (size_t i = 1; i + length < m_frames.size(); ++i) {
         const size_t last = i + length - 1;
-        if (m_explained[i] || m_explained[last + 1]) {
+        if (m_explained[i] || m_explained[last + 1])
             continue;
-        }
         const double off = detours[i - 1] > m_unusual ? detours[i - 1] : 0;
         const double stops = std::max(off, there_and_back(i, last));
-        if (stops <= m_shot.threshold("flicker")) {
+        if (stops <= m_shot.threshold("flicker"))
             continue;
-        }
         m_explained[i] = m_explained[last + 1] = true;
         m_shot.add(*m_frames[i], "flicker",
                    format("{} unlike frames {} and {} by {:.2f} stops more than these differ from "
@@ -187,9 +175,8 @@ void Flicker::find_alternation() {
     for (size_t first = 1; first < m_frames.size(); ++first) {
         size_t last = first;
         while (last + 1 < m_frames.size() && std::abs(m_gains[last]) > limit &&
-               std::abs(m_gains[last + 1]) > limit && m_gains[last] * m_gains[last + 1] < 0) {
+               std::abs(m_gains[last + 1]) > limit && m_gains[last] * m_gains[last + 1] < 0)
             ++last;
-        }
         if (last - first + 1 >= enough) {
             std::fill(m_explained.begin() + std::ptrdiff_t(first),
                       m_explained.begin() + std::ptrdiff_t(last + 1), true);
@@ -231,11 +218,9 @@ void Flicker::find_jumps() {
 
 void find_gaps(QcShot& shot) {
     std::vector<QcFrame>& frames = shot.frames;
-    for (QcFrame& frame : frames) {
-        if (frame.result->status == Status::Missing) {
+    for (QcFrame& frame : frames)
+        if (frame.result->status == Status::Missing)
             shot.add(frame, "missing", "the frame is not there");
-        }
-    }
     const int step = frames.size() > 2 ? usual_step(frames) : 0;
     for (size_t i = 1; step > 0 && i < frames.size(); ++i) {
         const int before = frames[i - 1].number, here = frames[i].number;
@@ -251,16 +236,14 @@ void find_gaps(QcShot& shot) {
 void find_duplicates(QcShot& shot) {
     const std::vector<QcFrame*> frames = shot.pictures();
     find_identical(shot, frames);
-    if (frames.size() > 3) {
+    if (frames.size() > 3)
         find_stalls(shot, frames, thumbnails_of(frames));
-    }
 }
 
 void find_flicker(QcShot& shot) {
     std::vector<QcFrame*> frames = shot.pictures();
-    if (frames.size() > 2) {
+    if (frames.size() > 2)
         Flicker(shot, std::move(frames)).find();
-    }
 }
 
 } // namespace tonetool::sequence

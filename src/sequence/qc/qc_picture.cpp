@@ -11,9 +11,8 @@ using OIIO::Strutil::fmt::format;
 
 QcDetail detail_of(const QcLayer& layer, const QcCount& count, double value) {
     QcDetail detail{layer.name, {}, value};
-    if (!count.first.empty()) {
+    if (!count.first.empty())
         detail.position = Position{count.first.front().x, count.first.front().y};
-    }
     return detail;
 }
 
@@ -21,9 +20,8 @@ QcDetail detail_of(const QcLayer& layer, const QcCount& count, double value) {
 std::string places(const QcCount& count) {
     std::string text =
         format("{} {}", count.pixels, count.pixels == 1 ? "pixel, at" : "pixels, the first at");
-    for (const QcSpot& spot : count.first) {
+    for (const QcSpot& spot : count.first)
         text += format("{} ({}, {})", &spot == count.first.data() ? "" : ",", spot.x, spot.y);
-    }
     return text;
 }
 
@@ -75,9 +73,8 @@ bool has_picture(const QcFacts& facts) {
 
 // Of pixels that are not finite nothing is known, so that they are neither.
 bool is_blank(const QcFacts& facts, const QcLimits& limits) {
-    if (!has_picture(facts)) {
+    if (!has_picture(facts))
         return false;
-    }
     const QcLayer& picture = picture_layer(facts);
     const bool finite = picture.nan.pixels + picture.inf.pixels == 0;
     return finite && (picture.constant || picture.max <= limits.threshold("black"));
@@ -92,9 +89,8 @@ void find_picture_faults(const QcShot& shot, QcFrame& frame) {
                  format("the picture is one colour (largest component {:.4g})", picture.max),
                  {picture.name, {}, {}});
     }
-    for (const QcLayer& layer : frame.facts.layers) {
+    for (const QcLayer& layer : frame.facts.layers)
         find_bad_values(shot, frame, layer);
-    }
     find_alpha(shot, frame, frame.facts.picture.alpha_low, "below 0");
     find_alpha(shot, frame, frame.facts.picture.alpha_high, "above 1");
     find_unseen(shot, frame);

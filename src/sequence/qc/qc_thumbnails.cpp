@@ -22,38 +22,32 @@ double mean(const Thumbnail& values) {
 std::vector<Thumbnail> thumbnails_of(const std::vector<QcFrame*>& frames) {
     std::vector<double> lit;
     for (const QcFrame* frame : frames) {
-        for (int cell : frame->facts.picture.thumbnail) {
-            if (cell > QcPicture::kDark) {
+        for (int cell : frame->facts.picture.thumbnail)
+            if (cell > QcPicture::kDark)
                 lit.push_back(cell / 1000.0);
-            }
-        }
     }
     const double floor = median(std::move(lit)) - kFloorStops;
     std::vector<Thumbnail> thumbnails;
     for (const QcFrame* frame : frames) {
         Thumbnail& thumbnail = thumbnails.emplace_back();
-        for (int cell : frame->facts.picture.thumbnail) {
+        for (int cell : frame->facts.picture.thumbnail)
             thumbnail.push_back(std::max(cell / 1000.0, floor) - floor);
-        }
     }
     return thumbnails;
 }
 
 double distance(const Thumbnail& a, const Thumbnail& b) {
     double sum = 0;
-    for (size_t i = 0; i < a.size(); ++i) {
+    for (size_t i = 0; i < a.size(); ++i)
         sum += std::abs(a[i] - b[i]);
-    }
     return sum / double(a.size());
 }
 
 double gain(const Thumbnail& a, const Thumbnail& b) {
     std::vector<double> steps;
-    for (size_t i = 0; i < a.size(); ++i) {
-        if (a[i] > 0 && b[i] > 0) {
+    for (size_t i = 0; i < a.size(); ++i)
+        if (a[i] > 0 && b[i] > 0)
             steps.push_back(b[i] - a[i]);
-        }
-    }
     return median(std::move(steps));
 }
 
@@ -66,17 +60,15 @@ double correlation(const Thumbnail& a, const Thumbnail& b) {
         ab += (a[i] - mean_a) * (b[i] - mean_b);
     }
     const double flat = kFlat * kFlat * double(a.size());
-    if (aa < flat && bb < flat) {
+    if (aa < flat && bb < flat)
         return 1;
-    }
     return aa < flat || bb < flat ? 0 : ab / std::sqrt(aa * bb);
 }
 
 double usual_step_of(const std::vector<Thumbnail>& thumbnails) {
     std::vector<double> steps;
-    for (size_t i = 1; i < thumbnails.size(); ++i) {
+    for (size_t i = 1; i < thumbnails.size(); ++i)
         steps.push_back(distance(thumbnails[i - 1], thumbnails[i]));
-    }
     return median(std::move(steps));
 }
 

@@ -17,7 +17,7 @@ using OIIO::ImageBuf;
 using OIIO::TypeDesc;
 
 // 65536 steps of linear light are never more than a twentieth of an 8-bit step of sRGB apart.
-constexpr int light_steps = 65536, color_steps = 256;
+constexpr int kLightSteps = 65536, kColorSteps = 256;
 
 ImageBuf ramp(int steps) {
     ImageBuf image(OIIO::ImageSpec(steps, 1, 1, OIIO::TypeFloat));
@@ -31,34 +31,30 @@ ImageBuf ramp(int steps) {
 template <class Value>
 std::vector<Value> values_of(const ImageBuf& image, TypeDesc type) {
     std::vector<Value> values(size_t(image.roi().npixels()) * size_t(image.nchannels()));
-    if (!image.get_pixels(image.roi(), type, values.data())) {
+    if (!image.get_pixels(image.roi(), type, values.data()))
         throw std::runtime_error(image.geterror());
-    }
     return values;
 }
 
 std::vector<uint8_t> light_table() {
     ImageBuf encoded;
-    if (!ToneAlgo::encode_srgb(encoded, ramp(light_steps))) {
+    if (!ToneAlgo::encode_srgb(encoded, ramp(kLightSteps)))
         throw std::runtime_error(encoded.geterror());
-    }
     return values_of<uint8_t>(encoded, TypeDesc::UINT8);
 }
 
 std::vector<uint8_t> color_table(const std::string& colors) {
     ImageBuf encoded;
-    if (!ToneAlgo::color_map(encoded, ramp(color_steps), colors)) {
+    if (!ToneAlgo::color_map(encoded, ramp(kColorSteps), colors))
         throw std::runtime_error(encoded.geterror());
-    }
     return values_of<uint8_t>(encoded, TypeDesc::UINT8);
 }
 
 ImageBuf picture(const ImageBuf& like, const std::vector<uint8_t>& bytes) {
     const OIIO::ROI roi = like.roi();
     ImageBuf image(OIIO::ImageSpec(roi.width(), roi.height(), 3, TypeDesc::UINT8));
-    if (!image.set_pixels(image.roi(), TypeDesc::UINT8, bytes.data())) {
+    if (!image.set_pixels(image.roi(), TypeDesc::UINT8, bytes.data()))
         throw std::runtime_error(image.geterror());
-    }
     return image;
 }
 
@@ -73,9 +69,8 @@ size_t step(float value, int steps) {
 ImageBuf srgb_bytes(const ImageBuf& linear) {
     static const std::vector<uint8_t> table = light_table();
     std::vector<uint8_t> bytes;
-    for (const float value : values_of<float>(linear, OIIO::TypeFloat)) {
-        bytes.push_back(table[step(value, light_steps)]);
-    }
+    for (const float value : values_of<float>(linear, OIIO::TypeFloat))
+        bytes.push_back(table[step(value, kLightSteps)]);
     return picture(linear, bytes);
 }
 
@@ -84,7 +79,7 @@ ImageBuf colored_bytes(const ImageBuf& map, const std::string& colors, double lo
     const double scale = 1 / std::max(high - low, 1e-6);
     std::vector<uint8_t> bytes;
     for (const float value : values_of<float>(map, OIIO::TypeFloat)) {
-        const size_t at = 3 * step(float((value - low) * scale), color_steps);
+        const size_t at = 3 * step(float((value - low) * scale), kColorSteps);
         bytes.insert(bytes.end(), table.begin() + long(at), table.begin() + long(at) + 3);
     }
     return picture(map, bytes);

@@ -36,9 +36,8 @@ Bytes encoded(const OIIO::ImageBuf& picture, Encoding encoding, int quality) {
     Bytes bytes;
     OIIO::Filesystem::IOVecOutput memory(bytes);
     const auto output = OIIO::ImageOutput::create(name);
-    if (!output) {
+    if (!output)
         throw std::runtime_error(OIIO::geterror());
-    }
     const bool done = picture.get_pixels(roi, OIIO::TypeDesc::UINT8, pixels.data()) &&
                       output->set_ioproxy(&memory) && output->open(name, spec) &&
                       output->write_image(OIIO::TypeDesc::UINT8, pixels.data()) && output->close();
@@ -84,16 +83,14 @@ std::string data_uri(const OIIO::ImageBuf& picture, Encoding encoding, int quali
 
 std::optional<OIIO::ImageBuf> picture_of(const std::string& data_uri) {
     const size_t comma = data_uri.find(";base64,");
-    if (comma == std::string::npos) {
+    if (comma == std::string::npos)
         return std::nullopt;
-    }
     Bytes bytes = decoded(data_uri, comma + 8);
     OIIO::Filesystem::IOMemReader memory(bytes.data(), bytes.size());
     const bool png = data_uri.rfind("data:image/png", 0) == 0;
     auto input = OIIO::ImageInput::open(png ? "picture.png" : "picture.jpg", nullptr, &memory);
-    if (!input) {
+    if (!input)
         return std::nullopt;
-    }
     const OIIO::ImageSpec& found = input->spec();
     OIIO::ImageBuf picture(OIIO::ImageSpec(found.width, found.height, 3, OIIO::TypeDesc::UINT8));
     const bool done = found.nchannels == 3 &&

@@ -18,9 +18,8 @@ using OIIO::ROI;
 ColorChoice color_of(const ImageBuf& image, const PixelOptions& options) {
     ColorChoice choice;
     std::string error;
-    if (!ToneAlgo::find_color(image.spec(), options, choice, error)) {
+    if (!ToneAlgo::find_color(image.spec(), options, choice, error))
         throw std::runtime_error(error);
-    }
     return choice;
 }
 
@@ -29,12 +28,10 @@ ColorChoice color_of(const ImageBuf& image, const PixelOptions& options) {
 OIIO::ImageSpec tagged(const OIIO::ImageSpec& from, const std::string& space,
                        const PixelOptions& options) {
     OIIO::ImageSpec spec(1, 1, 3, OIIO::TypeFloat);
-    if (const OIIO::ParamValue* exposure = from.find_attribute("hdr:exposure")) {
+    if (const OIIO::ParamValue* exposure = from.find_attribute("hdr:exposure"))
         spec.extra_attribs.push_back(*exposure);
-    }
-    if (says_space_again(options)) {
+    if (says_space_again(options))
         return spec;
-    }
     if (space == "chromaticities") {
         float values[8] = {};
         from.getattribute("chromaticities", OIIO::TypeDesc("float[8]"), values);
@@ -60,9 +57,8 @@ public:
         ROI row = m_region;
         row.ybegin = y;
         row.yend = y + 1;
-        if (!m_image.get_pixels(row, OIIO::TypeFloat, m_values.data())) {
+        if (!m_image.get_pixels(row, OIIO::TypeFloat, m_values.data()))
             throw std::runtime_error(m_image.geterror());
-        }
         return m_values;
     }
 
@@ -88,9 +84,8 @@ struct RowSums {
         const auto value = [&](size_t c) { return double(pixel[order[c]]); };
         if (std::isfinite(value(0)) && std::isfinite(value(1)) && std::isfinite(value(2))) {
             ++count[at];
-            for (size_t c = 0; c < 3; ++c) {
+            for (size_t c = 0; c < 3; ++c)
                 color[3 * at + c] += value(c);
-            }
         }
     }
 
@@ -110,7 +105,7 @@ bool says_space_again(const PixelOptions& options) {
     return !options.config.empty() && !options.from.empty();
 }
 
-Side fitted(const ROI& region, int longest) {
+PixelSize fitted(const ROI& region, int longest) {
     const double scale = std::min(1.0, double(longest) / std::max(region.width(), region.height()));
     return {std::max(1, int(std::lround(region.width() * scale))),
             std::max(1, int(std::lround(region.height() * scale)))};
@@ -130,23 +125,21 @@ ROI scaled(const ROI& part, const ROI& from, const ROI& to) {
     return result;
 }
 
-ImageBuf resized(const ImageBuf& image, const Side& side) {
-    if (image.spec().width == side.width && image.spec().height == side.height) {
+ImageBuf resized(const ImageBuf& image, const PixelSize& side) {
+    if (image.spec().width == side.width && image.spec().height == side.height)
         return image;
-    }
     ImageBuf result;
     const ROI to(0, side.width, 0, side.height, 0, 1, 0, image.nchannels());
-    if (!oiio::resize(result, image, "box", to)) {
+    if (!oiio::resize(result, image, "box", to))
         throw std::runtime_error(result.geterror());
-    }
     return result;
 }
 
 ImageBuf reduced_color(const ImageBuf& image, const PixelOptions& options, const ROI& region,
-                       const Side& wanted) {
+                       const PixelSize& wanted) {
     // A smaller image, compared resized, is enlarged as its last step.
-    const Side side{std::min(wanted.width, region.width()),
-                    std::min(wanted.height, region.height())};
+    const PixelSize side{std::min(wanted.width, region.width()),
+                         std::min(wanted.height, region.height())};
     const ColorChoice choice = color_of(image, options);
     const int first = std::min({choice.r, choice.g, choice.b});
     const int count = std::max({choice.r, choice.g, choice.b}) + 1 - first;
@@ -171,7 +164,7 @@ ImageBuf reduced_color(const ImageBuf& image, const PixelOptions& options, const
     return resized(result, wanted);
 }
 
-ReducedMaps reduced_maps(const ImageBuf& error, const ImageBuf* stops, const Side& side) {
+ReducedMaps reduced_maps(const ImageBuf& error, const ImageBuf* stops, const PixelSize& side) {
     const ROI all = error.roi();
     const size_t width = size_t(side.width);
     std::vector<float> most(width * size_t(side.height), -1.0f), at(most.size());
@@ -202,9 +195,8 @@ void mark_nonfinite(ImageBuf& shown, const ImageBuf& image, const PixelOptions& 
     for (ImageBuf::ConstIterator<float> pixel(image, region); !pixel.done(); ++pixel) {
         const bool finite = std::isfinite(pixel[choice.r]) && std::isfinite(pixel[choice.g]) &&
                             std::isfinite(pixel[choice.b]);
-        if (!finite) {
+        if (!finite)
             shown.setpixel(pixel.x() - region.xbegin, pixel.y() - region.ybegin, magenta);
-        }
     }
 }
 

@@ -7,12 +7,12 @@
 
 namespace tonetool::sequence {
 
-struct Side {
+struct PixelSize {
     int width = 0, height = 0;
 };
 
 /// The size of a region whose longer side is at most `longest`; never larger than the region.
-Side fitted(const OIIO::ROI& region, int longest);
+PixelSize fitted(const OIIO::ROI& region, int longest);
 
 /// The part of `to` that lies in it as `part` lies in `from`.
 OIIO::ROI scaled(const OIIO::ROI& part, const OIIO::ROI& from, const OIIO::ROI& to);
@@ -25,16 +25,16 @@ bool says_space_again(const PixelOptions& options);
 /// the colour space they are stored in, which the result names. What the image does not cover is
 /// black. A runtime_error without colour.
 OIIO::ImageBuf reduced_color(const OIIO::ImageBuf& image, const PixelOptions& options,
-                             const OIIO::ROI& region, const Side& side);
+                             const OIIO::ROI& region, const PixelSize& side);
 
-OIIO::ImageBuf resized(const OIIO::ImageBuf& image, const Side& side);
+OIIO::ImageBuf resized(const OIIO::ImageBuf& image, const PixelSize& side);
 
 /// An error map of which each pixel is the largest error beneath it, and the exposure of that.
 struct ReducedMaps {
     OIIO::ImageBuf error, stops;
 };
 ReducedMaps reduced_maps(const OIIO::ImageBuf& error, const OIIO::ImageBuf* stops,
-                         const Side& side);
+                         const PixelSize& side);
 
 /// Magenta where a pixel of the image's region is not finite. `shown` lies at the origin.
 void mark_nonfinite(OIIO::ImageBuf& shown, const OIIO::ImageBuf& image, const PixelOptions& options,

@@ -12,20 +12,17 @@ std::vector<std::string> write_reports(const ShotResult& shot, const PictureStor
                                        const CheckFiles& files, std::vector<std::string>& errors) {
     std::vector<std::string> complaints;
     const auto page = files.find("report"), sheet = files.find("contactsheet");
-    if (page != files.end()) {
+    if (page != files.end())
         attempt(errors, [&] { write_text(report_page(shot, pictures), page->second); });
-    }
     if (sheet != files.end()) {
         std::string warning;
         attempt(errors, [&] {
             std::string why;
-            if (!write_image(contact_sheet(shot, pictures, warning), sheet->second, why)) {
+            if (!write_image(contact_sheet(shot, pictures, warning), sheet->second, why))
                 throw std::runtime_error(why);
-            }
         });
-        if (!warning.empty()) {
+        if (!warning.empty())
             complaints.push_back(warning);
-        }
     }
     return complaints;
 }

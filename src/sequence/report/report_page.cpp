@@ -29,9 +29,8 @@ std::string name_of(const FrameResult& frame) {
 
 std::vector<size_t> by_rank(const ShotResult& shot) {
     std::vector<size_t> order(shot.frames.size());
-    for (size_t i = 0; i < order.size(); ++i) {
+    for (size_t i = 0; i < order.size(); ++i)
         order[i] = i;
-    }
     const auto rank = [&](size_t i) {
         return std::make_pair(-int(shot.frames[i].status), -badness(shot.frames[i]));
     };
@@ -57,18 +56,15 @@ bool is_found(const Position& at, const FrameResult& frame) {
 // that would be a page that does not work.
 std::string trimmed(const std::string& text, const FrameResult& frame) {
     ordered_json pictures = parsed_or_null(text);
-    if (!pictures.is_object() || !pictures.contains("spots")) {
+    if (!pictures.is_object() || !pictures.contains("spots"))
         return "";
-    }
     ordered_json spots = ordered_json::array();
     try {
-        for (const ordered_json& spot : pictures["spots"]) {
+        for (const ordered_json& spot : pictures["spots"])
             if (is_found(
                     {whole_number<int>(spot.at("x"), "x"), whole_number<int>(spot.at("y"), "y")},
-                    frame)) {
+                    frame))
                 spots.push_back(spot);
-            }
-        }
     } catch (const std::exception&) {
         return "";
     }
@@ -79,9 +75,8 @@ std::string trimmed(const std::string& text, const FrameResult& frame) {
 
 // An element of data, where it fits.
 size_t put_block(std::string& blocks, const std::string& id, const std::string& text, size_t room) {
-    if (text.empty() || text.size() > room) {
+    if (text.empty() || text.size() > room)
         return 0;
-    }
     blocks +=
         format("<script type=\"application/json\" id=\"{}\">{}</script>\n", id, script_data(text));
     return text.size();
@@ -104,9 +99,8 @@ Kept kept(const ShotResult& shot, const PictureStore& pictures, const PageLimits
         const size_t taken =
             put_block(result.blocks, format("full-{}", i),
                       trimmed(pictures.full(shot.frames[i]), shot.frames[i]), room);
-        if (taken > 0) {
+        if (taken > 0)
             result.full.insert(i);
-        }
         room -= taken;
     }
     return result;
@@ -115,9 +109,8 @@ Kept kept(const ShotResult& shot, const PictureStore& pictures, const PageLimits
 // ---- data
 
 std::string exposures_text(const ShotResult& shot) {
-    if (!shot.exposures) {
+    if (!shot.exposures)
         return "of each frame";
-    }
     return format("of the whole shot, from a maximum luminance of {:.6g} and a median of {:.6g} "
                   "over {} frames",
                   shot.exposures->max_luminance, shot.exposures->median_luminance,
@@ -136,9 +129,8 @@ using Rows = std::vector<std::array<std::string, 2>>;
 
 Rows about(const ShotResult& shot, const Kept& kept, const PageLimits& limits) {
     std::string check = "tonetool";
-    for (const std::string& word : shot.check) {
+    for (const std::string& word : shot.check)
         check += " " + word;
-    }
     return {{"Command line", check},
             {"Exposures", exposures_text(shot)},
             {"Pictures", pictures_text(shot, kept, limits)},
@@ -149,7 +141,7 @@ ordered_json captions() {
     return {{"shown",
              format("As compared at this exposure; large images are reduced to {} pixels. Drag "
                     "in the picture, or use the slider.",
-                    picture_side)},
+                    kPictureSide)},
             {"error", "0 is no visible difference, 1 the largest. Each pixel shows the largest "
                       "error beneath it, so that a single pixel is not lost."},
             {"stops", "The exposure at which the error is largest."},
@@ -164,11 +156,9 @@ void trim(ordered_json& result, const Kept& kept, const PageLimits& limits) {
         frame.erase("qc");
         const bool whole = !many || kept.full.count(index++) > 0;
         for (ordered_json& measured : frame["measurements"]) {
-            for (const char* key : {"histogram", "parameters", "settings"}) {
-                if (!whole) {
+            for (const char* key : {"histogram", "parameters", "settings"})
+                if (!whole)
                     measured.erase(key);
-                }
-            }
         }
     }
 }
@@ -189,9 +179,8 @@ std::string data_of(const ShotResult& shot, const Kept& kept, const PageLimits& 
 
 std::string counts_html(const ShotResult& shot) {
     std::map<Status, size_t> counts;
-    for (const FrameResult& frame : shot.frames) {
+    for (const FrameResult& frame : shot.frames)
         ++counts[frame.status];
-    }
     std::string html = format("<div><dt>frames</dt><dd>{}</dd></div>", shot.frames.size());
     for (auto item = counts.rbegin(); item != counts.rend(); ++item) {
         html += format("<div class=\"{}\"><dt>{}</dt><dd>{}</dd></div>", page_class(item->first),
@@ -212,14 +201,11 @@ std::string list_html(const ShotResult& shot) {
 // What was compared, for the head of the page.
 std::string shot_name(const ShotResult& shot) {
     std::string name;
-    for (const FrameResult& frame : shot.frames) {
-        if (name.empty() && !frame.test.empty()) {
+    for (const FrameResult& frame : shot.frames)
+        if (name.empty() && !frame.test.empty())
             name = frame.test + (frame.reference.empty() ? "" : " against " + frame.reference);
-        }
-    }
-    if (shot.frames.empty()) {
+    if (shot.frames.empty())
         return name;
-    }
     return format("frames {} to {}{}", name_of(shot.frames.front()), name_of(shot.frames.back()),
                   name.empty() ? "" : ", from " + name);
 }

@@ -20,7 +20,7 @@ using nlohmann::ordered_json;
 using OIIO::ImageBuf;
 using OIIO::ROI;
 
-constexpr int large_quality = 82, map_quality = 85, small_quality = 72;
+constexpr int kLargeQuality = 82, kMapQuality = 85, kSmallQuality = 72;
 
 struct Shown {
     ImageBuf reference, test; ///< 8 bits, sRGB-encoded
@@ -28,11 +28,10 @@ struct Shown {
 
 // Both ends and what lies evenly between them.
 std::vector<double> chosen(const std::vector<double>& exposures) {
-    const size_t n = exposures.size(), count = std::min(n, most_exposures);
+    const size_t n = exposures.size(), count = std::min(n, kMostExposures);
     std::vector<double> result;
-    for (size_t i = 0; i < count; ++i) {
+    for (size_t i = 0; i < count; ++i)
         result.push_back(exposures[count == 1 ? 0 : (i * (n - 1) + (count - 1) / 2) / (count - 1)]);
-    }
     return result;
 }
 
@@ -45,9 +44,8 @@ public:
           m_whole(request.error ? request.error->roi() : request.test->roi_full()),
           m_orientation(orientation_of(request.test->spec())) {
         m_look.pixels.layer.clear();
-        if (!says_space_again(m_look.pixels)) {
+        if (!says_space_again(m_look.pixels))
             m_look.pixels.from.clear();
-        }
         m_look.alpha = AlphaPolicy::Ignore;
         m_look.size = SizePolicy::Match;
         m_look.want_exposure_map = false;
@@ -59,14 +57,13 @@ public:
 
     FramePictures draw() {
         FramePictures pictures;
-        const Side small = fitted(m_whole, thumbnail_side);
-        const Linear linear = read(m_whole, m_request.full ? fitted(m_whole, picture_side) : small);
+        const PixelSize small = fitted(m_whole, kThumbnailSide);
+        const Linear linear = read(m_whole, m_request.full ? fitted(m_whole, kPictureSide) : small);
         const std::vector<double> stops = exposures(linear);
         const double middle = (stops.front() + stops.back()) / 2;
         draw_small(pictures, linear, middle, small);
-        if (m_request.full) {
+        if (m_request.full)
             draw_large(pictures, linear, stops);
-        }
         draw_spots(pictures, middle);
         return pictures;
     }
@@ -76,15 +73,14 @@ private:
         ImageBuf reference, test; ///< three channels, as they are stored
     };
 
-    Linear read(const ROI& region, const Side& side) const {
+    Linear read(const ROI& region, const PixelSize& side) const {
         Linear linear;
         const auto part = [&](const ImageBuf& image) {
             return reduced_color(image, m_request.look.pixels, region_of(image, region), side);
         };
         linear.test = part(*m_request.test);
-        if (m_request.reference) {
+        if (m_request.reference)
             linear.reference = part(*m_request.reference);
-        }
         return linear;
     }
 
@@ -96,12 +92,10 @@ private:
     }
 
     std::vector<double> exposures(const Linear& linear) const {
-        if (!m_request.hdr) {
+        if (!m_request.hdr)
             return {0};
-        }
-        if (!m_request.exposures.empty()) {
+        if (!m_request.exposures.empty())
             return chosen(m_request.exposures);
-        }
         HdrFlipOptions look = m_look;
         look.want_exposures = false;
         FlipResult result;
@@ -114,22 +108,20 @@ private:
     // The pair as it is compared at an exposure.
     Shown show(const Linear& linear, double stops) const {
         const ImageBuf& reference = m_request.reference ? linear.reference : linear.test;
-        if (!m_request.hdr) {
+        if (!m_request.hdr)
             return {displayed(reference), displayed(linear.test)};
-        }
         HdrFlipOptions look = m_look;
         look.start_exposure = look.stop_exposure = stops;
         look.num_exposures = 1;
         FlipResult result;
         ImageBuf map;
-        if (!ToneAlgo::hdr_flip(map, reference, linear.test, look, &result, {}, m_nthreads)) {
+        if (!ToneAlgo::hdr_flip(map, reference, linear.test, look, &result, {}, m_nthreads))
             throw std::runtime_error(map.geterror());
-        }
         return {srgb_bytes(result.exposures.at(0).reference),
                 srgb_bytes(result.exposures.at(0).test)};
     }
 
-    std::string uri(ImageBuf picture, Encoding encoding, int quality = large_quality) const {
+    std::string uri(ImageBuf picture, Encoding encoding, int quality = kLargeQuality) const {
         return data_uri(upright(std::move(picture), m_orientation), encoding, quality);
     }
 
@@ -138,66 +130,62 @@ private:
         options.curve.name = "linear";
         options.encode = "none";
         ImageBuf result;
-        if (!ToneAlgo::tonemap(result, linear, options, nullptr, {}, m_nthreads)) {
+        if (!ToneAlgo::tonemap(result, linear, options, nullptr, {}, m_nthreads))
             throw std::runtime_error(result.geterror());
-        }
         return srgb_bytes(result);
     }
 
     void draw_small(FramePictures& pictures, const Linear& linear, double stops,
-                    const Side& side) const {
+                    const PixelSize& side) const {
         const Shown shown = show(linear, stops);
-        pictures.small_test = uri(resized(shown.test, side), Encoding::Jpeg, small_quality);
+        pictures.small_test = uri(resized(shown.test, side), Encoding::Jpeg, kSmallQuality);
         if (m_request.error) {
             const ImageBuf error = reduced_maps(*m_request.error, nullptr, side).error;
             pictures.small_error =
-                uri(colored_bytes(error, "magma"), Encoding::JpegMap, small_quality);
+                uri(colored_bytes(error, "magma"), Encoding::JpegMap, kSmallQuality);
         }
     }
 
     void draw_large(FramePictures& pictures, const Linear& linear,
                     const std::vector<double>& exposures) const {
-        const Side side = fitted(m_whole, picture_side);
+        const PixelSize side = fitted(m_whole, kPictureSide);
         pictures.width = side.width;
         pictures.height = side.height;
-        if (lies_on_its_side(m_orientation)) {
+        if (lies_on_its_side(m_orientation))
             std::swap(pictures.width, pictures.height);
-        }
         for (double stops : exposures) {
             const Shown shown = show(linear, stops);
             const auto large = [&](const ImageBuf& image) {
-                return uri(image, Encoding::Jpeg, large_quality);
+                return uri(image, Encoding::Jpeg, kLargeQuality);
             };
             pictures.exposures.push_back(
                 {stops, m_request.reference ? large(shown.reference) : "", large(shown.test)});
         }
-        if (m_request.error) {
+        if (m_request.error)
             draw_maps(pictures, side);
-        }
     }
 
-    void draw_maps(FramePictures& pictures, const Side& side) const {
+    void draw_maps(FramePictures& pictures, const PixelSize& side) const {
         const ReducedMaps maps = reduced_maps(*m_request.error, m_request.stops, side);
-        pictures.error = uri(colored_bytes(maps.error, "magma"), Encoding::JpegMap, map_quality);
+        pictures.error = uri(colored_bytes(maps.error, "magma"), Encoding::JpegMap, kMapQuality);
         if (m_request.stops && !m_request.exposures.empty()) {
             pictures.first_stop = m_request.exposures.front();
             pictures.last_stop = m_request.exposures.back();
             pictures.stops =
                 uri(colored_bytes(maps.stops, "viridis", pictures.first_stop, pictures.last_stop),
-                    Encoding::Jpeg, map_quality);
+                    Encoding::Jpeg, kMapQuality);
         }
     }
 
     void draw_spots(FramePictures& pictures, double stops) const {
         for (const Position& at : m_request.spots) {
-            const ROI near = OIIO::roi_intersection(ROI(at.x - spot_reach, at.x + spot_reach + 1,
-                                                        at.y - spot_reach, at.y + spot_reach + 1,
+            const ROI near = OIIO::roi_intersection(ROI(at.x - kSpotReach, at.x + kSpotReach + 1,
+                                                        at.y - kSpotReach, at.y + kSpotReach + 1,
                                                         m_whole.zbegin, m_whole.zend, 0, 1),
                                                     m_whole);
             const bool inside = near.width() > 0 && near.height() > 0;
-            if (inside && pictures.spots.size() < most_spots) {
+            if (inside && pictures.spots.size() < kMostSpots)
                 pictures.spots.push_back(spot(at, near, stops_at(at, stops)));
-            }
         }
     }
 
@@ -207,7 +195,7 @@ private:
     }
 
     SpotPictures spot(const Position& at, const ROI& near, double stops) const {
-        const Side side{near.width(), near.height()};
+        const PixelSize side{near.width(), near.height()};
         const Linear linear = read(near, side);
         Shown shown = show(linear, stops);
         SpotPictures result;

@@ -41,11 +41,11 @@ struct FramePictures {
     std::string small_test, small_error; ///< thumbnails
 };
 
-inline constexpr int picture_side = 960;    ///< longer side of a large picture at most
-inline constexpr int thumbnail_side = 160;  ///< of a thumbnail
-inline constexpr int spot_reach = 16;       ///< pixels around a spot to each side
-inline constexpr size_t most_exposures = 5; ///< that are shown: both ends and evenly between
-inline constexpr size_t most_spots = 8;
+inline constexpr int kPictureSide = 960;    ///< longer side of a large picture at most
+inline constexpr int kThumbnailSide = 160;  ///< of a thumbnail
+inline constexpr int kSpotReach = 16;       ///< pixels around a spot to each side
+inline constexpr size_t kMostExposures = 5; ///< that are shown: both ends and evenly between
+inline constexpr size_t kMostSpots = 8;
 
 /// A runtime_error says what could not be drawn. Non-finite pixels are black, and magenta in spots.
 FramePictures draw_pictures(const PictureRequest& request, int nthreads = 0);

@@ -20,10 +20,10 @@ using OIIO::ROI;
 using OIIO::Strutil::fmt::format;
 namespace IBA = OIIO::ImageBufAlgo;
 
-constexpr char font[] = "DejaVuSans";
-constexpr int margin = 10, edge = 4, text_size = 13, label = 22;
-constexpr std::array<float, 3> background{0.13f, 0.13f, 0.13f}, ink{0.92f, 0.92f, 0.92f},
-    empty{0.05f, 0.05f, 0.05f};
+constexpr char kFont[] = "DejaVuSans";
+constexpr int kMargin = 10, kEdge = 4, kTextSize = 13, kLabel = 22;
+constexpr std::array<float, 3> kBackground{0.13f, 0.13f, 0.13f}, kInk{0.92f, 0.92f, 0.92f},
+    kEmpty{0.05f, 0.05f, 0.05f};
 
 // Told apart also by who confuses red and green; the label has the word.
 std::array<float, 3> color_of(Status status) {
@@ -42,18 +42,17 @@ std::array<float, 3> color_of(Status status) {
 
 std::vector<size_t> shown_frames(const ShotResult& shot, std::string& warning) {
     std::vector<size_t> all(shot.frames.size());
-    for (size_t i = 0; i < all.size(); ++i) {
+    for (size_t i = 0; i < all.size(); ++i)
         all[i] = i;
-    }
-    if (all.size() > most_sheet_frames) {
+    if (all.size() > kMostSheetFrames) {
         std::stable_sort(all.begin(), all.end(), [&](size_t a, size_t b) {
             const FrameResult &one = shot.frames[a], &other = shot.frames[b];
             return std::make_pair(-int(one.status), -badness(one)) <
                    std::make_pair(-int(other.status), -badness(other));
         });
-        warning = format("the contact sheet shows the {} worst of {} frames", most_sheet_frames,
+        warning = format("the contact sheet shows the {} worst of {} frames", kMostSheetFrames,
                          all.size());
-        all.resize(most_sheet_frames);
+        all.resize(kMostSheetFrames);
         std::sort(all.begin(), all.end());
     }
     return all;
@@ -62,37 +61,36 @@ std::vector<size_t> shown_frames(const ShotResult& shot, std::string& warning) {
 std::optional<ImageBuf> thumbnail(const FrameResult& frame, const PictureStore& pictures) {
     const std::string text = pictures.small(frame);
     const auto json = parsed_or_null(text);
-    if (!json.is_object() || !json.contains("test") || !json["test"].is_string()) {
+    if (!json.is_object() || !json.contains("test") || !json["test"].is_string())
         return std::nullopt;
-    }
     return picture_of(json["test"].get<std::string>());
 }
 
 class Sheet {
 public:
-    Sheet(size_t count, int height) : m_cell_height(height + label + 2 * edge + margin) {
+    Sheet(size_t count, int height) : m_cell_height(height + kLabel + 2 * kEdge + kMargin) {
         m_columns = std::max(1, int(std::ceil(std::sqrt(double(count)))));
         const int rows = (int(count) + m_columns - 1) / m_columns;
-        OIIO::ImageSpec spec(m_columns * cell_width + margin, rows * m_cell_height + margin, 3,
+        OIIO::ImageSpec spec(m_columns * cell_width + kMargin, rows * m_cell_height + kMargin, 3,
                              OIIO::TypeDesc::UINT8);
         spec.attribute("oiio:ColorSpace", "sRGB");
         m_image = ImageBuf(spec);
-        check(IBA::fill(m_image, background));
+        check(IBA::fill(m_image, kBackground));
     }
 
     void put(size_t place, const FrameResult& frame, const std::optional<ImageBuf>& picture,
              int height) {
-        const int x = margin + int(place) % m_columns * cell_width;
-        const int y = margin + int(place) / m_columns * m_cell_height;
-        rectangle(x, y, thumbnail_side + 2 * edge, height + 2 * edge, color_of(frame.status));
-        rectangle(x + edge, y + edge, thumbnail_side, height, empty);
+        const int x = kMargin + int(place) % m_columns * cell_width;
+        const int y = kMargin + int(place) / m_columns * m_cell_height;
+        rectangle(x, y, kThumbnailSide + 2 * kEdge, height + 2 * kEdge, color_of(frame.status));
+        rectangle(x + kEdge, y + kEdge, kThumbnailSide, height, kEmpty);
         if (picture) {
             const ROI roi = picture->roi();
-            check(IBA::paste(m_image, x + edge + (thumbnail_side - roi.width()) / 2,
-                             y + edge + (height - roi.height()) / 2, 0, 0, *picture));
+            check(IBA::paste(m_image, x + kEdge + (kThumbnailSide - roi.width()) / 2,
+                             y + kEdge + (height - roi.height()) / 2, 0, 0, *picture));
         }
         const std::string view = frame.view.empty() ? "" : " " + frame.view;
-        write(x, y + height + 2 * edge + 4,
+        write(x, y + height + 2 * kEdge + 4,
               format("{}{}{}  {}", frame.frame,
                      frame.test_frame ? "/" + std::to_string(*frame.test_frame) : "", view,
                      status_name(frame.status)));
@@ -102,12 +100,11 @@ public:
     ImageBuf& image() { return m_image; }
 
 private:
-    static constexpr int cell_width = thumbnail_side + 2 * edge + margin;
+    static constexpr int cell_width = kThumbnailSide + 2 * kEdge + kMargin;
 
     void check(bool done) const {
-        if (!done) {
+        if (!done)
             throw std::runtime_error(m_image.geterror());
-        }
     }
 
     void rectangle(int x, int y, int width, int height, const std::array<float, 3>& color) {
@@ -115,7 +112,7 @@ private:
     }
 
     void write(int x, int y, const std::string& text) {
-        if (m_labelled && !IBA::render_text(m_image, x, y, text, text_size, font, ink,
+        if (m_labelled && !IBA::render_text(m_image, x, y, text, kTextSize, kFont, kInk,
                                             IBA::TextAlignX::Left, IBA::TextAlignY::Top)) {
             (void)m_image.geterror();
             m_labelled = false;
@@ -131,23 +128,21 @@ private:
 
 ImageBuf contact_sheet(const ShotResult& shot, const PictureStore& pictures, std::string& warning) {
     const std::vector<size_t> frames = shown_frames(shot, warning);
-    if (frames.empty()) {
+    if (frames.empty())
         throw std::runtime_error("there is no frame for the contact sheet");
-    }
     std::vector<std::optional<ImageBuf>> thumbnails;
     int height = 1;
     for (const size_t i : frames) {
         thumbnails.push_back(thumbnail(shot.frames[i], pictures));
         height = thumbnails.back() ? std::max(height, thumbnails.back()->spec().height) : height;
     }
-    height = height == 1 ? thumbnail_side * 9 / 16 : height;
+    height = height == 1 ? kThumbnailSide * 9 / 16 : height;
     Sheet sheet(frames.size(), height);
-    for (size_t i = 0; i < frames.size(); ++i) {
+    for (size_t i = 0; i < frames.size(); ++i)
         sheet.put(i, shot.frames[frames[i]], thumbnails[i], height);
-    }
     if (!sheet.labelled()) {
         warning += warning.empty() ? "" : "; ";
-        warning += std::string("no font \"") + font + "\" found: the contact sheet has no labels";
+        warning += std::string("no font \"") + kFont + "\" found: the contact sheet has no labels";
     }
     return std::move(sheet.image());
 }

@@ -9,7 +9,7 @@
 
 namespace tonetool::sequence {
 
-inline constexpr size_t most_sheet_frames = 400;
+inline constexpr size_t kMostSheetFrames = 400;
 
 /// R, G, B, sRGB-encoded, in the order of the frames. Of more than `most_sheet_frames` the worst
 /// are shown. `warning` says so, or that no font was found for the labels. A runtime_error if

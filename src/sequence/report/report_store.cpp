@@ -18,14 +18,13 @@ namespace {
 
 using OIIO::Strutil::fmt::format;
 
-constexpr char full_size[] = "full", small_size[] = "small";
+constexpr char kFullSize[] = "full", kSmallSize[] = "small";
 
 // A view's name is the user's: what could lead out of the folder is written as %2f.
 std::string key_of(int frame, const std::string& view) {
     std::string key = format("{:04}", frame);
-    if (!view.empty()) {
+    if (!view.empty())
         key += ".";
-    }
     for (const char c : view) {
         const auto byte = static_cast<unsigned char>(c);
         const bool plain = std::isalnum(byte) != 0 || c == '_' || c == '-';
@@ -61,9 +60,8 @@ PictureStore::PictureStore(std::string folder, size_t full_frames)
     }
     std::string why;
     if (!m_folder.empty() && !OIIO::Filesystem::is_directory(m_folder) &&
-        !OIIO::Filesystem::create_directory(m_folder, why)) {
+        !OIIO::Filesystem::create_directory(m_folder, why))
         throw std::runtime_error(format("could not make the folder \"{}\": {}", m_folder, why));
-    }
 }
 
 PictureStore::Rank PictureStore::rank_of(const FrameResult& frame) {
@@ -77,9 +75,8 @@ bool PictureStore::wants_full(const FrameResult& frame) const {
 
 void PictureStore::know(const FrameResult& frame) {
     m_known.insert(rank_of(frame));
-    if (m_known.size() > m_full_frames) {
+    if (m_known.size() > m_full_frames)
         m_known.erase(std::prev(m_known.end()));
-    }
 }
 
 bool PictureStore::insert(const FrameResult& frame) {
@@ -89,18 +86,17 @@ bool PictureStore::insert(const FrameResult& frame) {
     if (m_worst.size() > m_full_frames) {
         const Rank best = *m_worst.rbegin();
         m_worst.erase(best);
-        drop(key_of(std::get<2>(best), std::get<3>(best)), full_size);
+        drop(key_of(std::get<2>(best), std::get<3>(best)), kFullSize);
         return best != rank;
     }
     return true;
 }
 
 void PictureStore::drop(const std::string& key, const char* size) {
-    if (m_folder.empty()) {
+    if (m_folder.empty())
         m_texts.erase(key + size);
-    } else {
+    else
         OIIO::Filesystem::remove(file(key, size));
-    }
 }
 
 PictureTexts PictureStore::texts(const FrameResult& frame, const FramePictures& pictures) {
@@ -118,45 +114,41 @@ PictureTexts PictureStore::texts(const FrameResult& frame, const FramePictures& 
 void PictureStore::add(const FrameResult& frame, const PictureTexts& pictures) {
     const std::lock_guard<std::mutex> lock(m_mutex);
     const std::string key = key_of(frame);
-    if (!pictures.full.empty() && insert(frame)) {
-        write(key, full_size, pictures.full);
-    } else {
-        drop(key, full_size);
-    }
-    write(key, small_size, pictures.small);
+    if (!pictures.full.empty() && insert(frame))
+        write(key, kFullSize, pictures.full);
+    else
+        drop(key, kFullSize);
+    write(key, kSmallSize, pictures.small);
 }
 
 void PictureStore::forget(const FrameResult& frame) {
     const std::lock_guard<std::mutex> lock(m_mutex);
-    drop(key_of(frame), full_size);
-    drop(key_of(frame), small_size);
+    drop(key_of(frame), kFullSize);
+    drop(key_of(frame), kSmallSize);
 }
 
 std::vector<std::string> PictureStore::files(int frame, const std::string& view) const {
-    if (m_folder.empty()) {
+    if (m_folder.empty())
         return {};
-    }
     const std::string key = key_of(frame, view);
-    return {file(key, full_size), file(key, small_size)};
+    return {file(key, kFullSize), file(key, kSmallSize)};
 }
 
 bool PictureStore::restore(const FrameResult& frame) {
     const std::lock_guard<std::mutex> lock(m_mutex);
-    if (m_folder.empty() || read(frame, small_size).empty()) {
+    if (m_folder.empty() || read(frame, kSmallSize).empty())
         return false;
-    }
-    if (!read(frame, full_size).empty()) {
+    if (!read(frame, kFullSize).empty())
         insert(frame);
-    }
     return true;
 }
 
 std::string PictureStore::small(const FrameResult& frame) const {
-    return read(frame, small_size);
+    return read(frame, kSmallSize);
 }
 
 std::string PictureStore::full(const FrameResult& frame) const {
-    return read(frame, full_size);
+    return read(frame, kFullSize);
 }
 
 std::string PictureStore::file(const std::string& key, const char* size) const {
@@ -165,11 +157,10 @@ std::string PictureStore::file(const std::string& key, const char* size) const {
 
 void PictureStore::write(const std::string& key, const char* size, const std::string& text) {
     std::string why;
-    if (m_folder.empty()) {
+    if (m_folder.empty())
         m_texts[key + size] = text;
-    } else if (!write_bytes(text, file(key, size), why, Links::Refuse)) {
+    else if (!write_bytes(text, file(key, size), why, Links::Refuse))
         throw std::runtime_error(why);
-    }
 }
 
 std::string PictureStore::read(const FrameResult& frame, const char* size) const {
@@ -195,9 +186,8 @@ void FramePainter::take(FramePictures pictures, const PictureRequest& request) {
     for (SpotPictures& spot : pictures.spots) {
         const bool there = std::any_of(drawn->spots.begin(), drawn->spots.end(),
                                        [&](const auto& other) { return other.at == spot.at; });
-        if (!there) {
+        if (!there)
             drawn->spots.push_back(std::move(spot));
-        }
     }
 }
 

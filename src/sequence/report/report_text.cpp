@@ -14,9 +14,8 @@ using OIIO::Strutil::fmt::format;
 
 std::string hash_source(const std::string& hex) {
     std::string bytes;
-    for (size_t i = 0; i + 1 < hex.size(); i += 2) {
+    for (size_t i = 0; i + 1 < hex.size(); i += 2)
         bytes += static_cast<char>(std::stoi(hex.substr(i, 2), nullptr, 16));
-    }
     return "'sha256-" + OIIO::Strutil::base64_encode(bytes) + "'";
 }
 
@@ -75,14 +74,12 @@ std::string filled(const std::string& text, const std::map<std::string, std::str
     for (;;) {
         const size_t open = text.find("{{", at);
         const size_t close = text.find("}}", open);
-        if (open == std::string::npos || close == std::string::npos) {
+        if (open == std::string::npos || close == std::string::npos)
             return result + text.substr(at);
-        }
         const std::string name = text.substr(open + 2, close - open - 2);
         const auto value = values.find(name);
-        if (value == values.end()) {
+        if (value == values.end())
             throw std::runtime_error("the page has no value for \"" + name + "\"");
-        }
         result.append(text, at, open - at).append(value->second);
         at = close + 2;
     }

@@ -53,9 +53,8 @@ bool has_standard_output(const CheckFiles& files) {
 void check_places(const CheckFiles& files) {
     std::set<std::string> seen;
     for (const auto& [command, file] : files) {
-        if (file.empty()) {
+        if (file.empty())
             continue;
-        }
         const std::string start = "--" + command + ": ";
         if (file == "-") {
             check_standard_output(start, command, files);
@@ -68,12 +67,10 @@ void check_places(const CheckFiles& files) {
             throw std::runtime_error(start + "there is no folder \"" + folder.string() +
                                      "\" to write \"" + file + "\" into");
         }
-        if (!is_folder && fs::is_directory(file, none)) {
+        if (!is_folder && fs::is_directory(file, none))
             throw std::runtime_error(start + "\"" + file + "\" is a folder");
-        }
-        if (!seen.insert(fs::path(file).lexically_normal().string()).second) {
+        if (!seen.insert(fs::path(file).lexically_normal().string()).second)
             throw std::runtime_error(start + "\"" + file + "\" is also another's file");
-        }
     }
 }
 
@@ -82,9 +79,8 @@ std::vector<std::string> write_results(const ShotResult& shot, const CheckFiles&
     for (const auto& item : files) {
         const std::string& file = item.second;
         const auto text = texts().find(item.first);
-        if (text != texts().end()) {
+        if (text != texts().end())
             attempt(errors, [&] { write_text(text->second(shot), file); });
-        }
     }
     return errors;
 }
@@ -103,9 +99,8 @@ void write_text(const std::string& text, const std::string& file) {
         return;
     }
     std::string why;
-    if (!write_bytes(text, file, why)) {
+    if (!write_bytes(text, file, why))
         throw std::runtime_error(why);
-    }
 }
 
 } // namespace tonetool::sequence

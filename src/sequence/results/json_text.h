@@ -48,9 +48,8 @@ inline nlohmann::ordered_json parsed_or_null(const std::string& text) {
 /// read(item) for each item of a list or object; an error in it says where, "frames/3: ...".
 template <class Read>
 void each_of(const nlohmann::ordered_json& list, const std::string& key, const Read& read) {
-    if (!list.is_array() && !list.is_object()) {
+    if (!list.is_array() && !list.is_object())
         throw std::runtime_error("\"" + key + "\" is " + shown_json(list) + ", not a list");
-    }
     for (const auto& item : list.items()) {
         try {
             read(item.value(), item.key());

@@ -13,12 +13,10 @@ void add_side(Measurement& to, const std::string& side, const FlipSide& found) {
 }
 
 void add_pool(Measurement& to, const FlipPool& pool) {
-    for (const std::string& name : ToneAlgo::flip_quantities()) {
+    for (const std::string& name : ToneAlgo::flip_quantities())
         to.quantities.emplace_back(name, ToneAlgo::flip_quantity(pool, name).value());
-    }
-    for (const auto& [name, value] : pool.further) {
+    for (const auto& [name, value] : pool.further)
         to.quantities.emplace_back(name, value);
-    }
     to.histogram.assign(pool.histogram.begin(), pool.histogram.end());
     to.worst = Position{pool.max_x, pool.max_y};
     to.pixels = pool.pixels;
@@ -57,12 +55,10 @@ Measurement measurement(const FlipSummary& summary) {
     if (summary.hdr) {
         to.settings.emplace_back("tonemapper", summary.tonemapper);
         to.settings.emplace_back("on", summary.on);
-        for (size_t i = 0; i < summary.coeffs.size(); ++i) {
+        for (size_t i = 0; i < summary.coeffs.size(); ++i)
             to.parameters.emplace_back("coefficient-" + std::to_string(i), summary.coeffs[i]);
-        }
-        for (const auto& [name, value] : summary.parameters) {
+        for (const auto& [name, value] : summary.parameters)
             to.parameters.emplace_back("curve-" + name, value);
-        }
         if (summary.baked) {
             to.parameters.emplace_back("bake-error-max", summary.bake_error_max);
             to.parameters.emplace_back("bake-error-mean", summary.bake_error_mean);
@@ -76,24 +72,20 @@ Measurement measurement(const ErrorSummary& summary) {
     Measurement to;
     to.quantities.emplace_back(summary.metric, summary.value);
     add_pair(to, summary);
-    if (summary.eps > 0) {
+    if (summary.eps > 0)
         to.parameters.emplace_back("eps", summary.eps);
-    }
-    if (summary.peak > 0) {
+    if (summary.peak > 0)
         to.parameters.emplace_back("peak", summary.peak);
-    }
     add_exposures(to, summary);
     return to;
 }
 
 Measurement measurement(const TmqiSummary& summary) {
     Measurement to;
-    for (const std::string& name : ToneAlgo::tmqi_quantities()) {
+    for (const std::string& name : ToneAlgo::tmqi_quantities())
         to.quantities.emplace_back(name, ToneAlgo::tmqi_quantity(summary.score, name).value());
-    }
-    for (size_t i = 0; i < summary.score.scales.size(); ++i) {
+    for (size_t i = 0; i < summary.score.scales.size(); ++i)
         to.quantities.emplace_back("S" + std::to_string(i + 1), summary.score.scales[i]);
-    }
     add_side(to, "hdr", summary.hdr);
     add_side(to, "ldr", summary.ldr);
     to.parameters.emplace_back("ldr-mean", summary.score.mean);

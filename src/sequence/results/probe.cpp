@@ -29,9 +29,8 @@ bool read_rows(OIIO::ImageInput& in, int subimage, const OIIO::ImageSpec& spec) 
         const int end = std::min(y + rows_at_once, spec.y + spec.height);
         pixels.resize(size_t(end - y) * spec.scanline_bytes(true));
         if (!in.read_scanlines(subimage, 0, y, end, 0, 0, spec.nchannels, OIIO::TypeUnknown,
-                               pixels.data())) {
+                               pixels.data()))
             return false;
-        }
     }
     return true;
 }
@@ -70,19 +69,16 @@ std::optional<Size> readable(const std::string& file, std::string& why) {
 } // namespace
 
 Probe missing_of(const std::vector<std::string>& files) {
-    for (const std::string& file : files) {
-        if (!OIIO::Filesystem::exists(file)) {
+    for (const std::string& file : files)
+        if (!OIIO::Filesystem::exists(file))
             return {Status::Missing, format("no file \"{}\"", file)};
-        }
-    }
     return {};
 }
 
 Probe probed(const std::vector<std::string>& files) {
     Probe found = missing_of(files);
-    if (found.status == Status::Missing) {
+    if (found.status == Status::Missing)
         return found;
-    }
     std::optional<Size> first;
     for (const std::string& file : files) {
         std::string why;

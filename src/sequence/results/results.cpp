@@ -16,13 +16,13 @@ namespace {
 
 using OIIO::Strutil::fmt::format;
 
-constexpr std::array<const char*, 9> status_names{"passed",     "measured",      "warning",
+constexpr std::array<const char*, 9> kStatusNames{"passed",     "measured",      "warning",
                                                   "failed",     "size mismatch", "missing",
                                                   "unreadable", "error",         "crashed"};
-constexpr std::array<const char*, 3> severity_names{"info", "warning", "error"};
+constexpr std::array<const char*, 3> kSeverityNames{"info", "warning", "error"};
 
-constexpr char nothing_measured[] = "nothing was measured";
-constexpr double worst_badness = 1e300;
+constexpr char kNothingMeasured[] = "nothing was measured";
+constexpr double kWorstBadness = 1e300;
 
 template <class Enum, size_t N>
 std::optional<Enum> named(const std::array<const char*, N>& names, const std::string& name) {
@@ -54,19 +54,16 @@ Found of_thresholds(const Measurement& measurement) {
     bool tested = false;
     for (const Threshold& threshold : measurement.thresholds) {
         tested = tested || threshold.fail || threshold.warn;
-        if (threshold.fail && !holds(threshold, *threshold.fail)) {
+        if (threshold.fail && !holds(threshold, *threshold.fail))
             add_text(failed, text_of(threshold, *threshold.fail));
-        } else if (threshold.warn && !holds(threshold, *threshold.warn)) {
+        else if (threshold.warn && !holds(threshold, *threshold.warn))
             add_text(warned, text_of(threshold, *threshold.warn));
-        }
     }
     const std::string start = measurement.command + ": ";
-    if (!failed.empty()) {
+    if (!failed.empty())
         return {Status::Failed, start + failed};
-    }
-    if (!warned.empty()) {
+    if (!warned.empty())
         return {Status::Warning, start + warned};
-    }
     return {tested ? Status::Passed : Status::Measured, ""};
 }
 
@@ -80,16 +77,14 @@ Found of_fault(const Fault& fault) {
 // The threshold's value in units of its limit; 1 is the limit.
 double excess(const Threshold& threshold) {
     const auto limit = threshold.fail ? threshold.fail : threshold.warn;
-    if (!limit) {
+    if (!limit)
         return 0;
-    }
     const double over = threshold.higher_is_better ? *limit : threshold.value;
     const double under = threshold.higher_is_better ? threshold.value : *limit;
-    if (std::isnan(threshold.value)) {
-        return worst_badness;
-    }
+    if (std::isnan(threshold.value))
+        return kWorstBadness;
     // Also where both are 0: that holds.
-    return over <= 0 ? 0 : under > 0 ? over / under : worst_badness;
+    return over <= 0 ? 0 : under > 0 ? over / under : kWorstBadness;
 }
 
 bool has_problem(Status status) {
@@ -98,9 +93,8 @@ bool has_problem(Status status) {
 
 std::map<Status, size_t> counts_of(const ShotResult& shot) {
     std::map<Status, size_t> counts;
-    for (const FrameResult& frame : shot.frames) {
+    for (const FrameResult& frame : shot.frames)
         ++counts[frame.status];
-    }
     return counts;
 }
 
@@ -112,9 +106,8 @@ std::string name_of(const FrameResult& frame) {
 // What is said of a worst frame that is not bad.
 std::string measured_text(const FrameResult& frame) {
     if (!frame.message.empty() || frame.measurements.empty() ||
-        frame.measurements.front().quantities.empty()) {
+        frame.measurements.front().quantities.empty())
         return frame.message;
-    }
     const auto& [quantity, value] = frame.measurements.front().quantities.front();
     return format("{}: {} {:.6g}", frame.measurements.front().command, quantity, value);
 }
@@ -122,17 +115,15 @@ std::string measured_text(const FrameResult& frame) {
 std::string sentence_of(const ShotResult& shot) {
     std::vector<std::string> parts;
     const std::map<Status, size_t> counts = counts_of(shot);
-    for (auto item = counts.rbegin(); item != counts.rend(); ++item) {
+    for (auto item = counts.rbegin(); item != counts.rend(); ++item)
         parts.push_back(format("{} {}", item->second, status_name(item->first)));
-    }
     std::string text =
         format("{} {}: {}", shot.frames.size(), shot.frames.size() == 1 ? "frame" : "frames",
                OIIO::Strutil::join(parts, ", "));
     const FrameResult& worst = shot.frames[shot.worst.front()];
     const std::string why = measured_text(worst);
-    if (has_problem(shot.verdict) || (shot.frames.size() > 1 && !why.empty())) {
+    if (has_problem(shot.verdict) || (shot.frames.size() > 1 && !why.empty()))
         text += format("; worst: frame {}{}", name_of(worst), why.empty() ? "" : " (" + why + ")");
-    }
     return text;
 }
 
@@ -143,16 +134,14 @@ void sort_frames(std::vector<FrameResult>& frames) {
     const auto twice = std::adjacent_find(
         frames.begin(), frames.end(),
         [&](const FrameResult& a, const FrameResult& b) { return key(a) == key(b); });
-    if (twice != frames.end()) {
+    if (twice != frames.end())
         throw std::runtime_error("frame " + name_of(*twice) + " is there twice");
-    }
 }
 
 std::vector<size_t> by_badness(const std::vector<FrameResult>& frames) {
     std::vector<size_t> order(frames.size());
-    for (size_t i = 0; i < order.size(); ++i) {
+    for (size_t i = 0; i < order.size(); ++i)
         order[i] = i;
-    }
     const auto key = [&](size_t i) {
         return std::make_tuple(-int(frames[i].status), -badness(frames[i]), i);
     };
@@ -163,30 +152,29 @@ std::vector<size_t> by_badness(const std::vector<FrameResult>& frames) {
 } // namespace
 
 std::string status_name(Status status) {
-    return status_names.at(size_t(status));
+    return kStatusNames.at(size_t(status));
 }
 
 std::optional<Status> status_of_name(const std::string& name) {
-    return named<Status>(status_names, name);
+    return named<Status>(kStatusNames, name);
 }
 
 int exit_status(Status status, bool warnings_exit) {
-    if (status > Status::Failed) {
+    if (status > Status::Failed)
         return 1;
-    }
     return status == Status::Failed ? 3 : (status == Status::Warning && warnings_exit ? 2 : 0);
 }
 
 std::string severity_name(Severity severity) {
-    return severity_names.at(size_t(severity));
+    return kSeverityNames.at(size_t(severity));
 }
 
 std::optional<Severity> severity_of_name(const std::string& name) {
-    return named<Severity>(severity_names, name);
+    return named<Severity>(kSeverityNames, name);
 }
 
 bool is_unmeasured(const FrameResult& frame) {
-    return frame.status == Status::Error && frame.message == nothing_measured;
+    return frame.status == Status::Error && frame.message == kNothingMeasured;
 }
 
 void judge(FrameResult& frame) {
@@ -195,19 +183,16 @@ void judge(FrameResult& frame) {
         found.push_back(of_thresholds(measurement));
         measurement.status = found.back().status;
     }
-    for (const Fault& fault : frame.faults) {
+    for (const Fault& fault : frame.faults)
         found.push_back(of_fault(fault));
-    }
-    for (const std::string& warning : frame.warnings) {
+    for (const std::string& warning : frame.warnings)
         found.push_back({Status::Warning, warning});
-    }
-    if (frame.status > Status::Failed) {
+    if (frame.status > Status::Failed)
         return;
-    }
     frame.message.clear();
     if (frame.measurements.empty() && frame.faults.empty() && frame.qc.empty()) {
         frame.status = Status::Error;
-        frame.message = nothing_measured;
+        frame.message = kNothingMeasured;
         return;
     }
     // Passed where --qc found nothing or a threshold held; measurements alone pass nothing.
@@ -229,25 +214,19 @@ bool higher_is_better(const std::string& command, const std::string& quantity) {
 
 double badness(const FrameResult& frame) {
     double most = 0;
-    for (const Measurement& measurement : frame.measurements) {
-        for (const Threshold& threshold : measurement.thresholds) {
+    for (const Measurement& measurement : frame.measurements)
+        for (const Threshold& threshold : measurement.thresholds)
             most = std::max(most, excess(threshold));
-        }
-    }
-    if (most > 0) {
+    if (most > 0)
         return most;
-    }
-    for (const Fault& fault : frame.faults) {
+    for (const Fault& fault : frame.faults)
         most += fault.severity == Severity::Info ? 0 : 1;
-    }
     const auto& all = frame.measurements;
-    if (most > 0 || all.empty() || all.front().quantities.empty()) {
+    if (most > 0 || all.empty() || all.front().quantities.empty())
         return most;
-    }
     const auto& [quantity, value] = all.front().quantities.front();
-    if (std::isnan(value)) {
-        return worst_badness;
-    }
+    if (std::isnan(value))
+        return kWorstBadness;
     return higher_is_better(all.front().command, quantity) ? -value : std::max(value, 0.0);
 }
 

@@ -17,9 +17,8 @@ using nlohmann::ordered_json;
 // ---- values
 
 ordered_json of(double value) {
-    if (std::isnan(value)) {
+    if (std::isnan(value))
         return "nan";
-    }
     return std::isinf(value) ? ordered_json(value > 0 ? "inf" : "-inf") : ordered_json(value);
 }
 
@@ -34,17 +33,15 @@ ordered_json of(const Position& at) {
 template <class Value>
 ordered_json of(const std::vector<std::pair<std::string, Value>>& list) {
     ordered_json object = ordered_json::object();
-    for (const auto& [name, value] : list) {
+    for (const auto& [name, value] : list)
         object[name] = of(value);
-    }
     return object;
 }
 
 ordered_json of(const std::vector<double>& values) {
     ordered_json list = ordered_json::array();
-    for (double value : values) {
+    for (double value : values)
         list.push_back(of(value));
-    }
     return list;
 }
 
@@ -52,34 +49,29 @@ ordered_json of(const std::vector<double>& values) {
 double number(const ordered_json& from, const std::string& key) {
     if (from.is_string()) {
         const auto text = from.get<std::string>();
-        if (text == "nan") {
+        if (text == "nan")
             return std::nan("");
-        }
-        if (text == "inf" || text == "-inf") {
+        if (text == "inf" || text == "-inf")
             return text == "inf" ? HUGE_VAL : -HUGE_VAL;
-        }
     }
     return finite_number(from, key);
 }
 
 template <class List>
 void put_list(ordered_json& to, const char* key, const List& list) {
-    if (!list.empty()) {
+    if (!list.empty())
         to[key] = of(list);
-    }
 }
 
 template <class Value>
 void put(ordered_json& to, const char* key, const std::optional<Value>& value) {
-    if (value) {
+    if (value)
         to[key] = of(*value);
-    }
 }
 
 void put(ordered_json& to, const char* key, const std::string& text) {
-    if (!text.empty()) {
+    if (!text.empty())
         to[key] = text;
-    }
 }
 
 std::string text(const ordered_json& from, const char* key) {
@@ -91,30 +83,25 @@ std::optional<double> maybe_number(const ordered_json& from, const char* key) {
 }
 
 std::optional<Position> maybe_position(const ordered_json& from, const char* key) {
-    if (!from.contains(key)) {
+    if (!from.contains(key))
         return std::nullopt;
-    }
     const ordered_json& at = from[key];
     return Position{whole_number<int>(at.at(0), key), whole_number<int>(at.at(1), key)};
 }
 
 Numbers numbers(const ordered_json& from, const char* key) {
     Numbers list;
-    if (from.contains(key)) {
-        for (const auto& item : from[key].items()) {
+    if (from.contains(key))
+        for (const auto& item : from[key].items())
             list.emplace_back(item.key(), number(item.value(), item.key()));
-        }
-    }
     return list;
 }
 
 Texts texts(const ordered_json& from, const char* key) {
     Texts list;
-    if (from.contains(key)) {
-        for (const auto& item : from[key].items()) {
+    if (from.contains(key))
+        for (const auto& item : from[key].items())
             list.emplace_back(item.key(), item.value().get<std::string>());
-        }
-    }
     return list;
 }
 
@@ -126,9 +113,8 @@ std::vector<Value> values(const ordered_json& from, const char* key) {
 Status status(const ordered_json& from) {
     const auto name = from.at("status").get<std::string>();
     const auto found = status_of_name(name);
-    if (!found) {
+    if (!found)
         throw std::runtime_error("unknown status \"" + name + "\"");
-    }
     return *found;
 }
 
@@ -148,9 +134,8 @@ Fault fault_of(const ordered_json& from) {
     Fault fault;
     fault.code = from.at("code").get<std::string>();
     const auto severity = severity_of_name(from.at("severity").get<std::string>());
-    if (!severity) {
+    if (!severity)
         throw std::runtime_error("unknown severity " + one_line(from.at("severity")));
-    }
     fault.severity = *severity;
     fault.sentence = text(from, "sentence");
     fault.layer = text(from, "layer");
@@ -180,21 +165,18 @@ ordered_json json_of(const Measurement& measured) {
     put(to, "reference", measured.reference);
     put(to, "test", measured.test);
     to["status"] = status_name(measured.status);
-    for (const Threshold& threshold : measured.thresholds) {
+    for (const Threshold& threshold : measured.thresholds)
         to["thresholds"].push_back(json_of(threshold));
-    }
     put_list(to, "quantities", measured.quantities);
-    if (!measured.histogram.empty()) {
+    if (!measured.histogram.empty())
         to["histogram"] = measured.histogram;
-    }
     put(to, "worst", measured.worst);
     to["pixels"] = measured.pixels;
     put_list(to, "exposures", measured.exposures);
     put_list(to, "parameters", measured.parameters);
     put_list(to, "settings", measured.settings);
-    if (!measured.warnings.empty()) {
+    if (!measured.warnings.empty())
         to["warnings"] = measured.warnings;
-    }
     return to;
 }
 
@@ -204,21 +186,17 @@ Measurement measurement_of(const ordered_json& from) {
     measured.reference = text(from, "reference");
     measured.test = text(from, "test");
     measured.status = status(from);
-    if (from.contains("threshold")) { // as it was written before there could be several
+    if (from.contains("threshold")) // as it was written before there could be several
         measured.thresholds.push_back(threshold_of(from["threshold"]));
-    }
-    for (const ordered_json& threshold : from.value("thresholds", ordered_json::array())) {
+    for (const ordered_json& threshold : from.value("thresholds", ordered_json::array()))
         measured.thresholds.push_back(threshold_of(threshold));
-    }
     measured.quantities = numbers(from, "quantities");
-    for (const ordered_json& bucket : from.value("histogram", ordered_json::array())) {
+    for (const ordered_json& bucket : from.value("histogram", ordered_json::array()))
         measured.histogram.push_back(whole_number<long long>(bucket, "histogram"));
-    }
     measured.worst = maybe_position(from, "worst");
     measured.pixels = whole_number<long long>(from.at("pixels"), "pixels");
-    for (const ordered_json& stops : from.value("exposures", ordered_json::array())) {
+    for (const ordered_json& stops : from.value("exposures", ordered_json::array()))
         measured.exposures.push_back(number(stops, "exposures"));
-    }
     measured.parameters = numbers(from, "parameters");
     measured.settings = texts(from, "settings");
     measured.warnings = values<std::string>(from, "warnings");
@@ -228,25 +206,20 @@ Measurement measurement_of(const ordered_json& from) {
 ordered_json json_of(const FrameResult& frame) {
     ordered_json to{{"frame", frame.frame}};
     put(to, "view", frame.view);
-    if (frame.test_frame) {
+    if (frame.test_frame)
         to["test_frame"] = *frame.test_frame;
-    }
     to["status"] = status_name(frame.status);
     put(to, "message", frame.message);
     put(to, "reference", frame.reference);
     put(to, "test", frame.test);
-    for (const Measurement& measured : frame.measurements) {
+    for (const Measurement& measured : frame.measurements)
         to["measurements"].push_back(json_of(measured));
-    }
-    for (const Fault& fault : frame.faults) {
+    for (const Fault& fault : frame.faults)
         to["faults"].push_back(json_of(fault));
-    }
-    if (!frame.warnings.empty()) {
+    if (!frame.warnings.empty())
         to["warnings"] = frame.warnings;
-    }
-    if (!frame.qc.empty()) {
+    if (!frame.qc.empty())
         to["qc"] = parse_json<ordered_json>(frame.qc);
-    }
     return to;
 }
 
@@ -254,9 +227,8 @@ FrameResult frame_of(const ordered_json& from) {
     FrameResult frame;
     frame.frame = whole_number<int>(from.at("frame"), "frame");
     frame.view = text(from, "view");
-    if (from.contains("test_frame")) {
+    if (from.contains("test_frame"))
         frame.test_frame = whole_number<int>(from["test_frame"], "test_frame");
-    }
     frame.status = status(from);
     frame.message = text(from, "message");
     frame.reference = text(from, "reference");
@@ -280,9 +252,8 @@ ordered_json json_of(const ShotExposures& exposures) {
     ordered_json to{{"max_luminance", of(exposures.max_luminance)},
                     {"median_luminance", of(exposures.median_luminance)},
                     {"frames", exposures.frames}};
-    if (!exposures.references.empty()) {
+    if (!exposures.references.empty())
         to["references"] = exposures.references;
-    }
     return to;
 }
 
@@ -308,17 +279,15 @@ ordered_json counts_of(const std::vector<Status>& frames) {
     ordered_json counts = ordered_json::object();
     for (Status one :
          {Status::Passed, Status::Measured, Status::Warning, Status::Failed, Status::SizeMismatch,
-          Status::Missing, Status::Unreadable, Status::Error, Status::Crashed}) {
+          Status::Missing, Status::Unreadable, Status::Error, Status::Crashed})
         counts[status_name(one)] = std::count(frames.begin(), frames.end(), one);
-    }
     return counts;
 }
 
 ordered_json counts_of(const ShotResult& shot) {
     std::vector<Status> frames;
-    for (const FrameResult& frame : shot.frames) {
+    for (const FrameResult& frame : shot.frames)
         frames.push_back(frame.status);
-    }
     return counts_of(frames);
 }
 
@@ -333,9 +302,8 @@ void check_equal(const std::string& key, const ordered_json& said, const ordered
 // Where numbers were believed rather than the word, only what the words make is known.
 void check_summary(const ordered_json& from, const ShotResult& shot) {
     std::vector<Status> said;
-    for (const ordered_json& frame : from.at("frames")) {
+    for (const ordered_json& frame : from.at("frames"))
         said.push_back(status(frame));
-    }
     const ordered_json counts = counts_of(said);
     for (const auto& one : counts.items()) {
         check_equal("counts/" + one.key(), from.at("counts").value(one.key(), ordered_json(0)),
@@ -353,9 +321,8 @@ void check_summary(const ordered_json& from, const ShotResult& shot) {
 } // namespace
 
 void check_format(const ordered_json& from, const std::string& format, int version) {
-    if (!from.is_object() || text(from, "format") != format) {
+    if (!from.is_object() || text(from, "format") != format)
         throw std::runtime_error("has no \"format\": \"" + format + "\"");
-    }
     const int found = whole_number<int>(from.at("version"), "version");
     if (found != version) {
         throw std::runtime_error(
@@ -364,31 +331,28 @@ void check_format(const ordered_json& from, const std::string& format, int versi
 }
 
 std::string to_json(const ShotResult& shot) {
-    ordered_json to{{"format", results_format},
-                    {"version", results_version},
+    ordered_json to{{"format", kResultsFormat},
+                    {"version", kResultsVersion},
                     {"verdict", status_name(shot.verdict)},
                     {"sentence", shot.sentence},
                     {"check", shot.check},
                     {"counts", counts_of(shot)}};
-    if (shot.exposures) {
+    if (shot.exposures)
         to["exposures"] = json_of(*shot.exposures);
-    }
     to["worst"] = worst_of(shot);
     to["frames"] = ordered_json::array();
-    for (const FrameResult& frame : shot.frames) {
+    for (const FrameResult& frame : shot.frames)
         to["frames"].push_back(json_of(frame));
-    }
     return dumped(to);
 }
 
 ShotResult shot_from_json(const std::string& from) {
     return parsed(from, [](const ordered_json& json) {
-        check_format(json, results_format, results_version);
+        check_format(json, kResultsFormat, kResultsVersion);
         ShotResult shot;
         shot.check = json.at("check").get<std::vector<std::string>>();
-        if (json.contains("exposures")) {
+        if (json.contains("exposures"))
             shot.exposures = exposures_of(json["exposures"]);
-        }
         each_of(json.at("frames"), "frames", [&](const ordered_json& one, const std::string&) {
             shot.frames.push_back(frame_of(one));
         });

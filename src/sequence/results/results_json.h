@@ -9,8 +9,8 @@
 
 namespace tonetool::sequence {
 
-inline constexpr char results_format[] = "tonetool-check";
-inline constexpr int results_version = 1;
+inline constexpr char kResultsFormat[] = "tonetool-check";
+inline constexpr int kResultsVersion = 1;
 
 /// The text of --json: {"format", "version", "check", "verdict", "sentence", "counts",
 /// "exposures", "worst", "frames"}, with "worst" as frame numbers. Ends with a line break.

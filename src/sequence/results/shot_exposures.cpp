@@ -21,8 +21,8 @@ namespace fs = std::filesystem;
 
 using nlohmann::ordered_json;
 
-constexpr char exposures_format[] = "tonetool-exposures";
-constexpr int exposures_version = 1;
+constexpr char kExposuresFormat[] = "tonetool-exposures";
+constexpr int kExposuresVersion = 1;
 
 bool lit(const ExposureSample& sample) {
     return sample.max_luminance > 0 && sample.median_luminance > 0;
@@ -51,11 +51,9 @@ std::vector<std::string> references_of(ExposureSamples samples) {
         return std::tie(a.frame, a.view) < std::tie(b.frame, b.view);
     });
     std::vector<std::string> names;
-    for (const ExposureSample& sample : samples) {
-        if (!sample.reference.empty()) {
+    for (const ExposureSample& sample : samples)
+        if (!sample.reference.empty())
             names.push_back(sample.reference);
-        }
-    }
     return names;
 }
 
@@ -63,9 +61,8 @@ std::vector<std::string> references_of(ExposureSamples samples) {
 bool is_same_file(const std::string& name, const std::string& measured, const std::string& folder) {
     std::error_code none;
     const fs::path beside = fs::path(folder) / measured;
-    if (!folder.empty() && fs::exists(beside, none)) {
+    if (!folder.empty() && fs::exists(beside, none))
         return fs::equivalent(beside, name, none);
-    }
     return fs::absolute(measured, none).lexically_normal() ==
            fs::absolute(name, none).lexically_normal();
 }
@@ -77,9 +74,8 @@ void sort_samples(ExposureSamples& samples) {
     const auto twice =
         std::adjacent_find(samples.begin(), samples.end(),
                            [&](const auto& a, const auto& b) { return key(a) == key(b); });
-    if (twice != samples.end()) {
+    if (twice != samples.end())
         throw std::runtime_error("frame " + std::to_string(twice->frame) + " is there twice");
-    }
 }
 
 } // namespace
@@ -123,19 +119,16 @@ bool was_measured_on(const ShotExposures& range, const std::string& file) {
 
 std::string to_json(ExposureSamples samples) {
     sort_samples(samples);
-    ordered_json to{{"format", exposures_format}, {"version", exposures_version}};
-    if (std::any_of(samples.begin(), samples.end(), lit)) {
+    ordered_json to{{"format", kExposuresFormat}, {"version", kExposuresVersion}};
+    if (std::any_of(samples.begin(), samples.end(), lit))
         to["exposures"] = json_of(shot_exposures(samples));
-    }
     to["samples"] = ordered_json::array();
     for (const ExposureSample& sample : samples) {
         ordered_json one{{"frame", sample.frame}};
-        if (!sample.view.empty()) {
+        if (!sample.view.empty())
             one["view"] = sample.view;
-        }
-        if (!sample.reference.empty()) {
+        if (!sample.reference.empty())
             one["reference"] = sample.reference;
-        }
         one["max_luminance"] = sample.max_luminance;
         one["median_luminance"] = sample.median_luminance;
         to["samples"].push_back(one);
@@ -145,7 +138,7 @@ std::string to_json(ExposureSamples samples) {
 
 ExposureSamples samples_from_json(const std::string& text) {
     return parsed(text, [](const ordered_json& json) {
-        check_format(json, exposures_format, exposures_version);
+        check_format(json, kExposuresFormat, kExposuresVersion);
         return samples_of(json);
     });
 }
@@ -154,20 +147,18 @@ ShotExposures read_exposures(const std::string& file) {
     try {
         return parsed(read_text(file), [&](const ordered_json& json) {
             const std::string format = json.is_object() ? json.value("format", "") : "";
-            if (format != results_format) {
-                check_format(json, exposures_format, exposures_version);
-            }
+            if (format != kResultsFormat)
+                check_format(json, kExposuresFormat, kExposuresVersion);
             const ordered_json& from = json.at("exposures");
             const ShotExposures range{
                 finite_number(from.at("max_luminance"), "max_luminance"),
                 finite_number(from.at("median_luminance"), "median_luminance"),
                 whole_number<int>(from.at("frames"), "frames"),
-                format == results_format ? from.value("references", std::vector<std::string>())
+                format == kResultsFormat ? from.value("references", std::vector<std::string>())
                                          : references_of(samples_of(json)),
                 fs::absolute(file).parent_path().string()};
-            if (!(range.max_luminance > 0) || !(range.median_luminance > 0)) {
+            if (!(range.max_luminance > 0) || !(range.median_luminance > 0))
                 throw std::runtime_error("has luminances that are not above 0");
-            }
             return range;
         });
     } catch (const std::runtime_error& problem) {
@@ -176,13 +167,11 @@ ShotExposures read_exposures(const std::string& file) {
 }
 
 std::string read_text(const std::string& file) {
-    if (!OIIO::Filesystem::is_regular(file)) {
+    if (!OIIO::Filesystem::is_regular(file))
         throw std::runtime_error("no file \"" + file + "\"");
-    }
     std::ifstream stream(file, std::ios::binary);
-    if (!stream) {
+    if (!stream)
         throw std::runtime_error("cannot read \"" + file + "\": " + std::strerror(errno));
-    }
     return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
 }
 

@@ -25,8 +25,8 @@ using nlohmann::ordered_json;
 using OIIO::Strutil::fmt::format;
 namespace fs = std::filesystem;
 
-constexpr char state_format[] = "tonetool-state";
-constexpr int state_version = 3;
+constexpr char kStateFormat[] = "tonetool-state";
+constexpr int kStateVersion = 3;
 
 ordered_json json_of(const Stamp& stamp) {
     return {stamp.file, stamp.device, stamp.inode, stamp.size, stamp.written, stamp.changed};
@@ -39,9 +39,8 @@ Stamp stamp_from(const ordered_json& from) {
 
 ordered_json json_of(const Stamps& stamps) {
     ordered_json all = ordered_json::array();
-    for (const Stamp& stamp : stamps) {
+    for (const Stamp& stamp : stamps)
         all.push_back(json_of(stamp));
-    }
     return all;
 }
 
@@ -66,16 +65,13 @@ void note_luts(const std::string& config) {
 Stamps stamps_behind(const Stamps& inputs) {
     Stamps all;
     std::vector<std::string> names;
-    for (const Stamp& input : inputs) {
+    for (const Stamp& input : inputs)
         names.push_back(input.file);
-    }
     for (size_t i = 0; i < names.size(); ++i) {
-        if (OIIO::Strutil::iends_with(names[i], ".ocio")) {
+        if (OIIO::Strutil::iends_with(names[i], ".ocio"))
             note_luts(names[i]);
-        }
-        for (const std::string& name : ToneAlgo::lut_references(names[i])) {
+        for (const std::string& name : ToneAlgo::lut_references(names[i]))
             note_files_behind(names[i], {name});
-        }
         for (const std::string& name : files_behind(names[i])) {
             if (std::find(names.begin(), names.end(), name) == names.end()) {
                 names.push_back(name);
@@ -91,10 +87,8 @@ std::set<std::string> variables_in(const std::string& config) {
     std::set<std::string> names;
     std::string text;
     OIIO::Filesystem::read_text_file(config, text);
-    for (std::sregex_iterator match(text.begin(), text.end(), variable), end; match != end;
-         ++match) {
+    for (std::sregex_iterator match(text.begin(), text.end(), variable), end; match != end; ++match)
         names.insert((*match)[1].matched ? (*match)[1] : (*match)[2]);
-    }
     return names;
 }
 
@@ -106,17 +100,15 @@ ordered_json variables_of(const Stamps& inputs) {
     const std::lock_guard<std::mutex> lock(mutex);
     ordered_json values = ordered_json::object();
     for (const Stamp& input : inputs) {
-        if (!OIIO::Strutil::iends_with(input.file, ".ocio")) {
+        if (!OIIO::Strutil::iends_with(input.file, ".ocio"))
             continue;
-        }
         auto& [stamp, names] = known[input.file];
         if (stamp != input) {
             names = variables_in(input.file);
             stamp = input;
         }
-        for (const std::string& name : names) {
+        for (const std::string& name : names)
             values[name] = std::string(OIIO::Sysutil::getenv(name));
-        }
     }
     return values;
 }
@@ -170,22 +162,19 @@ std::string State::file(const Item& item) const {
 
 std::optional<Kept> State::find(const Item& item, const Origin& origin) const {
     std::error_code none;
-    if (fs::symlink_status(file(item), none).type() != fs::file_type::regular) {
+    if (fs::symlink_status(file(item), none).type() != fs::file_type::regular)
         return std::nullopt;
-    }
     try {
         return parsed(read_text(file(item)), [&](const ordered_json& from) -> std::optional<Kept> {
-            check_format(from, state_format, state_version);
+            check_format(from, kStateFormat, kStateVersion);
             if (from.at("key").get<std::string>() != key_of(origin) ||
                 !are_current(from.at("inputs")) || !are_current(from.at("outputs")) ||
-                !are_set(from.at("variables"))) {
+                !are_set(from.at("variables")))
                 return std::nullopt;
-            }
             Kept kept{from.at("result").get<std::string>(), from.at("out").get<std::string>(),
                       from.at("err").get<std::string>(), from.at("status").get<int>()};
-            for (const ordered_json& output : from.at("outputs")) {
+            for (const ordered_json& output : from.at("outputs"))
                 kept.written.push_back(stamp_from(output).file);
-            }
             return kept;
         });
     } catch (const std::runtime_error&) {
@@ -196,22 +185,19 @@ std::optional<Kept> State::find(const Item& item, const Origin& origin) const {
 void State::keep(const Item& item, const Origin& origin, const FileLog& inputs,
                  const Kept& kept) const {
     FileLog log = inputs;
-    if (!ocio_variable().empty()) {
+    if (!ocio_variable().empty())
         log.note(ocio_variable());
-    }
     const Stamps behind = stamps_behind(log.stamps());
     // A file that was written while the frame was checked may have been read before or after.
-    if (!is_current(log.stamps()) || !are_older(behind, inputs.begun())) {
+    if (!is_current(log.stamps()) || !are_older(behind, inputs.begun()))
         return;
-    }
     Stamps all = log.stamps();
     all.insert(all.end(), behind.begin(), behind.end());
     Stamps outputs;
-    for (const std::string& output : kept.written) {
+    for (const std::string& output : kept.written)
         outputs.push_back(stamp_of(output));
-    }
-    const std::string text = dumped({{"format", state_format},
-                                     {"version", state_version},
+    const std::string text = dumped({{"format", kStateFormat},
+                                     {"version", kStateVersion},
                                      {"key", key_of(origin)},
                                      {"inputs", json_of(all)},
                                      {"outputs", json_of(outputs)},
@@ -221,9 +207,8 @@ void State::keep(const Item& item, const Origin& origin, const FileLog& inputs,
                                      {"err", kept.err},
                                      {"result", kept.result}});
     std::string why;
-    if (!write_bytes(text, file(item), why, Links::Refuse)) {
+    if (!write_bytes(text, file(item), why, Links::Refuse))
         throw std::runtime_error("--state: " + why);
-    }
 }
 
 } // namespace tonetool::sequence

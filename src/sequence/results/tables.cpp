@@ -25,18 +25,16 @@ std::string text_of(double value) {
 std::string cell(const std::string& text) {
     const bool formula = !text.empty() && std::strchr("=+-@\t\r", text.front()) != nullptr;
     const std::string safe = (formula ? "'" : "") + printable_lines(valid_utf8(text));
-    if (safe.find_first_of(",\"\r\n") == std::string::npos) {
+    if (safe.find_first_of(",\"\r\n") == std::string::npos)
         return safe;
-    }
     return '"' + OIIO::Strutil::replace(safe, "\"", "\"\"", true) + '"';
 }
 
 class Columns {
 public:
     void put(Row& row, const std::string& name, const std::string& already_a_cell) {
-        if (std::find(m_names.begin(), m_names.end(), name) == m_names.end()) {
+        if (std::find(m_names.begin(), m_names.end(), name) == m_names.end())
             m_names.push_back(name);
-        }
         row[name] = already_a_cell;
     }
     const std::vector<std::string>& names() const { return m_names; }
@@ -57,23 +55,20 @@ void add_measurements(Columns& columns, Row& row, const FrameResult& frame) {
             columns.put(row, start + "threshold" + (first ? "" : "." + threshold.quantity),
                         limit ? text_of(*limit) : "");
         }
-        for (const auto& [name, value] : measured.quantities) {
+        for (const auto& [name, value] : measured.quantities)
             columns.put(row, start + name, text_of(value));
-        }
     }
 }
 
 Row row_of(Columns& columns, const FrameResult& frame) {
     std::vector<std::string> codes;
-    for (const Fault& fault : frame.faults) {
+    for (const Fault& fault : frame.faults)
         codes.push_back(fault.code);
-    }
     Row row;
     columns.put(row, "frame", std::to_string(frame.frame));
     columns.put(row, "view", cell(frame.view));
-    if (frame.test_frame) {
+    if (frame.test_frame)
         columns.put(row, "test_frame", std::to_string(*frame.test_frame));
-    }
     columns.put(row, "status", status_name(frame.status));
     columns.put(row, "message", cell(frame.message));
     columns.put(row, "reference", cell(frame.reference));
@@ -105,9 +100,8 @@ std::string escaped(const std::string& text) {
 
 std::string faults_text(const FrameResult& frame) {
     std::string text;
-    for (const Fault& fault : frame.faults) {
+    for (const Fault& fault : frame.faults)
         text += format("{} {}: {}\n", severity_name(fault.severity), fault.code, fault.sentence);
-    }
     return text;
 }
 
@@ -144,18 +138,15 @@ std::string test_case(const FrameResult& frame) {
 std::string csv_text(const ShotResult& shot) {
     Columns columns;
     std::vector<Row> rows;
-    for (const FrameResult& frame : shot.frames) {
+    for (const FrameResult& frame : shot.frames)
         rows.push_back(row_of(columns, frame));
-    }
     std::string text;
-    for (size_t i = 0; i < columns.names().size(); ++i) {
+    for (size_t i = 0; i < columns.names().size(); ++i)
         text += (i > 0 ? "," : "") + cell(columns.names()[i]);
-    }
     text += "\r\n";
     for (Row& row : rows) {
-        for (size_t i = 0; i < columns.names().size(); ++i) {
+        for (size_t i = 0; i < columns.names().size(); ++i)
             text += (i > 0 ? "," : "") + row[columns.names()[i]];
-        }
         text += "\r\n";
     }
     return text;

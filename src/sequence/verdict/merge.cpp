@@ -42,9 +42,8 @@ void add_frames_without_result(ShotResult& shot, const std::vector<Item>& expect
         there.emplace(frame.frame, frame.view);
         views.insert(frame.view);
     }
-    if (views.empty()) {
+    if (views.empty())
         views.insert("");
-    }
     for (const Item& item : expected) {
         for (const std::string& view : views) {
             if (there.emplace(item.frame, view).second) {
@@ -62,9 +61,8 @@ void add_frames_without_result(ShotResult& shot, const std::vector<Item>& expect
 
 ShotResult merged(const std::vector<std::string>& parts, const std::vector<Item>& expected,
                   std::vector<std::string>& complaints) {
-    if (parts.empty()) {
+    if (parts.empty())
         throw std::runtime_error("there is no part to merge (valid: --merge PART.json ...)");
-    }
     ShotResult whole;
     std::string first;
     for (const std::string& file : parts) {
@@ -72,9 +70,8 @@ ShotResult merged(const std::vector<std::string>& parts, const std::vector<Item>
         try {
             part = read_part(file, shot_from_json);
         } catch (const std::runtime_error& problem) {
-            if (expected.empty()) {
+            if (expected.empty())
                 throw;
-            }
             complaints.push_back(problem.what());
             continue;
         }

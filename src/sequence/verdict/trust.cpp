@@ -111,9 +111,8 @@ Check check_of(const std::vector<std::string>& words) {
     for (size_t i = 0; i < words.size(); ++i) {
         const Token token = parse_token(words[i], true);
         check.open |= words[i][0] == '{' || token.name.find('{') != std::string::npos;
-        if (!token.is_command) {
+        if (!token.is_command)
             continue;
-        }
         check.blocks |= token.name == "if" || token.name == "while" || token.name == "for";
         if (const auto limit = diff.find(token.name); limit != diff.end()) {
             const auto value = i + 1 < words.size() ? parse_number(words[i + 1]) : std::nullopt;
@@ -147,21 +146,18 @@ std::optional<double> quantity(const Measurement& measured, const std::string& n
 
 std::string text_of(const std::string& key, const Limits& limits) {
     std::vector<std::string> words;
-    for (const auto& [name, limit] : limits) {
+    for (const auto& [name, limit] : limits)
         words.push_back(format("{}={}", name, limit));
-    }
     return words.empty() ? "no " + key + "=" : key + "=" + join(words, ",");
 }
 
 std::string unlike_limits(const Measurement& measured, const Asked& asked) {
     Limits fail, warn;
     for (const Threshold& threshold : measured.thresholds) {
-        if (threshold.fail) {
+        if (threshold.fail)
             fail[threshold.quantity] = *threshold.fail;
-        }
-        if (threshold.warn) {
+        if (threshold.warn)
             warn[threshold.quantity] = *threshold.warn;
-        }
     }
     const auto compared = [](const std::string& key, const Limits& held, const Limits& wanted) {
         return held == wanted ? ""
@@ -176,9 +172,8 @@ std::string unlike_limits(const Measurement& measured, const Asked& asked) {
 // or of images that are not alike in more than their pixels.
 std::string unlike_diff(const Measurement& measured, const Asked& asked) {
     if (measured.thresholds.size() != 1 ||
-        measured.thresholds[0].fail.has_value() == measured.thresholds[0].warn.has_value()) {
+        measured.thresholds[0].fail.has_value() == measured.thresholds[0].warn.has_value())
         return " has not the one limit of a comparison of values";
-    }
     const Threshold& only = measured.thresholds[0];
     if (only.quantity == "differing-images") {
         return only.value == 1 && only.fail == 0.0 ? ""
@@ -188,9 +183,8 @@ std::string unlike_diff(const Measurement& measured, const Asked& asked) {
     const std::string kind = fails ? "fail" : "warn";
     const double allowed = asked.diff.at(kind + "percent") / 100 * double(measured.pixels);
     const double limit = only.quantity == "max" ? asked.diff.at("hard" + kind) : allowed;
-    if (only.quantity != "max" && only.quantity != "differing-pixels") {
+    if (only.quantity != "max" && only.quantity != "differing-pixels")
         return " has a limit of " + only.quantity + " (valid: differing-pixels, max)";
-    }
     const double held = fails ? *only.fail : *only.warn;
     return held == limit ? ""
                          : format(" was held to {} {}={}, but the check's limit is {}",
@@ -200,13 +194,11 @@ std::string unlike_diff(const Measurement& measured, const Asked& asked) {
 // Pixels differ where the largest difference is above what one may have.
 std::string contradictory_diff(const Measurement& measured, const Asked& asked) {
     const Threshold& only = measured.thresholds.at(0);
-    if (only.quantity == "differing-images") {
+    if (only.quantity == "differing-images")
         return "";
-    }
     const auto most = quantity(measured, "max");
-    if (!most) {
+    if (!most)
         return " has no max";
-    }
     const bool holds = only.value <= only.fail.value_or(HUGE_VAL); // it does not fail
     const bool passes = only.fail && holds;
     const auto beyond = [&](const std::string& kind) {
@@ -218,9 +210,8 @@ std::string contradictory_diff(const Measurement& measured, const Asked& asked) 
         return format(" has a max of {}, which is above a limit of the check, but {} {} is not",
                       *most, only.quantity, only.value);
     }
-    if (measured.command != "diff" || !std::isfinite(*most)) {
+    if (measured.command != "diff" || !std::isfinite(*most))
         return "";
-    }
     if (only.quantity == "differing-pixels" &&
         (only.value > 0) != (*most > asked.diff.at(only.fail ? "fail" : "warn"))) {
         return format(" has differing-pixels {}, which contradicts its max of {}", only.value,
@@ -228,9 +219,8 @@ std::string contradictory_diff(const Measurement& measured, const Asked& asked) 
     }
     for (const char* name : {"mean", "rms"}) {
         const auto value = quantity(measured, name);
-        if (value && std::isfinite(*value) && (*value > 0) != (*most > 0)) {
+        if (value && std::isfinite(*value) && (*value > 0) != (*most > 0))
             return format(" has a {} of {}, which contradicts its max of {}", name, *value, *most);
-        }
     }
     return "";
 }
@@ -301,9 +291,8 @@ public:
     explicit Histogram(const Measurement& measured) : m_counts(measured.histogram) {}
 
     std::string problem(const Measurement& measured, const std::vector<Ranked>& all) const {
-        if (m_counts.size() != buckets) {
+        if (m_counts.size() != buckets)
             return format(" has a histogram of {} buckets (valid: {})", m_counts.size(), buckets);
-        }
         const double pixels = below(buckets);
         if (pixels != double(measured.pixels) ||
             *std::min_element(m_counts.begin(), m_counts.end()) < 0) {
@@ -312,9 +301,8 @@ public:
         }
         for (const Ranked& one : all) {
             const size_t at = bucket(one.value);
-            if (pixels > 0 && (below(at) > one.highest || below(at + 1) <= one.lowest)) {
+            if (pixels > 0 && (below(at) > one.highest || below(at + 1) <= one.lowest))
                 return format(" has {} {}, which its histogram contradicts", one.name, one.value);
-            }
         }
         return shares(measured, pixels);
     }
@@ -340,9 +328,8 @@ private:
 
     double below(size_t end) const {
         double sum = 0;
-        for (size_t i = 0; i < end; ++i) {
+        for (size_t i = 0; i < end; ++i)
             sum += double(m_counts[i]);
-        }
         return sum;
     }
 
@@ -351,16 +338,14 @@ private:
             const auto error = OIIO::Strutil::starts_with(name, "above")
                                    ? parse_number(name.substr(5))
                                    : std::nullopt;
-            if (!error || pixels <= 0) {
+            if (!error || pixels <= 0)
                 continue;
-            }
             const size_t at = bucket(*error);
             const std::string why =
                 not_between(name, share, (pixels - below(at + 1)) / pixels,
                             (pixels - below(at)) / pixels, "its histogram gives");
-            if (!why.empty()) {
+            if (!why.empty())
                 return why;
-            }
         }
         return "";
     }
@@ -380,37 +365,31 @@ std::string contradictory_map(const Measurement& measured) {
     std::string why = unordered(all);
     for (const char* name : {"weighted-q1", "weighted-median", "weighted-q3", "mean"}) {
         const auto value = quantity(measured, name);
-        if (why.empty() && value && least && most) {
+        if (why.empty() && value && least && most)
             why = not_between(name, *value, *least, *most, "its extremes are");
-        }
     }
     if (why.empty() && !measured.histogram.empty()) {
         const Histogram histogram(measured);
         why = histogram.problem(measured, all);
-        if (why.empty() && mean && least && most && measured.pixels > 0) {
+        if (why.empty() && mean && least && most && measured.pixels > 0)
             why = histogram.mean_problem(*mean, *least, *most);
-        }
     }
-    if (why.empty() && mean && least && most && measured.pixels > 0) {
+    if (why.empty() && mean && least && most && measured.pixels > 0)
         why = mean_beside(all, *mean, double(measured.pixels));
-    }
     return why;
 }
 
 // The measure of --errormap is the map's mean, or that in decibels.
 std::string contradictory_error(const Measurement& measured, const Asked& asked) {
-    if (measured.quantities.empty()) {
+    if (measured.quantities.empty())
         return " has no quantities";
-    }
     const auto& [name, value] = measured.quantities.front();
-    if (!asked.open && name != asked.metric) {
+    if (!asked.open && name != asked.metric)
         return " is of " + name + ", but the check's metric is " + asked.metric;
-    }
     const auto mean = quantity(measured, "mean");
     const bool decibels = higher_is_better(measured.command, name);
-    if (!mean || asked.open) {
+    if (!mean || asked.open)
         return "";
-    }
     const double wanted = decibels ? 10 * std::log10(asked.peak * asked.peak / *mean) : *mean;
     return near(value, wanted)
                ? ""
@@ -421,9 +400,8 @@ std::string contradictory_error(const Measurement& measured, const Asked& asked)
 std::string contradictory_tmqi(const Measurement& measured) {
     const auto q = quantity(measured, "Q"), s = quantity(measured, "S"),
                n = quantity(measured, "N");
-    if (!q || !s || !n) {
+    if (!q || !s || !n)
         return "";
-    }
     const double wanted = 0.8012 * std::pow(*s, 0.3046) + 0.1988 * std::pow(*n, 0.7088);
     return near(*q, wanted) ? ""
                             : format(" has Q {}, but S {} and N {} give {}", *q, *s, *n, wanted);
@@ -436,16 +414,14 @@ std::string bad_threshold(const Measurement& measured) {
     for (const Threshold& threshold : measured.thresholds) {
         const std::string& name = threshold.quantity;
         const auto value = quantity(measured, name);
-        if (!names.insert(name).second) {
+        if (!names.insert(name).second)
             return " has two thresholds of " + name;
-        }
         if (value && !same(*value, threshold.value)) {
             return format(": the threshold is held against {} {}, but {} is {}", name,
                           threshold.value, name, *value);
         }
-        if (!value && !compares_values(measured.command)) {
+        if (!value && !compares_values(measured.command))
             return " has a threshold of " + name + ", but no such quantity";
-        }
         if (threshold.higher_is_better != higher_is_better(measured.command, name)) {
             const char *said = threshold.higher_is_better ? "higher" : "lower",
                        *true_one = threshold.higher_is_better ? "lower" : "higher";
@@ -457,21 +433,18 @@ std::string bad_threshold(const Measurement& measured) {
 }
 
 std::string problem(const Measurement& measured, const Asked& asked) {
-    if (asked.limited && measured.thresholds.empty()) {
+    if (asked.limited && measured.thresholds.empty())
         return " has no threshold, though the check gives it a limit";
-    }
     std::string why = bad_threshold(measured);
-    if (!why.empty()) {
+    if (!why.empty())
         return why;
-    }
     if (compares_values(measured.command)) {
         why = asked.open ? "" : unlike_diff(measured, asked);
         return why.empty() && !asked.open ? contradictory_diff(measured, asked) : why;
     }
     why = asked.open ? "" : unlike_limits(measured, asked);
-    if (why.empty() && measured.command == "errormap") {
+    if (why.empty() && measured.command == "errormap")
         why = contradictory_error(measured, asked);
-    }
     if (why.empty()) {
         why =
             measured.command == "tmqi" ? contradictory_tmqi(measured) : contradictory_map(measured);
@@ -482,18 +455,16 @@ std::string problem(const Measurement& measured, const Asked& asked) {
 void check_measurement(const FrameResult& frame, const Measurement& measured, const Check& check) {
     const auto found = check.asked.find(measured.command);
     if (found == check.asked.end()) {
-        if (check.open) {
+        if (check.open)
             return;
-        }
         throw std::runtime_error(format("{} was measured by {}, which the check does not have",
                                         name_of(frame), measured.command));
     }
     std::string first;
     for (const Asked& asked : found->second) {
         const std::string why = problem(measured, asked);
-        if (why.empty()) {
+        if (why.empty())
             return;
-        }
         first = first.empty() ? why : first;
     }
     throw std::runtime_error(name_of(frame) + ": " + measured.command + first);
@@ -501,9 +472,8 @@ void check_measurement(const FrameResult& frame, const Measurement& measured, co
 
 // What a frame that nothing kept from being checked must have.
 void check_whole(const FrameResult& frame, const Check& check) {
-    if (check.open || check.blocks || frame.status > Status::Failed) {
+    if (check.open || check.blocks || frame.status > Status::Failed)
         return;
-    }
     for (const auto& [command, words] : check.asked) {
         const auto count = std::count_if(
             frame.measurements.begin(), frame.measurements.end(),
@@ -521,9 +491,8 @@ void judge_from_numbers(FrameResult& frame) {
     const Status said = frame.status;
     judge(frame);
     const Status found = frame.status;
-    if (found == said) {
+    if (found == said)
         return;
-    }
     if (found <= Status::Measured || found < said) {
         throw std::runtime_error(
             format("{} is called \"{}\", but its numbers and faults say \"{}\"", name_of(frame),
@@ -537,9 +506,8 @@ void judge_from_numbers(FrameResult& frame) {
 void check_limits(const ShotResult& shot) {
     const Check check = check_of(shot.check);
     for (const FrameResult& frame : shot.frames) {
-        for (const Measurement& measured : frame.measurements) {
+        for (const Measurement& measured : frame.measurements)
             check_measurement(frame, measured, check);
-        }
         check_whole(frame, check);
     }
 }

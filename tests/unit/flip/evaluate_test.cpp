@@ -214,9 +214,8 @@ TEST_F(Evaluate, OnePixelIsFeltWithinTheReachOnly) {
     EXPECT_GT(error[size_t(cy * kWidth + cx)], 0.01f);
     for (int y = 0; y < kHeight; ++y)
         for (int x = 0; x < kWidth; ++x)
-            if (std::max(std::abs(x - cx), std::abs(y - cy)) > far) {
+            if (std::max(std::abs(x - cx), std::abs(y - cy)) > far)
                 ASSERT_EQ(error[size_t(y * kWidth + x)], 0.0f) << x << "," << y;
-            }
 }
 
 TEST_F(Evaluate, IndexAndExposuresAreOptional) {

@@ -62,9 +62,8 @@ TEST_F(RecipePicture, ManyAreNotKept) {
     let_files_age();
     std::weak_ptr<const Picture> first = picture_of({file, {{"w", "1"}}});
     EXPECT_FALSE(first.expired());
-    for (int w = 2; w < 100; ++w) {
+    for (int w = 2; w < 100; ++w)
         (void)picture_of({file, {{"w", std::to_string(w)}}});
-    }
     EXPECT_TRUE(first.expired());
 }
 

@@ -18,7 +18,7 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::SizeIs;
 
-const Policy in_testimages{true, TESTIMAGES_DIR, 1000};
+const Policy kInTestimages{true, TESTIMAGES_DIR, 1000};
 
 std::vector<float> values_of(const OIIO::ImageBuf& image) {
     std::vector<float> values(image.spec().image_pixels() * size_t(image.nchannels()));
@@ -33,7 +33,7 @@ OIIO::ImageBuf grey(float value) {
 }
 
 TEST(Evaluate, LeavesTheStackWithItsTopLast) {
-    Evaluation done = evaluate({"plain.exr", "--addc", "1", "constant.exr"}, {}, in_testimages);
+    Evaluation done = evaluate({"plain.exr", "--addc", "1", "constant.exr"}, {}, kInTestimages);
     ASSERT_EQ(done.status, 0) << done.err;
     ASSERT_THAT(done.stack, SizeIs(2));
     EXPECT_EQ(done.stack[1].name, TESTIMAGES_DIR "/constant.exr");
@@ -41,9 +41,8 @@ TEST(Evaluate, LeavesTheStackWithItsTopLast) {
                 ElementsAre(TESTIMAGES_DIR "/plain.exr", TESTIMAGES_DIR "/constant.exr"));
     OIIO::ImageBuf file(TESTIMAGES_DIR "/plain.exr");
     std::vector<float> expected = values_of(file);
-    for (float& value : expected) {
+    for (float& value : expected)
         value += 1.0f;
-    }
     EXPECT_EQ(values_of(done.stack[0].subimages.at(0)), expected);
 }
 
@@ -52,11 +51,10 @@ TEST(Evaluate, BoundsTheNestingOfBlocks) {
         Strings words;
         for (int i = 0; i < 101; ++i) {
             words.insert(words.end(), {kind, std::string(kind) == "--for" ? "i" : "1"});
-            if (std::string(kind) == "--for") {
+            if (std::string(kind) == "--for")
                 words.emplace_back("1");
-            }
         }
-        const Evaluation done = evaluate(words, {}, in_testimages);
+        const Evaluation done = evaluate(words, {}, kInTestimages);
         EXPECT_EQ(done.status, 1) << kind;
         EXPECT_THAT(done.error, HasSubstr("nested deeper than 100")) << kind;
     }
@@ -108,7 +106,7 @@ TEST(Evaluate, AnImageWithoutPixelsIsNamed) {
 TEST(Evaluate, ImagesHaveTheirLabels) {
     Evaluation done = evaluate(
         {"plain.exr", "--label", "z", "--mulc", "2", "--label", "b", "--dup", "--addc", "1"}, {},
-        in_testimages);
+        kInTestimages);
     ASSERT_EQ(done.status, 0) << done.err;
     ASSERT_THAT(done.stack, SizeIs(2));
     EXPECT_EQ(done.stack[0].label, "b");
@@ -116,30 +114,30 @@ TEST(Evaluate, ImagesHaveTheirLabels) {
 }
 
 TEST(Evaluate, ErrorsThresholdsAndWarningsAreTold) {
-    Evaluation done = evaluate({"plain.exr", "--hdrflp"}, {}, in_testimages);
+    Evaluation done = evaluate({"plain.exr", "--hdrflp"}, {}, kInTestimages);
     EXPECT_EQ(done.status, 1);
     EXPECT_THAT(done.error, HasSubstr("unknown command \"--hdrflp\""));
-    done = evaluate({"white.exr", "black.exr", "--hdrflip:fail=0.01"}, {}, in_testimages);
+    done = evaluate({"white.exr", "black.exr", "--hdrflip:fail=0.01"}, {}, kInTestimages);
     EXPECT_EQ(done.status, 3);
     EXPECT_EQ(done.error, "a threshold was exceeded");
     EXPECT_THAT(done.out, HasSubstr("FAIL mean"));
-    done = evaluate({"plain.exr", "plain.exr", "--pop", "--dup", "--pop"}, {}, in_testimages);
+    done = evaluate({"plain.exr", "plain.exr", "--pop", "--dup", "--pop"}, {}, kInTestimages);
     EXPECT_EQ(done.status, 0);
-    EXPECT_THAT(evaluate({"truncated.exr"}, {}, in_testimages).error, HasSubstr("truncated.exr"));
+    EXPECT_THAT(evaluate({"truncated.exr"}, {}, kInTestimages).error, HasSubstr("truncated.exr"));
 }
 
 TEST(Evaluate, OneFrameOfASequence) {
     const Strings both = {"cornell_%V.exr", "--views", "ref,test"};
-    Evaluation done = evaluate(both, {}, in_testimages);
+    Evaluation done = evaluate(both, {}, kInTestimages);
     EXPECT_EQ(done.status, 1);
     EXPECT_THAT(done.error, HasSubstr("wildcards fit 2 frames, not one"));
-    done = evaluate({"cornell_%V.exr", "--views", "test"}, {}, in_testimages);
+    done = evaluate({"cornell_%V.exr", "--views", "test"}, {}, kInTestimages);
     ASSERT_EQ(done.status, 0) << done.err;
     EXPECT_EQ(done.stack.at(0).name, TESTIMAGES_DIR "/cornell_test.exr");
 }
 
 TEST(Evaluate, AnEndlessLoopEnds) {
-    Evaluation done = evaluate({"--while", "1", "--endwhile"}, {}, in_testimages);
+    Evaluation done = evaluate({"--while", "1", "--endwhile"}, {}, kInTestimages);
     EXPECT_EQ(done.status, 1);
     EXPECT_THAT(done.error, HasSubstr("stopped after 1000 words"));
 }
@@ -152,7 +150,7 @@ TEST(Evaluate, CommandsWhoseEffectRemainsAreRefused) {
           Strings{"--memory", "1G"}, Strings{"--cache", "10"}}) {
         Strings all = {"plain.exr", "plain.exr"};
         all.insert(all.end(), words.begin(), words.end());
-        Evaluation done = evaluate(all, {}, in_testimages);
+        Evaluation done = evaluate(all, {}, kInTestimages);
         EXPECT_EQ(done.status, 1) << words[0];
         EXPECT_THAT(done.error, HasSubstr("not allowed here")) << words[0];
     }
@@ -171,9 +169,8 @@ TEST(Evaluate, NoCommandWrites) {
         for (size_t m = 0; m <= row.modifiers.size(); ++m) {
             Strings words = {TESTIMAGES_DIR "/plain.exr", TESTIMAGES_DIR "/plain.exr"};
             words.push_back("--" + row.names.front());
-            if (m > 0) {
+            if (m > 0)
                 words.back() += ":" + row.modifiers[m - 1].key + "=written.exr";
-            }
             words.insert(words.end(), row.args.size(), "written.exr");
             (void)evaluate(words, {}, Policy{true, folder.string(), 100});
             ASSERT_TRUE(std::filesystem::is_empty(folder)) << words[2];
@@ -210,7 +207,7 @@ TEST(Evaluate, ACheckIsRefusedAndNotLeftOut) {
 
 TEST(Evaluate, FilesOfModifiersAreInTheFolder) {
     Evaluation done =
-        evaluate({"gallery_ref.exr", "--lightindex:lights=nosuch.json"}, {}, in_testimages);
+        evaluate({"gallery_ref.exr", "--lightindex:lights=nosuch.json"}, {}, kInTestimages);
     EXPECT_THAT(done.error, HasSubstr(TESTIMAGES_DIR "/nosuch.json"));
     EXPECT_THAT(done.files, Contains(TESTIMAGES_DIR "/nosuch.json"));
 }

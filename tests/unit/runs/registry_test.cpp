@@ -26,7 +26,7 @@ TEST_F(Registry, EveryRowIsComplete) {
         EXPECT_EQ(row.help.find('\n'), std::string::npos) << name;
         EXPECT_FALSE(group_title(row.group).empty()) << name;
         EXPECT_GE(row.pops, 0) << name;
-        EXPECT_GE(row.pushes, any_number) << name;
+        EXPECT_GE(row.pushes, kAnyNumber) << name;
     }
 }
 
@@ -55,11 +55,9 @@ TEST_F(Registry, ModifiersAreUniqueAndExplained) {
 }
 
 TEST_F(Registry, OnlyTheLastArgumentMayBeLeftOut) {
-    for (const Command& row : all_commands()) {
-        for (size_t i = 0; i + 1 < row.args.size(); ++i) {
+    for (const Command& row : all_commands())
+        for (size_t i = 0; i + 1 < row.args.size(); ++i)
             EXPECT_NE(row.args[i].front(), '[') << row.names.front();
-        }
-    }
 }
 
 TEST_F(Registry, SuggestsNearNames) {
@@ -68,9 +66,9 @@ TEST_F(Registry, SuggestsNearNames) {
 }
 
 TEST_F(Help, ListsEveryCommandAndEveryModifier) {
-    const std::string all = manual::help_text();
+    const std::string all = chain::help_text();
     for (const Command& row : all_commands()) {
-        const std::string own = manual::help_text(row);
+        const std::string own = chain::help_text(row);
         EXPECT_NE(all.find(row.help), std::string::npos) << row.names.front();
         EXPECT_NE(own.find(row.help), std::string::npos) << row.names.front();
         for (const Modifier& modifier : row.modifiers) {

@@ -26,22 +26,19 @@ TEST(CommandLine, CompatIsACommandAndNotAnArgument) {
     for (const Strings& words :
          {Strings{"-compat"}, Strings{"a.exr", "--compat"},
           Strings{"--parallel-frames", "--compat"}, Strings{"--parallel-frames", "2", "--compat"},
-          Strings{"--attrib", "a", "b", "--compat"}}) {
+          Strings{"--attrib", "a", "b", "--compat"}})
         EXPECT_TRUE(is_compat(words)) << words.front();
-    }
-    for (const Strings& words :
-         {Strings{"compat"}, Strings{"--echo", "--compat"}, Strings{"--attrib", "note", "--compat"},
-          Strings{"-o", "-compat"}}) {
+    for (const Strings& words : {Strings{"compat"}, Strings{"--echo", "--compat"},
+                                 Strings{"--attrib", "note", "--compat"}, Strings{"-o", "-compat"}})
         EXPECT_FALSE(is_compat(words)) << words.front();
-    }
 }
 
-const std::string plain = TESTIMAGES_DIR "/plain.exr";
+const std::string kPlain = TESTIMAGES_DIR "/plain.exr";
 
 // A file's own type is one for all channels: CHANNEL=TYPE would go unchecked there.
 TEST(Run, TheTypeOfOneFileIsOneForAllChannels) {
     for (const char* type : {"R=half", "Q=half", "halves"}) {
-        Ran ran = run_words({plain, std::string("-o:datatype=") + type, "unwritten.exr"});
+        Ran ran = run_words({kPlain, std::string("-o:datatype=") + type, "unwritten.exr"});
         EXPECT_EQ(ran.status, 1) << type;
         EXPECT_THAT(ran.err, HasSubstr("Unknown data format \"" + std::string(type))) << type;
     }
@@ -49,10 +46,10 @@ TEST(Run, TheTypeOfOneFileIsOneForAllChannels) {
 
 TEST(Run, NothingToDoIsAnError) {
     EXPECT_EQ(run_words({}).status, 1);
-    Ran ran = run_words({plain});
+    Ran ran = run_words({kPlain});
     EXPECT_EQ(ran.status, 1);
     EXPECT_THAT(ran.err, HasSubstr("produced no output"));
-    EXPECT_THAT(ran.err, HasSubstr("Full command line was:\n> tonetool " + plain));
+    EXPECT_THAT(ran.err, HasSubstr("Full command line was:\n> tonetool " + kPlain));
 }
 
 TEST(Run, VersionAndHelpPass) {
@@ -65,20 +62,20 @@ TEST(Run, VersionAndHelpPass) {
 }
 
 TEST(Run, UnknownCommandNamesNearOnes) {
-    Ran ran = run_words({plain, "--hdrflp"});
+    Ran ran = run_words({kPlain, "--hdrflp"});
     EXPECT_EQ(ran.status, 1);
     EXPECT_THAT(ran.err, HasSubstr("unknown command \"--hdrflp\", did you mean --hdrflip"));
 }
 
 TEST(Run, PendingOperatorAtTheEndIsAnError) {
-    Ran ran = run_words({"--info", plain, "--hdrflip:fail=0.5"});
+    Ran ran = run_words({"--info", kPlain, "--hdrflip:fail=0.5"});
     EXPECT_EQ(ran.status, 1);
     EXPECT_THAT(ran.err, HasSubstr("hdrflip : never executed: needs 2 image(s)"));
 }
 
 TEST(Run, ForgottenArgumentIsAnError) {
-    EXPECT_THAT(run_words({plain, "--exposure"}).err, HasSubstr("missing argument STOPS"));
-    EXPECT_THAT(run_words({plain, "-o", "--dup"}).err, HasSubstr("missing argument FILENAME"));
+    EXPECT_THAT(run_words({kPlain, "--exposure"}).err, HasSubstr("missing argument STOPS"));
+    EXPECT_THAT(run_words({kPlain, "-o", "--dup"}).err, HasSubstr("missing argument FILENAME"));
 }
 
 TEST(Run, AStreamThatCannotBeWrittenIsAnError) {

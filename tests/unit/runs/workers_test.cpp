@@ -38,9 +38,8 @@ TEST_P(WorkersTest, EveryTaskReplies) {
 
 TEST_P(WorkersTest, TasksRunInOtherProcesses) {
     const auto results = run_tasks(4, GetParam(), [](size_t) { return std::to_string(getpid()); });
-    for (const auto& item : results) {
+    for (const auto& item : results)
         EXPECT_NE(item.second.reply, std::to_string(getpid()));
-    }
 }
 
 TEST_P(WorkersTest, ATaskThatEndsItsProcessIsLostAlone) {
@@ -89,9 +88,8 @@ TEST_P(WorkersTest, LongAndEmptyRepliesArriveWhole) {
     const auto results = run_tasks(4, GetParam(), [](size_t index) {
         return std::string(index * 3000001, char('a' + index));
     });
-    for (const auto& [index, result] : results) {
+    for (const auto& [index, result] : results)
         EXPECT_EQ(result.reply, std::string(index * 3000001, char('a' + index))) << index;
-    }
 }
 
 TEST(Workers, NothingToDoStartsNoProcess) {

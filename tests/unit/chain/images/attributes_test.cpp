@@ -4,7 +4,7 @@
 
 #include "text/error.h"
 
-namespace tonetool::files {
+namespace tonetool::chain {
 namespace {
 
 using testing::HasSubstr;
@@ -34,9 +34,8 @@ TEST(Attributes, TimeCodesAndRationalsArePacked) {
 
 TEST(Attributes, KeywordsAreThereOnce) {
     OIIO::ImageSpec spec(1, 1, 3);
-    for (const char* word : {"night", "street", "night"}) {
+    for (const char* word : {"night", "street", "night"})
         add_keyword(spec, word);
-    }
     EXPECT_EQ(spec.get_string_attribute("Keywords"), "night; street");
 }
 
@@ -63,4 +62,4 @@ TEST(Attributes, ExpressionsSeeTheHeaderAndThePixels) {
 }
 
 } // namespace
-} // namespace tonetool::files
+} // namespace tonetool::chain

@@ -5,7 +5,7 @@
 #include "text/error.h"
 #include "text/text.h"
 
-namespace tonetool::files {
+namespace tonetool::chain {
 namespace {
 
 using testing::ElementsAre;
@@ -58,4 +58,4 @@ TEST(Channels, LenientlyTheyAreZeroWithAWarning) {
 }
 
 } // namespace
-} // namespace tonetool::files
+} // namespace tonetool::chain

@@ -4,7 +4,7 @@
 
 #include "text/error.h"
 
-namespace tonetool::files {
+namespace tonetool::chain {
 namespace {
 
 using testing::ElementsAre;
@@ -78,4 +78,4 @@ TEST_F(Output, CompressionsAreKnown) {
 }
 
 } // namespace
-} // namespace tonetool::files
+} // namespace tonetool::chain

@@ -3,7 +3,7 @@
 #include <OpenImageIO/imagebufalgo.h>
 #include <gmock/gmock.h>
 
-namespace tonetool::files {
+namespace tonetool::chain {
 namespace {
 
 OIIO::ImageBuf flat(int width, int height, float value) {
@@ -50,4 +50,4 @@ TEST(Pasted, WindowsGrowWhereTheyAreMerged) {
 }
 
 } // namespace
-} // namespace tonetool::files
+} // namespace tonetool::chain

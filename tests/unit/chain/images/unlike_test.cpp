@@ -5,11 +5,11 @@
 #include <gmock/gmock.h>
 #include <limits>
 
-namespace tonetool::files {
+namespace tonetool::chain {
 namespace {
 
-const float nan = std::numeric_limits<float>::quiet_NaN();
-const float inf = std::numeric_limits<float>::infinity();
+const float kNan = std::numeric_limits<float>::quiet_NaN();
+const float kInf = std::numeric_limits<float>::infinity();
 
 OIIO::ImageBuf image(OIIO::ROI window, OIIO::TypeDesc type = OIIO::TypeFloat) {
     OIIO::ImageBuf pixels(OIIO::ImageSpec(window, type));
@@ -33,13 +33,12 @@ TEST(Unlike, NumbersAreAlikeHoweverTheyDiffer) {
 }
 
 TEST(Unlike, TheSameKindIsAlike) {
-    for (const float value : {nan, inf, -inf}) {
+    for (const float value : {kNan, kInf, -kInf})
         EXPECT_EQ(unlike_values(one(value), one(value)).pixels, 0U) << value;
-    }
 }
 
 TEST(Unlike, EveryOtherPairOfKindsIsNot) {
-    const float kinds[] = {0, nan, inf, -inf};
+    const float kinds[] = {0, kNan, kInf, -kInf};
     for (const float a : kinds) {
         for (const float b : kinds) {
             const bool same = a == b || (std::isnan(a) && std::isnan(b));
@@ -56,9 +55,9 @@ TEST(Unlike, EveryOtherPairOfKindsIsNot) {
 
 TEST(Unlike, APixelCountsOnceAndTheFirstOneIsNamed) {
     const OIIO::ImageBuf numbers = image({0, 4, 0, 3, 0, 1, 0, 3});
-    OIIO::ImageBuf many = one(nan);
-    set(many, 3, 1, {nan, nan, nan});
-    set(many, 0, 2, {0, 0, inf});
+    OIIO::ImageBuf many = one(kNan);
+    set(many, 3, 1, {kNan, kNan, kNan});
+    set(many, 0, 2, {0, 0, kInf});
     const Unlike found = unlike_values(numbers, many);
     EXPECT_EQ(found.pixels, 3U);
     EXPECT_EQ(found.x, 2);
@@ -67,8 +66,8 @@ TEST(Unlike, APixelCountsOnceAndTheFirstOneIsNamed) {
 
 TEST(Unlike, WhereAnImageHasNoPixelsOrChannelsItIsZero) {
     OIIO::ImageBuf wide = image({-2, 6, -1, 5, 0, 1, 0, 5});
-    set(wide, -2, -1, {0, 0, 0, 0, nan});
-    set(wide, 5, 4, {inf, 0, 0, 0, 0});
+    set(wide, -2, -1, {0, 0, 0, 0, kNan});
+    set(wide, 5, 4, {kInf, 0, 0, 0, 0});
     const OIIO::ImageBuf small = image({0, 2, 0, 2, 0, 1, 0, 3});
     for (const Unlike& found : {unlike_values(wide, small), unlike_values(small, wide)}) {
         EXPECT_EQ(found.pixels, 2U);
@@ -81,8 +80,8 @@ TEST(Unlike, WhereAnImageHasNoPixelsOrChannelsItIsZero) {
 TEST(Unlike, ManyRowsAreLookedAtInParts) {
     const OIIO::ROI large(0, 1100, 10, 1610, 0, 1, 0, 4); // more values than are held at once
     OIIO::ImageBuf a = image(large), b = image(large);
-    set(a, 7, 1609, {0, 0, 0, nan});
-    set(b, 1099, 10, {0, -inf, 0, 0});
+    set(a, 7, 1609, {0, 0, 0, kNan});
+    set(b, 1099, 10, {0, -kInf, 0, 0});
     const Unlike found = unlike_values(a, b);
     EXPECT_EQ(found.pixels, 2U);
     EXPECT_EQ(found.x, 1099);
@@ -93,7 +92,7 @@ TEST(Unlike, ManyRowsAreLookedAtInParts) {
 TEST(Unlike, HalvesAndIntegers) {
     const OIIO::ROI window(0, 4, 0, 3, 0, 1, 0, 3);
     OIIO::ImageBuf half = image(window, OIIO::TypeHalf);
-    set(half, 1, 0, {0, nan, 0});
+    set(half, 1, 0, {0, kNan, 0});
     EXPECT_EQ(unlike_values(image(window, OIIO::TypeUInt8), half).pixels, 1U);
     EXPECT_EQ(unlike_values(image(window, OIIO::TypeUInt8), image(window, OIIO::TypeUInt16)).pixels,
               0U);
@@ -105,18 +104,17 @@ OIIO::ImageBuf deep(int samples, float last) {
     spec.deep = true;
     OIIO::ImageBuf pixels(spec);
     pixels.set_deep_samples(2, 1, 0, samples);
-    for (int s = 0; s < samples; ++s) {
+    for (int s = 0; s < samples; ++s)
         pixels.set_deep_value(2, 1, 0, 1, s, s + 1 < samples ? float(s) : last);
-    }
     return pixels;
 }
 
 TEST(Unlike, DeepSamplesAreValuesToo) {
-    EXPECT_EQ(unlike_values(deep(3, nan), deep(3, nan)).pixels, 0U);
+    EXPECT_EQ(unlike_values(deep(3, kNan), deep(3, kNan)).pixels, 0U);
     EXPECT_EQ(unlike_values(deep(3, 1), deep(2, 5)).pixels, 0U);
     for (const Unlike& found :
-         {unlike_values(deep(3, nan), deep(3, 1)), unlike_values(deep(2, 1), deep(3, inf)),
-          unlike_values(deep(3, inf), deep(3, -inf))}) {
+         {unlike_values(deep(3, kNan), deep(3, 1)), unlike_values(deep(2, 1), deep(3, kInf)),
+          unlike_values(deep(3, kInf), deep(3, -kInf))}) {
         EXPECT_EQ(found.pixels, 1U);
         EXPECT_EQ(found.x, 2);
         EXPECT_EQ(found.y, 1);
@@ -125,4 +123,4 @@ TEST(Unlike, DeepSamplesAreValuesToo) {
 }
 
 } // namespace
-} // namespace tonetool::files
+} // namespace tonetool::chain

@@ -2,7 +2,7 @@
 
 #include <gmock/gmock.h>
 
-namespace tonetool::files {
+namespace tonetool::chain {
 namespace {
 
 using testing::HasSubstr;
@@ -26,9 +26,8 @@ TEST(Windows, AreGivenInOiiotoolsWays) {
         {"0,0,9,19", "10x20+0+0"},   {"50%", "50x25+10+20"},     {"0.5", "50x25+10+20"},
         {"50x0", "50x25+10+20"},     {"0x25", "50x25+10+20"},    {"50%x100%", "50x50+10+20"},
         {"40x30-5-6", "40x30+-5+-6"}};
-    for (const auto& [text, expected] : cases) {
+    for (const auto& [text, expected] : cases)
         EXPECT_EQ(adjusted(text, Geometry::Scalable), expected) << text;
-    }
 }
 
 TEST(Windows, WhatIsNotAllowedIsAnErrorOrAWarning) {
@@ -41,17 +40,15 @@ TEST(Windows, WhatIsNotAllowedIsAnErrorOrAWarning) {
 TEST(Windows, RestsAndNonsenseAreErrors) {
     EXPECT_THAT(adjusted("40x30oops", Geometry::Window), HasSubstr("40x30oops"));
     EXPECT_EQ(adjusted("40x30oops", Geometry::Window, true), "40x30+10+20");
-    for (bool lenient : {false, true}) {
+    for (bool lenient : {false, true})
         EXPECT_THAT(adjusted("big", Geometry::Scalable, lenient), HasSubstr("Unrecognized"));
-    }
 }
 
 TEST(Windows, SizesAreTwoNumbers) {
     EXPECT_EQ(parsed_size("3x5")->height, 5);
     EXPECT_EQ(parsed_size("1.5x2")->width, 1.5F);
-    for (const char* text : {"3", "3x", "3x5x7", "", "x5", "3 x5 "}) {
+    for (const char* text : {"3", "3x", "3x5x7", "", "x5", "3 x5 "})
         EXPECT_FALSE(parsed_size(text)) << text;
-    }
 }
 
 TEST(Windows, TheDataWindowKeepsItsPlace) {
@@ -67,4 +64,4 @@ TEST(Windows, TheDataWindowKeepsItsPlace) {
 }
 
 } // namespace
-} // namespace tonetool::files
+} // namespace tonetool::chain

@@ -15,9 +15,8 @@ Command row_with(const Strings& keys) {
     Command row;
     row.names = {"test"};
     row.args = {"STOPS"};
-    for (const std::string& key : keys) {
+    for (const std::string& key : keys)
         row.modifiers.push_back({key, "X", "help"});
-    }
     return row;
 }
 

@@ -34,9 +34,8 @@ TEST_F(Expression, ComputesAsOiiotoolDoes) {
         {"{2>=2}", "1"},     {"{1!=1}", "0"},        {"{not(1)}", "0"},
         {"{!0}", "1"},       {"{eq('a','a')}", "1"}, {"{neq('a','a')}", "0"},
         {"{'1'==1.0}", "1"}};
-    for (const auto& [word, expected] : cases) {
+    for (const auto& [word, expected] : cases)
         EXPECT_EQ(value(word), expected) << word;
-    }
 }
 
 TEST_F(Expression, StandsWithinAWordAndNotWithoutItsEnd) {
@@ -88,14 +87,13 @@ TEST_F(Expression, IsLenientWithCompat) {
 
 std::string repeated(const std::string& text, int times) {
     std::string all;
-    for (int i = 0; i < times; ++i) {
+    for (int i = 0; i < times; ++i)
         all += text;
-    }
     return all;
 }
 
 TEST_F(Expression, IsBoundedInItsDepth) {
-    const int most = most_nested_expressions;
+    const int most = kMostNestedExpressions;
     EXPECT_EQ(value("{" + repeated("!", most - 1) + "1}"), "0");
     EXPECT_EQ(value("{" + repeated("(", most - 1) + "7" + repeated(")", most - 1) + "}"), "7");
     const std::string deep[] = {
@@ -107,9 +105,8 @@ TEST_F(Expression, IsBoundedInItsDepth) {
         repeated("eq(1,", 10000) + "1" + repeated(")", 10000),
         repeated("1+(", 10000) + "1" + repeated(")", 10000),
     };
-    for (const std::string& text : deep) {
+    for (const std::string& text : deep)
         EXPECT_THAT(problem("{" + text + "}"), HasSubstr("nested deeper than 100")) << text;
-    }
 }
 
 TEST_F(Expression, MayHaveAnyLengthBesideOneAnother) {
@@ -127,12 +124,10 @@ TEST_F(Expression, DoesNotGrowWithoutAnEnd) {
 }
 
 TEST(IsTrue, NeitherEmptyNorZeroNorFalse) {
-    for (const char* word : {"1", "-0.5", "yes", "hello"}) {
+    for (const char* word : {"1", "-0.5", "yes", "hello"})
         EXPECT_TRUE(is_true(word)) << word;
-    }
-    for (const char* word : {"", "0", "0.0", "false", "No", "off"}) {
+    for (const char* word : {"", "0", "0.0", "false", "No", "off"})
         EXPECT_FALSE(is_true(word)) << word;
-    }
 }
 
 } // namespace

@@ -42,9 +42,8 @@ TEST(AovNames, EveryGuideIsData) {
          {AovKind::Position, AovKind::Normal, AovKind::Albedo, AovKind::Depth}) {
         EXPECT_FALSE(guide_passes(kind).empty());
         for (const std::string& pass : guide_passes(kind))
-            if (pass != "diffuse") { // V-Ray's, light elsewhere
+            if (pass != "diffuse") // V-Ray's, light elsewhere
                 EXPECT_EQ(kind_of_layer(pass), kind) << pass;
-            }
     }
     EXPECT_TRUE(guide_passes(AovKind::Motion).empty());
 }

@@ -183,9 +183,8 @@ TEST(GBuffer, KnowsTheSky) {
         EXPECT_EQ(background_count(g), 1) << sky.what;
         EXPECT_EQ(g.background[2 * 16 + 3], 1) << sky.what;
         EXPECT_THAT(g.warnings, IsEmpty()) << sky.what;
-        if (g.has_position()) {
+        if (g.has_position())
             EXPECT_EQ(g.position[1][2 * 16 + 3], 0) << sky.what;
-        }
     }
 }
 

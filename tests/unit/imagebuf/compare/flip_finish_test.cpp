@@ -57,9 +57,8 @@ protected:
     static void expect_same_elsewhere(const ImageBuf& a, const ImageBuf& b, int x, int y) {
         for (int j = a.ybegin(); j < a.yend(); ++j)
             for (int i = a.xbegin(); i < a.xend(); ++i)
-                if (i != x || j != y) {
+                if (i != x || j != y)
                     ASSERT_EQ(at(a, i, j), at(b, i, j)) << i << "," << j;
-                }
     }
 };
 
@@ -100,9 +99,8 @@ TEST_P(NonFinite, FarPixelsDoNotNotice) {
                              run(with_pixel(m_reference, 20, 15, m_bad), m_test)})
         for (int y = 0; y < 40; ++y)
             for (int x = 0; x < 50; ++x)
-                if (std::max(std::abs(x - 20), std::abs(y - 15)) > kReach) {
+                if (std::max(std::abs(x - 20), std::abs(y - 15)) > kReach)
                     ASSERT_EQ(at(r.map, x, y), at(plain.map, x, y)) << x << "," << y;
-                }
 }
 
 TEST_P(NonFinite, InBothImagesIsEqual) {

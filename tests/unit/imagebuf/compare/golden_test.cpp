@@ -53,7 +53,7 @@ std::vector<float> channel(const ImageBuf& image, int c) {
 tonetool::HdrFlipOptions parse(const std::string& options) {
     tonetool::HdrFlipOptions out;
     std::istringstream words(options);
-    for (std::string key, value; words >> key && key != "--ldr" && words >> value;) {
+    for (std::string key, value; words >> key && key != "--ldr" && words >> value;)
         if (key == "--tm")
             out.curve.name = value;
         else if (key == "--n")
@@ -66,7 +66,6 @@ tonetool::HdrFlipOptions parse(const std::string& options) {
             out.ppd = std::stod(value);
         else
             ADD_FAILURE() << "unknown option " << key;
-    }
     out.want_exposure_map = true;
     return out;
 }
@@ -121,9 +120,8 @@ void compare_maps(const Maps& maps, const std::string& name) {
     EXPECT_LE(beyond.size(), allowed == kGoldenIsOff.end() ? 0u : size_t(allowed->second))
         << "worst " << worst;
     const auto twin = beyond.empty() ? std::vector<double>{} : maps.twin();
-    for (size_t i : beyond) {
+    for (size_t i : beyond)
         EXPECT_LE(std::abs(maps.ours[i] - twin[i]), kClose) << "pixel " << i;
-    }
     std::printf("  worst %.3g (below 0.01: %.3g), beyond the bound %zu, mean off by %.3g\n", worst,
                 worst_below, beyond.size(), sum / n - golden_sum / n);
 }
@@ -177,9 +175,8 @@ TEST_P(Goldens, MatchesPublishedProgram) {
     compare_summary(result.summary, line);
     if (line["hdr"] == 1)
         compare_exposures(result, golden, expected);
-    if (line["reference"] == line["test"]) {
+    if (line["reference"] == line["test"])
         EXPECT_EQ(result.summary.pool.max, 0.0) << "an image against itself must be exactly 0";
-    }
 }
 
 std::vector<Golden> read_lines(const std::string& root, const std::string& file) {

@@ -198,9 +198,8 @@ TEST(FittedTest, ResizeKeepsAHoleWhereItIs) {
     for (size_t i = 0; i < planes.nonfinite.size(); ++i) {
         const size_t x = i % 16, y = i / 16;
         EXPECT_EQ(planes.nonfinite[i] != 0, x / 2 == 3 && y / 2 == 4) << x << "," << y;
-        if (!planes.nonfinite[i]) {
+        if (!planes.nonfinite[i])
             EXPECT_NEAR(planes.plane[1][i], 0.5, 1e-6); // filter weights sum to 1 within rounding
-        }
     }
 }
 

@@ -51,9 +51,8 @@ TEST(LightIndex, IsThatOfTheGroupWithTheLargestLuminance) {
                 at = -2;
             }
         }
-        if (at != -2) {
+        if (at != -2)
             ASSERT_EQ(index.getchannel(p.x(), p.y(), 0, 0), float(at)) << p.x() << " " << p.y();
-        }
     }
 }
 

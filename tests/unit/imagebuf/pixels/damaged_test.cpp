@@ -192,12 +192,11 @@ void expect_refused(const Function& function, const DamagedFile& file, const Ima
         error = dst.geterror();
     EXPECT_EQ(error, valid_utf8(error));
     EXPECT_FALSE(OIIO::Filesystem::remove(target)) << "it was written";
-    if (file.named && (!function.layers || file.layers)) {
+    if (file.named && (!function.layers || file.layers))
         EXPECT_THAT(error, HasSubstr(valid_utf8(file.path)));
-    }
 }
 
-TEST(Damaged, Files_that_were_not_read_make_no_result) {
+TEST(Damaged, FilesThatWereNotReadMakeNoResult) {
     const Folder folder;
     const DamagedFiles files(folder);
     const ImageBuf good = DamagedFiles::whole();
@@ -210,7 +209,7 @@ TEST(Damaged, Files_that_were_not_read_make_no_result) {
     }
 }
 
-TEST(Damaged, Failed_reads_make_no_result_even_if_their_error_was_taken) {
+TEST(Damaged, FailedReadsMakeNoResultEvenIfTheirErrorWasTaken) {
     const Folder folder;
     const DamagedFiles files(folder);
     const ImageBuf good = DamagedFiles::whole();
@@ -229,7 +228,7 @@ TEST(Damaged, Failed_reads_make_no_result_even_if_their_error_was_taken) {
     EXPECT_GE(tried, 20);
 }
 
-TEST(Damaged, An_image_that_was_never_anything_makes_no_result) {
+TEST(Damaged, AnImageThatWasNeverAnythingMakesNoResult) {
     const Folder folder;
     const ImageBuf nothing, good = DamagedFiles::whole();
     for (const Function& function : functions()) {
@@ -239,7 +238,7 @@ TEST(Damaged, An_image_that_was_never_anything_makes_no_result) {
 }
 
 // A function that is added takes its place in the table above.
-TEST(Damaged, The_table_has_every_function_that_takes_images) {
+TEST(Damaged, TheTableHasEveryFunctionThatTakesImages) {
     std::set<std::string> declared, listed;
     const std::regex function(R"((\w+)\(([^;]*)\);)");
     for (const auto& header :

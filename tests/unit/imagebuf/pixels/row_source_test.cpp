@@ -153,7 +153,7 @@ TEST(Errors, AreUtf8AndNameAFileOnce) {
 }
 
 // Against the table of the Unicode Standard (15, 3-7) and its example of maximal subparts (3-8).
-TEST(Utf8, Bad_bytes_become_one_replacement_each) {
+TEST(Utf8, BadBytesBecomeOneReplacementEach) {
     const std::string bad = "\xEF\xBF\xBD";
     EXPECT_EQ(valid_utf8(""), "");
     EXPECT_EQ(valid_utf8(std::string("a\0b", 3)), std::string("a\0b", 3));
@@ -231,9 +231,8 @@ TEST(RowSource, ASubimageOfAFile) {
     auto out = OIIO::ImageOutput::create(name);
     ASSERT_TRUE(out->open(name, 2, specs.data()));
     for (int i = 0; i < 2; ++i) {
-        if (i > 0) {
+        if (i > 0)
             ASSERT_TRUE(out->open(name, specs[1], OIIO::ImageOutput::AppendSubimage));
-        }
         ASSERT_TRUE(out->write_image(OIIO::TypeFloat, parts[i].localpixels()));
     }
     ASSERT_TRUE(out->close());

@@ -41,7 +41,7 @@ void set(ImageBuf& image, int x, int y, int channel, float value) {
     image.setpixel(x, y, pixel.data());
 }
 
-TEST(QcFacts, Count_what_is_no_colour_and_where) {
+TEST(QcFacts, CountWhatIsNoColourAndWhere) {
     ImageBuf image = constant(make_spec(20, 10, {"R", "G", "B", "A", "Z"}), {1, 2, 3, 1, 5});
     set(image, 7, 2, 1, kNan);
     set(image, 4, 2, 0, kNan);
@@ -71,7 +71,7 @@ TEST(QcFacts, Count_what_is_no_colour_and_where) {
     EXPECT_EQ(facts.picture.alpha_low.pixels, 1);
 }
 
-TEST(QcFacts, A_colour_alone_is_constant_and_black_is_not_lit) {
+TEST(QcFacts, AColourAloneIsConstantAndBlackIsNotLit) {
     const QcFacts red = facts_of(constant(8, 8, {1, 0, 0}));
     EXPECT_TRUE(red.layers[0].constant);
     EXPECT_NEAR(red.layers[0].mean, 0.2126, 1e-12);
@@ -79,7 +79,7 @@ TEST(QcFacts, A_colour_alone_is_constant_and_black_is_not_lit) {
     EXPECT_FALSE(facts_of(noise(8, 8, 1)).layers[0].constant);
 }
 
-TEST(QcFacts, Do_not_depend_on_threads_nor_on_where_the_pixels_are) {
+TEST(QcFacts, DoNotDependOnThreadsNorOnWhereThePixelsAre) {
     const std::string file =
         OIIO::Filesystem::unique_path(testing::TempDir() + "tonetool-qc-%%%%%%%%.exr");
     const ImageBuf image =
@@ -99,7 +99,7 @@ TEST(QcFacts, Do_not_depend_on_threads_nor_on_where_the_pixels_are) {
     std::filesystem::remove(file);
 }
 
-TEST(QcFacts, Thumbnails_have_the_luminance_of_the_display_window) {
+TEST(QcFacts, ThumbnailsHaveTheLuminanceOfTheDisplayWindow) {
     ImageSpec spec = make_spec(64, 36, {"R", "G", "B"});
     spec.full_width = 128; // the right half has no pixel
     const QcFacts facts = facts_of(constant(spec, {0.25f, 0.25f, 0.25f}));
@@ -110,7 +110,7 @@ TEST(QcFacts, Thumbnails_have_the_luminance_of_the_display_window) {
     EXPECT_THAT(facts.parts[0].display, ElementsAre(0, 0, 128, 36));
 }
 
-TEST(QcFacts, A_spike_is_alone_in_its_surroundings) {
+TEST(QcFacts, ASpikeIsAloneInItsSurroundings) {
     ImageBuf image = constant(40, 30, {0.5f, 0.5f, 0.5f});
     set(image, 9, 7, 2, 100); // a blue one
     set(image, 10, 7, 2, 60); // beside it: still one spike
@@ -125,7 +125,7 @@ TEST(QcFacts, A_spike_is_alone_in_its_surroundings) {
     EXPECT_EQ(picture.spikes[0].around, 0.5);
 }
 
-TEST(QcFacts, Light_groups_add_up_where_the_picture_is_not_clamped) {
+TEST(QcFacts, LightGroupsAddUpWhereThePictureIsNotClamped) {
     ImageBuf image = constant(make_spec(32, 32,
                                         {"R", "G", "B", "C_key.R", "C_key.G", "C_key.B", "C_rim.R",
                                          "C_rim.G", "C_rim.B"}),
@@ -146,7 +146,7 @@ TEST(QcFacts, Light_groups_add_up_where_the_picture_is_not_clamped) {
     EXPECT_EQ(picture.group_worst.y, 9);
 }
 
-TEST(QcFacts, Parts_are_one_image_whose_channels_bear_their_names) {
+TEST(QcFacts, PartsAreOneImageWhoseChannelsBearTheirNames) {
     ImageBuf beauty = constant(16, 8, {1, 1, 1});
     ImageBuf group = constant(make_spec(16, 8, {"R", "G", "B"}), {1, 1, 1});
     group.specmod().attribute("oiio:subimagename", "C_key");
@@ -163,7 +163,7 @@ TEST(QcFacts, Parts_are_one_image_whose_channels_bear_their_names) {
     EXPECT_EQ(facts.picture.group_difference, 0);
 }
 
-TEST(QcFacts, Files_of_data_have_layers_and_no_picture) {
+TEST(QcFacts, FilesOfDataHaveLayersAndNoPicture) {
     const std::vector<std::vector<std::string>> files = {
         {"Z"}, {"N.X", "N.Y", "N.Z"}, {"albedo.R", "albedo.G", "albedo.B"}, {"objectid"}};
     for (const auto& channels : files) {
@@ -181,7 +181,7 @@ TEST(QcFacts, Files_of_data_have_layers_and_no_picture) {
     }
 }
 
-TEST(QcFacts, One_channel_is_a_grey_picture) {
+TEST(QcFacts, OneChannelIsAGreyPicture) {
     ImageBuf image = constant(make_spec(32, 18, {"Y", "Z"}), {0.5f, 9});
     set(image, 3, 2, 0, kInf);
     const QcFacts facts = facts_of(image);
@@ -193,7 +193,7 @@ TEST(QcFacts, One_channel_is_a_grey_picture) {
     EXPECT_EQ(facts.picture.thumbnail[0], -1000);
 }
 
-TEST(QcFacts, Count_lit_pixels_that_alpha_hides) {
+TEST(QcFacts, CountLitPixelsThatAlphaHides) {
     ImageBuf image = constant(make_spec(8, 4, {"R", "G", "B", "A"}), {1, 0, 0, 0});
     set(image, 0, 0, 0, 0);
     set(image, 5, 1, 3, 1);
@@ -203,7 +203,7 @@ TEST(QcFacts, Count_lit_pixels_that_alpha_hides) {
     EXPECT_EQ(facts.picture.unseen.first[0].x, 1);
 }
 
-TEST(QcFacts, Long_metadata_are_kept_by_their_hash) {
+TEST(QcFacts, LongMetadataAreKeptByTheirHash) {
     ImageBuf image = constant(4, 4, {1, 1, 1});
     image.specmod().attribute("manifest", std::string(5000, 'x'));
     image.specmod().attribute("Software", "renderer");
@@ -212,7 +212,7 @@ TEST(QcFacts, Long_metadata_are_kept_by_their_hash) {
     EXPECT_THAT(part.metadata.at("manifest"), HasSubstr("5000 characters, SHA-1 "));
 }
 
-TEST(QcFacts, Say_why_there_are_none) {
+TEST(QcFacts, SayWhyThereAreNone) {
     EXPECT_THAT(error_of(constant(make_spec(4, 4, {"a.R", "a.G", "a.B", "b.R", "b.G", "b.B"}),
                                   {1, 1, 1, 1, 1, 1})),
                 HasSubstr("layer="));

@@ -30,9 +30,8 @@ protected:
             std::ofstream(m_folder / file).put('x');
         }
         Files found = list_files((m_folder / pattern).string(), options);
-        for (std::string& name : found.names) {
+        for (std::string& name : found.names)
             name.erase(0, m_folder.string().size() + 1);
-        }
         return found;
     }
     static std::string refusal_of(const Files& files) {
@@ -47,7 +46,7 @@ protected:
     fs::path m_folder;
 };
 
-TEST_F(OnDisk, Sorted_by_number_with_negative_ones) {
+TEST_F(OnDisk, SortedByNumberWithNegativeOnes) {
     const Files found = listed("a.#.exr", {"a.0010.exr", "a.-002.exr", "a.-0001.exr", "a.0000.exr",
                                            "b.0001.exr", "a.0003.tif", "a_0004.exr"});
     EXPECT_THAT(found.names, ElementsAre("a.-002.exr", "a.-0001.exr", "a.0000.exr", "a.0010.exr"));
@@ -56,21 +55,21 @@ TEST_F(OnDisk, Sorted_by_number_with_negative_ones) {
     EXPECT_EQ(refusal_of(found), "");
 }
 
-TEST_F(OnDisk, Leniently_without_negative_ones_as_oiiotool) {
+TEST_F(OnDisk, LenientlyWithoutNegativeOnesAsOiiotool) {
     PatternOptions options;
     options.lenient = true;
     EXPECT_THAT(listed("a.%04d.exr", {"a.-002.exr", "a.0001.exr"}, options).names,
                 ElementsAre("a.0001.exr"));
 }
 
-TEST_F(OnDisk, Views_also_as_folders) {
+TEST_F(OnDisk, ViewsAlsoAsFolders) {
     const Files found = listed("%V/a.%v.@.exr", {"left/a.l.1.exr", "right/a.r.1.exr",
                                                  "right/a.l.2.exr", "lef+/a.l.1.exr"});
     EXPECT_THAT(found.items, ElementsAre(Item{1, "left"}, Item{1, "right"}));
     EXPECT_THAT(found.names, ElementsAre("left/a.l.1.exr", "right/a.r.1.exr"));
 }
 
-TEST_F(OnDisk, Names_that_do_not_tell_frames_apart_are_refused) {
+TEST_F(OnDisk, NamesThatDoNotTellFramesApartAreRefused) {
     EXPECT_THAT(refusal_of(listed("d.@.exr", {"d.0001.exr", "d.1.exr"})),
                 HasSubstr("are both frame 1"));
     EXPECT_THAT(refusal_of(listed("n.#.exr", {"n.-001.exr", "n.-0001.exr"})),
@@ -82,7 +81,7 @@ TEST_F(OnDisk, Names_that_do_not_tell_frames_apart_are_refused) {
     EXPECT_EQ(refusal_of(listed("s.%V.exr", {"s.left.exr", "s.right.exr"})), "");
 }
 
-TEST_F(OnDisk, A_range_hides_no_second_file_of_its_numbers) {
+TEST_F(OnDisk, ARangeHidesNoSecondFileOfItsNumbers) {
     listed("d.@.exr", {"d.0001.exr", "d.1.exr", "d.2.exr", "n.0003.exr", "n.3.exr"});
     const auto refusal = [&](const std::string& name, const std::string& frames) {
         PatternOptions options;
@@ -101,20 +100,20 @@ TEST_F(OnDisk, A_range_hides_no_second_file_of_its_numbers) {
     EXPECT_EQ(refusal("n.#.exr", "3"), ""); // four digits are meant
 }
 
-TEST_F(OnDisk, Nothing_where_nothing_is) {
+TEST_F(OnDisk, NothingWhereNothingIs) {
     EXPECT_THAT(listed("a.#.exr", {}).names, IsEmpty());
     EXPECT_THAT(listed("none/a.#.exr", {}).names, IsEmpty());
     EXPECT_THAT(listed("shot.#/a.exr", {"shot.0000/a.exr"}).names, IsEmpty());
 }
 
-TEST_F(OnDisk, Inputs_of_a_range_have_either_form_of_a_negative_number) {
+TEST_F(OnDisk, InputsOfARangeHaveEitherFormOfANegativeNumber) {
     listed("a.#.exr", {"a.-0002.exr"});
     const std::string start = m_folder.string() + "/a.";
     EXPECT_THAT(input_names(start + "#.exr", {}, {{-2, ""}, {-1, ""}}),
                 ElementsAre(start + "-0002.exr", start + "-001.exr"));
 }
 
-TEST(ListFiles, A_range_of_its_own_comes_first) {
+TEST(ListFiles, ARangeOfItsOwnComesFirst) {
     PatternOptions options;
     options.frames = "7";
     EXPECT_THAT(list_files("a.#.exr", options).names, ElementsAre("a.0007.exr"));

@@ -18,7 +18,7 @@ std::string refusal_of(const std::string& range) {
     return "";
 }
 
-TEST(ParseFrames, Every_form_of_oiiotool) {
+TEST(ParseFrames, EveryFormOfOiiotool) {
     EXPECT_THAT(parse_frames("7"), ElementsAre(7));
     EXPECT_THAT(parse_frames("1,3,10-20x5"), ElementsAre(1, 3, 10, 15, 20));
     EXPECT_THAT(parse_frames("1-7y3"), ElementsAre(2, 3, 5, 6));
@@ -33,7 +33,7 @@ TEST(ParseFrames, Every_form_of_oiiotool) {
     EXPECT_THAT(parse_frames("2147483646-2147483647"), ElementsAre(2147483646, 2147483647));
 }
 
-TEST(ParseFrames, Is_read_to_its_end) {
+TEST(ParseFrames, IsReadToItsEnd) {
     for (const char* range : {"",      "x",       "1-",   "1 2", "1-2 5-6", "1.5-3", "1;2",
                               "1:5",   "1-5x2y2", "1,,3", "1,",  ",1",      "1-3#",  "0x10",
                               "1-10x", "1-10x0",  "--1",  "+1",  "1-2,x",   "1\n2",  "1e3"}) {
@@ -42,7 +42,7 @@ TEST(ParseFrames, Is_read_to_its_end) {
     }
 }
 
-TEST(ParseFrames, Too_many_and_too_large_are_refused_with_a_sentence) {
+TEST(ParseFrames, TooManyAndTooLargeAreRefusedWithASentence) {
     EXPECT_THAT(refusal_of("1-2000000000"), HasSubstr("has 2000000000 frames (valid: at most"));
     EXPECT_THAT(refusal_of("-2147483648-2147483647"), HasSubstr("4294967296 frames"));
     EXPECT_THAT(refusal_of("1-900000,1-900000"), HasSubstr("1800000 frames"));
@@ -50,7 +50,7 @@ TEST(ParseFrames, Too_many_and_too_large_are_refused_with_a_sentence) {
     EXPECT_EQ(parse_frames("1-2000000000x1000000").size(), 2000u);
 }
 
-TEST(ParseFrames, Leniently_as_oiiotool_ignores_the_rest) {
+TEST(ParseFrames, LenientlyAsOiiotoolIgnoresTheRest) {
     EXPECT_THAT(parse_frames("1-2 5-6", true), ElementsAre(1, 2));
     EXPECT_THAT(parse_frames("1.5-3,4", true), ElementsAre(1, 4));
     EXPECT_THAT(parse_frames("1,,3", true), ElementsAre(1, 1, 3));
@@ -58,7 +58,7 @@ TEST(ParseFrames, Leniently_as_oiiotool_ignores_the_rest) {
     EXPECT_THROW(parse_frames("1-2000000000", true), std::runtime_error);
 }
 
-TEST(RangeText, Runs_and_single_numbers) {
+TEST(RangeText, RunsAndSingleNumbers) {
     EXPECT_EQ(range_text({1, 2, 3, 7, 9, 10}), "1-3,7,9-10");
     EXPECT_EQ(range_text({-2, -1}), "-2--1");
     EXPECT_EQ(range_text({}), "");

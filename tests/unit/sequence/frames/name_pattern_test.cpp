@@ -11,7 +11,7 @@ std::optional<int> number(const std::string& pattern, const std::string& name,
     return found ? std::optional<int>(found->value) : std::nullopt;
 }
 
-TEST(NamePattern, Text_is_text) {
+TEST(NamePattern, TextIsText) {
     EXPECT_EQ(number("p+q.%04d.exr", "p+q.0001.exr"), 1);
     EXPECT_EQ(number("p+q.%04d.exr", "ppq.0001.exr"), std::nullopt);
     EXPECT_EQ(number("a.%04d.exr", "a_0001.exr"), std::nullopt);
@@ -23,7 +23,7 @@ TEST(NamePattern, Text_is_text) {
     EXPECT_EQ(number("s.%v.exr", "s.l.exr", "left"), 0);
 }
 
-TEST(NamePattern, Numbers_of_all_widths) {
+TEST(NamePattern, NumbersOfAllWidths) {
     EXPECT_EQ(number("a.%04d.exr", "a.12345.exr"), 12345);
     EXPECT_EQ(number("a.%d.exr", "a.007.exr"), 7);
     EXPECT_EQ(number("a%04d7.exr", "a00027.exr"), 2);
@@ -36,7 +36,7 @@ TEST(NamePattern, Numbers_of_all_widths) {
     EXPECT_FALSE(NamePattern("v.%04d.exr").number_of("v.2147483647.exr", "")->beyond);
 }
 
-TEST(NamePattern, Negative_numbers_in_both_forms) {
+TEST(NamePattern, NegativeNumbersInBothForms) {
     EXPECT_EQ(number("a.%04d.exr", "a.-002.exr"), -2);
     EXPECT_EQ(number("a.%04d.exr", "a.-0002.exr"), -2);
     EXPECT_EQ(number("a.%01d.exr", "a.-2.exr"), -2);

@@ -10,9 +10,8 @@ using testing::ElementsAre;
 
 Side side(const std::string& pattern, const std::vector<int>& frames, bool from_disk = true) {
     Side made{pattern, {}};
-    for (int frame : frames) {
+    for (int frame : frames)
         made.files.items.push_back({frame, ""});
-    }
     made.files.names = file_names(pattern, {}, made.files.items);
     made.files.from_disk = from_disk;
     return made;
@@ -20,28 +19,27 @@ Side side(const std::string& pattern, const std::vector<int>& frames, bool from_
 
 std::vector<int> numbers(const std::vector<Side>& sides) {
     std::vector<int> found;
-    for (const Item& item : paired(sides)) {
+    for (const Item& item : paired(sides))
         found.push_back(item.frame);
-    }
     return found;
 }
 
-TEST(Paired, The_union_by_number) {
+TEST(Paired, TheUnionByNumber) {
     EXPECT_THAT(numbers({side("a.#", {1, 2}), side("b.#", {2, 3})}), ElementsAre(1, 2, 3));
 }
 
-TEST(Paired, Holes_of_what_is_on_the_disk_are_frames) {
+TEST(Paired, HolesOfWhatIsOnTheDiskAreFrames) {
     EXPECT_THAT(numbers({side("a.#", {1, 2, 5}), side("b.#", {1, 2, 5})}),
                 ElementsAre(1, 2, 3, 4, 5));
     EXPECT_THAT(numbers({side("a.#", {-2, 1})}), ElementsAre(-2, -1, 0, 1)); // two make no step
 }
 
-TEST(Paired, Steps_and_ranges_have_no_holes) {
+TEST(Paired, StepsAndRangesHaveNoHoles) {
     EXPECT_THAT(numbers({side("a.#", {1, 3, 7})}), ElementsAre(1, 3, 5, 7));
     EXPECT_THAT(numbers({side("a.#", {1, 2, 9}, false), side("b.#", {2})}), ElementsAre(1, 2, 9));
 }
 
-TEST(Paired, Nothing_and_too_much) {
+TEST(Paired, NothingAndTooMuch) {
     EXPECT_TRUE(paired({side("a.#", {})}).empty());
     EXPECT_THROW(paired({side("a.#", {1, 2, 2000000000})}), std::runtime_error);
 }
@@ -55,7 +53,7 @@ std::string refusal_of(const std::vector<Side>& sides, bool same_numbers = false
     return "";
 }
 
-TEST(PairSides, Ranges_of_equal_length_by_position) {
+TEST(PairSides, RangesOfEqualLengthByPosition) {
     const Pairing pairs =
         pair_sides({side("r.1001-1002#", {1001, 1002}, false), side("t.1-2#", {1, 2}, false)}, {});
     EXPECT_THAT(pairs.items, ElementsAre(Item{1001, ""}, Item{1002, ""}));
@@ -65,14 +63,14 @@ TEST(PairSides, Ranges_of_equal_length_by_position) {
     EXPECT_THAT(pairs.own[1], ElementsAre(Item{1, ""}, Item{2, ""}));
 }
 
-TEST(PairSides, A_range_holds_for_a_side_without_one) {
+TEST(PairSides, ARangeHoldsForASideWithoutOne) {
     const Pairing pairs =
         pair_sides({side("r.2-3#", {2, 3}, false), side("t.#", {1, 2, 3, 4})}, {});
     EXPECT_THAT(pairs.items, ElementsAre(Item{2, ""}, Item{3, ""}));
     EXPECT_THAT(pairs.names[1], ElementsAre("t.0002", "t.0003"));
 }
 
-TEST(PairSides, What_does_not_fit_is_refused_with_the_cure) {
+TEST(PairSides, WhatDoesNotFitIsRefusedWithTheCure) {
     using testing::HasSubstr;
     EXPECT_THAT(refusal_of({side("r.1-3#", {1, 2, 3}, false), side("t.1-2#", {1, 2}, false)}),
                 HasSubstr("\"r.1-3#\" has 3 frames, \"t.1-2#\" 2"));
@@ -86,7 +84,7 @@ TEST(PairSides, What_does_not_fit_is_refused_with_the_cure) {
     EXPECT_EQ(refusal_of({side("r.#", {1, 2}), side("t.#", {})}), "");
 }
 
-TEST(CheckSameNumbers, Of_what_is_on_the_disk) {
+TEST(CheckSameNumbers, OfWhatIsOnTheDisk) {
     using testing::HasSubstr;
     EXPECT_THAT(refusal_of({side("r.#", {1, 2, 3}), side("t.#", {1, 2, 4})}, true),
                 HasSubstr("\"t.#\" has frames 1-2,4"));
@@ -94,7 +92,7 @@ TEST(CheckSameNumbers, Of_what_is_on_the_disk) {
     EXPECT_EQ(refusal_of({side("r.3-4#", {3, 4}, false), side("t.1-2#", {1, 2}, false)}, true), "");
 }
 
-TEST(NamesOf, The_files_own_or_the_one_it_would_have) {
+TEST(NamesOf, TheFilesOwnOrTheOneItWouldHave) {
     Side found = side("a.#.exr", {1});
     found.files.names = {"./a.01.exr"};
     EXPECT_THAT(names_of(found, {}, {{1, ""}, {2, ""}}), ElementsAre("a.01.exr", "a.0002.exr"));

@@ -54,9 +54,8 @@ std::vector<FrameResult> shot_with(int first, int last, Change change) {
     std::vector<FrameResult> frames;
     for (int number = 1; number <= 12; ++number) {
         QcFacts facts = facts_of(number);
-        if (number >= first && number <= last) {
+        if (number >= first && number <= last)
             change(facts);
-        }
         frames.push_back(result_of(number, facts));
     }
     return frames;
@@ -65,18 +64,15 @@ std::vector<FrameResult> shot_with(int first, int last, Change change) {
 std::vector<std::string> codes_of(std::vector<FrameResult> frames) {
     judge_qc(frames);
     std::vector<std::string> codes;
-    for (const FrameResult& frame : frames) {
-        for (const Fault& fault : frame.faults) {
+    for (const FrameResult& frame : frames)
+        for (const Fault& fault : frame.faults)
             codes.push_back(std::to_string(frame.frame) + " " + fault.code);
-        }
-    }
     return codes;
 }
 
 void brighter(QcFacts& facts) {
-    for (int& cell : facts.picture.thumbnail) {
+    for (int& cell : facts.picture.thumbnail)
         cell += 800;
-    }
     facts.picture.hash += "brighter";
 }
 
@@ -85,11 +81,11 @@ void without_key(QcFacts& facts) {
     facts.layers[1].mean = facts.layers[1].max = 0;
 }
 
-TEST(Qc, A_clean_shot_has_no_fault) {
+TEST(Qc, ACleanShotHasNoFault) {
     EXPECT_THAT(codes_of(shot_with(1, 12, [](QcFacts&) {})), IsEmpty());
 }
 
-TEST(Qc, Finds_what_is_odd_in_a_frame) {
+TEST(Qc, FindsWhatIsOddInAFrame) {
     EXPECT_THAT(codes_of(shot_with(4, 4, without_key)), ElementsAre("4 blacklayer"));
     EXPECT_THAT(codes_of(shot_with(6, 6, brighter)), ElementsAre("6 flicker"));
     EXPECT_THAT(codes_of(shot_with(6, 7, brighter)), ElementsAre("6 flicker"));
@@ -105,7 +101,7 @@ TEST(Qc, Finds_what_is_odd_in_a_frame) {
 }
 
 // A cell of the same light beside it, a frame before, is a lamp that moves.
-TEST(Qc, A_firefly_is_alone_in_time_too) {
+TEST(Qc, AFireflyIsAloneInTimeToo) {
     const Change firefly = [](QcFacts& facts) {
         facts.picture.spikes = {{300, 200, 1000, 0.5}};
         facts.picture.peaks[size_t(10 * QcPicture::kWide + 15)] = 9966;
@@ -115,7 +111,7 @@ TEST(Qc, A_firefly_is_alone_in_time_too) {
     EXPECT_THAT(codes_of(shot_with(1, 12, firefly)), IsEmpty());
 }
 
-TEST(Qc, A_layer_that_fades_out_is_no_fault) {
+TEST(Qc, ALayerThatFadesOutIsNoFault) {
     std::vector<FrameResult> frames;
     for (int number = 1; number <= 12; ++number) {
         QcFacts facts = facts_of(number);
@@ -129,7 +125,7 @@ TEST(Qc, A_layer_that_fades_out_is_no_fault) {
     EXPECT_THAT(codes_of(frames), ElementsAre("8 missing", "8 blacklayer"));
 }
 
-TEST(Qc, Header_fields_that_change_all_the_time_are_no_fault) {
+TEST(Qc, HeaderFieldsThatChangeAllTheTimeAreNoFault) {
     std::vector<FrameResult> frames;
     for (int number = 1; number <= 12; ++number) {
         QcFacts facts = facts_of(number);
@@ -141,25 +137,22 @@ TEST(Qc, Header_fields_that_change_all_the_time_are_no_fault) {
     EXPECT_THAT(codes_of(frames), IsEmpty());
 }
 
-TEST(Qc, A_still_and_animation_on_twos_have_no_duplicates) {
+TEST(Qc, AStillAndAnimationOnTwosHaveNoDuplicates) {
     std::vector<FrameResult> twos;
-    for (int number = 1; number <= 12; ++number) {
+    for (int number = 1; number <= 12; ++number)
         twos.push_back(result_of(number, facts_of(number / 2)));
-    }
     EXPECT_THAT(codes_of(twos), IsEmpty());
     twos.clear();
-    for (int number = 1; number <= 12; ++number) {
+    for (int number = 1; number <= 12; ++number)
         twos.push_back(result_of(number, facts_of(number == 7 ? 6 : number)));
-    }
     EXPECT_THAT(codes_of(twos), ElementsAre("7 duplicate"));
 }
 
-TEST(Qc, Views_are_judged_by_themselves) {
+TEST(Qc, ViewsAreJudgedByThemselves) {
     std::vector<FrameResult> frames = shot_with(4, 4, without_key);
     std::vector<FrameResult> right = shot_with(1, 12, brighter);
-    for (FrameResult& frame : frames) {
+    for (FrameResult& frame : frames)
         frame.view = "left";
-    }
     for (FrameResult& frame : right) {
         frame.view = "right";
         frames.push_back(frame);
@@ -167,31 +160,28 @@ TEST(Qc, Views_are_judged_by_themselves) {
     EXPECT_THAT(codes_of(frames), ElementsAre("4 blacklayer"));
 }
 
-TEST(Qc, Severities_and_thresholds_are_those_that_were_asked_for) {
+TEST(Qc, SeveritiesAndThresholdsAreThoseThatWereAskedFor) {
     std::vector<FrameResult> frames = shot_with(6, 6, brighter);
     QcLimits limits;
     limits.set("flicker", "0.1,error");
-    for (FrameResult& frame : frames) {
+    for (FrameResult& frame : frames)
         frame.qc = to_json(QcRecord{qc_from_json(frame.qc).facts, limits});
-    }
     judge_qc(frames);
     ASSERT_EQ(frames[5].faults.size(), 1U);
     EXPECT_EQ(frames[5].status, Status::Failed);
     EXPECT_EQ(frames[5].faults[0].threshold, 0.1);
     EXPECT_NEAR(*frames[5].faults[0].value, 0.8, 0.05);
     limits.set("flicker", "off");
-    for (FrameResult& frame : frames) {
+    for (FrameResult& frame : frames)
         frame.qc = to_json(QcRecord{qc_from_json(frame.qc).facts, limits});
-    }
     EXPECT_THAT(codes_of(frames), IsEmpty());
 }
 
-TEST(Qc, Limits_refuse_what_they_cannot_be) {
+TEST(Qc, LimitsRefuseWhatTheyCannotBe) {
     QcLimits limits;
     EXPECT_THROW(limits.set("jmp", "1"), std::runtime_error);
-    for (const char* text : {"", "-1", "1,2", "loud", "off,off", "nan", "inf", "1,error,off"}) {
+    for (const char* text : {"", "-1", "1,2", "loud", "off,off", "nan", "inf", "1,error,off"})
         EXPECT_THROW(limits.set("jump", text), std::runtime_error) << text;
-    }
     EXPECT_THROW(limits.set("missing", "1"), std::runtime_error);
     limits.set("jump", "error,2");
     EXPECT_EQ(limits.threshold("jump"), 2);
@@ -199,7 +189,7 @@ TEST(Qc, Limits_refuse_what_they_cannot_be) {
 }
 
 // The order in which frames come, and whether parts of the shot were judged before, do not matter.
-TEST(Qc, Any_split_of_the_frames_gives_the_same) {
+TEST(Qc, AnySplitOfTheFramesGivesTheSame) {
     std::vector<FrameResult> all = shot_with(7, 7, brighter);
     ShotResult whole;
     whole.frames = all;
@@ -224,7 +214,7 @@ TEST(Qc, Any_split_of_the_frames_gives_the_same) {
     EXPECT_THAT(faults_text(whole), HasSubstr("qc: frame 7: warning flicker: "));
 }
 
-TEST(Qc, A_record_that_is_none_is_refused) {
+TEST(Qc, ARecordThatIsNoneIsRefused) {
     EXPECT_THROW(qc_from_json("{}"), std::runtime_error);
     std::string text = to_json(QcRecord{facts_of(1), {}});
     EXPECT_EQ(to_json(qc_from_json(text)), text);
@@ -256,16 +246,15 @@ void find_frame_five(const std::filesystem::path& folder) {
     EXPECT_THAT(shot.frames[4].message, HasSubstr("neonC is black in frame 5"));
 }
 
-TEST(Qc, The_light_group_that_fails_in_frame_five_is_found) {
+TEST(Qc, TheLightGroupThatFailsInFrameFiveIsFound) {
     find_frame_five(std::filesystem::path(TESTIMAGES_DIR) / "anim");
 }
 
-TEST(Qc, And_in_the_rendered_scene) {
+TEST(Qc, AndInTheRenderedScene) {
     const char* shared = std::getenv("SHARED_DIR");
     const auto folder = std::filesystem::path(shared ? shared : "") / "scenes" / "anim";
-    if (!shared || !std::filesystem::exists(folder)) {
+    if (!shared || !std::filesystem::exists(folder))
         GTEST_SKIP() << "no folder " << folder;
-    }
     find_frame_five(folder);
 }
 

@@ -51,13 +51,12 @@ nlohmann::json data_of(const std::string& page) {
 
 size_t count(const std::string& text, const std::string& word) {
     size_t found = 0;
-    for (size_t at = text.find(word); at != std::string::npos; at = text.find(word, at + 1)) {
+    for (size_t at = text.find(word); at != std::string::npos; at = text.find(word, at + 1))
         ++found;
-    }
     return found;
 }
 
-TEST(Store, Keeps_the_worst_whatever_the_order) {
+TEST(Store, KeepsTheWorstWhateverTheOrder) {
     for (const bool forward : {true, false}) {
         PictureStore store("", 2);
         for (int i = 0; i < 5; ++i) {
@@ -85,7 +84,7 @@ protected:
     std::string name = testing::TempDir() + fs::unique_path("pictures-%%%%%%%%");
 };
 
-TEST_F(Folder, A_continued_run_finds_its_pictures) {
+TEST_F(Folder, AContinuedRunFindsItsPictures) {
     {
         PictureStore store(name + "/p", 1);
         store.add(frame(1, 0.9), pictures(10));
@@ -102,7 +101,7 @@ TEST_F(Folder, A_continued_run_finds_its_pictures) {
     EXPECT_FALSE(store.small(frame(1, 0.9)).empty());
 }
 
-TEST_F(Folder, Pictures_of_what_has_changed_since_are_not_shown) {
+TEST_F(Folder, PicturesOfWhatHasChangedSinceAreNotShown) {
     PictureStore store(name);
     store.add(frame(1, 0.9), pictures(10));
     FrameResult missing;
@@ -120,25 +119,24 @@ TEST_F(Folder, Pictures_of_what_has_changed_since_are_not_shown) {
     EXPECT_TRUE(files().empty());
 }
 
-TEST_F(Folder, A_link_in_its_place_is_not_followed) {
+TEST_F(Folder, ALinkInItsPlaceIsNotFollowed) {
     std::filesystem::create_directory_symlink(name, name + "-link");
     EXPECT_THROW(PictureStore(name + "-link"), std::runtime_error);
     EXPECT_NO_THROW(PictureStore(name + "-link/")); // that one is meant
     std::filesystem::remove(name + "-link");
 }
 
-TEST_F(Folder, A_view_does_not_lead_out_of_it) {
+TEST_F(Folder, AViewDoesNotLeadOutOfIt) {
     PictureStore store(name + "/p");
     FrameResult odd = frame(1, 0.9);
     odd.view = "/../../evil";
     store.add(odd, pictures(10));
     EXPECT_FALSE(store.full(odd).empty());
-    for (const std::string& file : files()) {
+    for (const std::string& file : files())
         EXPECT_THAT(file, testing::AnyOf(testing::EndsWith("/p"), HasSubstr("/p/0001.%2f%2e%2e")));
-    }
 }
 
-TEST(Page, Names_are_only_text) {
+TEST(Page, NamesAreOnlyText) {
     const std::string evil = "</script><img src=x onerror=alert(1)>.exr";
     FrameResult missing;
     missing.frame = 1;
@@ -157,7 +155,7 @@ TEST(Page, Names_are_only_text) {
     EXPECT_EQ(data["about"][0][1], "tonetool " + evil + " {{data}}");
 }
 
-TEST(Page, Nothing_in_it_names_another_place) {
+TEST(Page, NothingInItNamesAnotherPlace) {
     const std::string page = report_page(shot({frame(1, 0.2)}), PictureStore());
     const std::string head = page.substr(0, page.find("id=\"result\""));
     EXPECT_THAT(head, Not(HasSubstr("http:")));
@@ -166,14 +164,14 @@ TEST(Page, Nothing_in_it_names_another_place) {
     EXPECT_THAT(page, HasSubstr("Content-Security-Policy"));
 }
 
-TEST(Page, The_same_shot_gives_the_same_bytes) {
+TEST(Page, TheSameShotGivesTheSameBytes) {
     PictureStore store;
     store.add(frame(1, 0.9), pictures(100));
     const ShotResult found = shot({frame(1, 0.9), frame(2, 0.1)});
     EXPECT_EQ(report_page(found, store), report_page(found, store));
 }
 
-TEST(Page, A_thousand_frames_stay_below_60_megabytes_and_the_page_says_what_is_kept) {
+TEST(Page, AThousandFramesStayBelow60MegabytesAndThePageSaysWhatIsKept) {
     PictureStore store;
     std::vector<FrameResult> frames;
     for (int i = 0; i < 1000; ++i) {
@@ -191,7 +189,7 @@ TEST(Page, A_thousand_frames_stay_below_60_megabytes_and_the_page_says_what_is_k
                           std::to_string(small)));
 }
 
-TEST(Page, Spots_that_turned_out_to_be_no_fault_are_left_out) {
+TEST(Page, SpotsThatTurnedOutToBeNoFaultAreLeftOut) {
     PictureStore store;
     FrameResult spotted = frame(1, 0.9);
     spotted.measurements[0].worst = Position{5, 6};
@@ -207,13 +205,12 @@ TEST(Page, Spots_that_turned_out_to_be_no_fault_are_left_out) {
     EXPECT_EQ(count(page, "data:spot-c"), 2U);
 }
 
-TEST(Page, Very_many_frames_have_no_histograms_but_the_worst_ones) {
+TEST(Page, VeryManyFramesHaveNoHistogramsButTheWorstOnes) {
     PictureStore store;
     std::vector<FrameResult> frames{frame(0, 0.9)};
     store.add(frames[0], pictures(10));
-    for (int i = 1; i < 20; ++i) {
+    for (int i = 1; i < 20; ++i)
         frames.push_back(frame(i, 0.1));
-    }
     PageLimits limits;
     limits.detailed_frames = 10;
     const nlohmann::json all = data_of(report_page(shot(frames), store, limits))["shot"]["frames"];
@@ -222,7 +219,7 @@ TEST(Page, Very_many_frames_have_no_histograms_but_the_worst_ones) {
     EXPECT_TRUE(all[1]["measurements"][0].contains("quantities"));
 }
 
-TEST_F(Folder, A_broken_file_of_pictures_is_left_out) {
+TEST_F(Folder, ABrokenFileOfPicturesIsLeftOut) {
     PictureStore store(name);
     store.add(frame(1, 0.9), pictures(10));
     const std::string text = store.full(frame(1, 0.9));
@@ -233,7 +230,7 @@ TEST_F(Folder, A_broken_file_of_pictures_is_left_out) {
     EXPECT_EQ(count(page, "id=\"small-"), 0U);
 }
 
-TEST(Sheet, A_cell_for_each_frame_also_without_a_picture) {
+TEST(Sheet, ACellForEachFrameAlsoWithoutAPicture) {
     FrameResult missing;
     missing.frame = 3;
     missing.status = Status::Missing;
@@ -247,11 +244,10 @@ TEST(Sheet, A_cell_for_each_frame_also_without_a_picture) {
     EXPECT_THROW(contact_sheet(shot({}), PictureStore(), warning), std::runtime_error);
 }
 
-TEST(Sheet, More_frames_than_fit_are_the_worst_and_it_says_so) {
+TEST(Sheet, MoreFramesThanFitAreTheWorstAndItSaysSo) {
     std::vector<FrameResult> frames;
-    for (int i = 0; i < int(most_sheet_frames) + 1; ++i) {
+    for (int i = 0; i < int(kMostSheetFrames) + 1; ++i)
         frames.push_back(frame(i, 0.1));
-    }
     std::string warning;
     contact_sheet(shot(frames), PictureStore(), warning);
     EXPECT_THAT(warning, HasSubstr("400 worst of 401 frames"));

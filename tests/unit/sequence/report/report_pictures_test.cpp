@@ -14,15 +14,13 @@ namespace {
 
 using OIIO::ImageBuf;
 
-constexpr float nan = std::numeric_limits<float>::quiet_NaN();
+constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 
 ImageBuf plain(int width, int height, int channels, float value) {
     ImageBuf image(OIIO::ImageSpec(width, height, channels, OIIO::TypeFloat));
-    for (ImageBuf::Iterator<float> pixel(image); !pixel.done(); ++pixel) {
-        for (int c = 0; c < channels; ++c) {
+    for (ImageBuf::Iterator<float> pixel(image); !pixel.done(); ++pixel)
+        for (int c = 0; c < channels; ++c)
             pixel[c] = value;
-        }
-    }
     return image;
 }
 
@@ -52,9 +50,9 @@ struct Compared {
     }
 };
 
-TEST(Reduced, The_mean_of_the_finite_pixels) {
+TEST(Reduced, TheMeanOfTheFinitePixels) {
     ImageBuf image = plain(4, 2, 3, 1);
-    const float three[3] = {3, 5, 7}, broken[3] = {nan, 1, 1};
+    const float three[3] = {3, 5, 7}, broken[3] = {kNan, 1, 1};
     image.setpixel(0, 0, three);
     image.setpixel(2, 0, broken);
     const ImageBuf small = reduced_color(image, {}, image.roi(), {2, 1});
@@ -63,7 +61,7 @@ TEST(Reduced, The_mean_of_the_finite_pixels) {
     EXPECT_FLOAT_EQ(small.getchannel(1, 0, 0, 0), 1.0f);
 }
 
-TEST(Reduced, What_an_image_does_not_cover_is_black_and_a_small_one_is_enlarged) {
+TEST(Reduced, WhatAnImageDoesNotCoverIsBlackAndASmallOneIsEnlarged) {
     const ImageBuf image = plain(2, 2, 3, 1);
     const OIIO::ROI beyond(0, 4, 0, 2, 0, 1, 0, 1);
     const ImageBuf same = reduced_color(image, {}, beyond, {4, 2});
@@ -74,7 +72,7 @@ TEST(Reduced, What_an_image_does_not_cover_is_black_and_a_small_one_is_enlarged)
     EXPECT_NEAR(large.getchannel(7, 7, 0, 1), 1, 1e-6);
 }
 
-TEST(Reduced, A_single_wrong_pixel_is_not_lost_in_a_small_map) {
+TEST(Reduced, ASingleWrongPixelIsNotLostInASmallMap) {
     ImageBuf error = plain(1000, 500, 1, 0), stops = plain(1000, 500, 1, -3);
     const float one = 1, two = 2;
     error.setpixel(777, 333, &one);
@@ -86,9 +84,9 @@ TEST(Reduced, A_single_wrong_pixel_is_not_lost_in_a_small_map) {
     EXPECT_EQ(maps.stops.getchannel(76, 33, 0, 0), -3);
 }
 
-TEST(Bytes, Ends_and_middle_of_the_tables) {
+TEST(Bytes, EndsAndMiddleOfTheTables) {
     ImageBuf light = plain(3, 1, 3, 0);
-    const float grey[3] = {0.21404f, 0.21404f, 0.21404f}, one[3] = {1, 2, nan};
+    const float grey[3] = {0.21404f, 0.21404f, 0.21404f}, one[3] = {1, 2, kNan};
     light.setpixel(1, 0, grey);
     light.setpixel(2, 0, one);
     const ImageBuf bytes = srgb_bytes(light);
@@ -105,7 +103,7 @@ TEST(Bytes, Ends_and_middle_of_the_tables) {
     EXPECT_THROW(colored_bytes(map, "veridis"), std::runtime_error);
 }
 
-TEST(Encoded, A_png_comes_back_as_it_was) {
+TEST(Encoded, APngComesBackAsItWas) {
     ImageBuf image(OIIO::ImageSpec(5, 3, 3, OIIO::TypeDesc::UINT8));
     for (ImageBuf::Iterator<unsigned char> pixel(image); !pixel.done(); ++pixel) {
         pixel[0] = float(pixel.x()) / 5;
@@ -115,17 +113,15 @@ TEST(Encoded, A_png_comes_back_as_it_was) {
     const auto back = picture_of(data_uri(image, Encoding::Png));
     ASSERT_TRUE(back);
     for (int y = 0; y < 3; ++y) {
-        for (int x = 0; x < 5; ++x) {
-            for (int c = 0; c < 3; ++c) {
+        for (int x = 0; x < 5; ++x)
+            for (int c = 0; c < 3; ++c)
                 EXPECT_EQ(back->getchannel(x, y, 0, c), image.getchannel(x, y, 0, c));
-            }
-        }
     }
     EXPECT_FALSE(picture_of("data:image/png;base64,AAAA"));
     EXPECT_FALSE(picture_of("no picture"));
 }
 
-TEST(Pictures, Both_images_at_five_exposures_maps_and_the_worst_pixel_from_near) {
+TEST(Pictures, BothImagesAtFiveExposuresMapsAndTheWorstPixelFromNear) {
     const Compared compared;
     const FramePictures pictures = draw_pictures(compared.request());
     ASSERT_EQ(compared.result.summary.exposures.size(), 4U);
@@ -142,24 +138,24 @@ TEST(Pictures, Both_images_at_five_exposures_maps_and_the_worst_pixel_from_near)
     ASSERT_EQ(pictures.spots.size(), 1U);
     const auto near = picture_of(pictures.spots[0].test);
     ASSERT_TRUE(near);
-    EXPECT_EQ(near->spec().width, 2 * spot_reach + 1);
-    EXPECT_GT(near->getchannel(spot_reach, spot_reach, 0, 0),
-              near->getchannel(spot_reach - 2, spot_reach, 0, 0) + 0.2f);
+    EXPECT_EQ(near->spec().width, 2 * kSpotReach + 1);
+    EXPECT_GT(near->getchannel(kSpotReach, kSpotReach, 0, 0),
+              near->getchannel(kSpotReach - 2, kSpotReach, 0, 0) + 0.2f);
 }
 
-TEST(Pictures, A_single_image_has_no_reference_and_chooses_its_own_exposures) {
+TEST(Pictures, ASingleImageHasNoReferenceAndChoosesItsOwnExposures) {
     const Compared compared;
     PictureRequest request;
     request.test = &compared.test;
     const FramePictures pictures = draw_pictures(request);
     EXPECT_GE(pictures.exposures.size(), 2U);
-    EXPECT_LE(pictures.exposures.size(), most_exposures);
+    EXPECT_LE(pictures.exposures.size(), kMostExposures);
     EXPECT_TRUE(pictures.exposures[0].reference.empty());
     EXPECT_TRUE(pictures.error.empty());
     EXPECT_FALSE(pictures.small_test.empty());
 }
 
-TEST(Pictures, Thumbnails_alone_where_that_is_asked_for) {
+TEST(Pictures, ThumbnailsAloneWhereThatIsAskedFor) {
     const Compared compared;
     PictureRequest request = compared.request();
     request.full = false;
@@ -167,24 +163,24 @@ TEST(Pictures, Thumbnails_alone_where_that_is_asked_for) {
     EXPECT_TRUE(pictures.exposures.empty());
     const auto small = picture_of(pictures.small_test);
     ASSERT_TRUE(small);
-    EXPECT_EQ(small->spec().width, thumbnail_side);
+    EXPECT_EQ(small->spec().width, kThumbnailSide);
     EXPECT_FALSE(nlohmann::json::parse(small_json(pictures))["error"].get<std::string>().empty());
 }
 
-TEST(Pictures, A_pixel_that_is_not_finite_is_magenta_from_near) {
+TEST(Pictures, APixelThatIsNotFiniteIsMagentaFromNear) {
     Compared compared;
-    const float broken[3] = {nan, 0, 0};
+    const float broken[3] = {kNan, 0, 0};
     compared.test.setpixel(250, 40, broken);
     const FramePictures pictures = draw_pictures(compared.request());
     const auto near = picture_of(pictures.spots.at(0).test);
     ASSERT_TRUE(near);
-    EXPECT_EQ(near->getchannel(spot_reach, spot_reach, 0, 0), 1);
-    EXPECT_EQ(near->getchannel(spot_reach, spot_reach, 0, 1), 0);
-    EXPECT_EQ(near->getchannel(spot_reach, spot_reach, 0, 2), 1);
+    EXPECT_EQ(near->getchannel(kSpotReach, kSpotReach, 0, 0), 1);
+    EXPECT_EQ(near->getchannel(kSpotReach, kSpotReach, 0, 1), 0);
+    EXPECT_EQ(near->getchannel(kSpotReach, kSpotReach, 0, 2), 1);
     EXPECT_LT(near->getchannel(0, 0, 0, 2), 1);
 }
 
-TEST(Pictures, A_black_image_and_one_without_colour) {
+TEST(Pictures, ABlackImageAndOneWithoutColour) {
     const ImageBuf black = plain(40, 30, 3, 0), depth = plain(40, 30, 1, 1);
     PictureRequest request;
     request.test = &black;

@@ -10,12 +10,12 @@ namespace {
 using testing::HasSubstr;
 using testing::Not;
 
-TEST(Escaped, Markup_is_only_text) {
+TEST(Escaped, MarkupIsOnlyText) {
     EXPECT_EQ(escaped("<img src=x onerror=\"a('b')\">&"),
               "&lt;img src=x onerror=&quot;a(&#39;b&#39;)&quot;&gt;&amp;");
 }
 
-TEST(Escaped, Bytes_that_are_no_text_are_replaced_and_controls_are_spaces) {
+TEST(Escaped, BytesThatAreNoTextAreReplacedAndControlsAreSpaces) {
     EXPECT_EQ(escaped("a\xff.exr"), "a\xef\xbf\xbd.exr");
     EXPECT_EQ(escaped("a\n\x01"
                       "b"),
@@ -23,19 +23,19 @@ TEST(Escaped, Bytes_that_are_no_text_are_replaced_and_controls_are_spaces) {
     EXPECT_EQ(escaped("\xc3\xa9"), "\xc3\xa9");
 }
 
-TEST(ScriptData, Is_the_same_value_without_a_character_of_markup) {
+TEST(ScriptData, IsTheSameValueWithoutACharacterOfMarkup) {
     const nlohmann::json value{{"<k>", "</script><!-- <img onerror=1> & \" \\ \xc3\xa9"}};
     const std::string data = script_data(value.dump());
     EXPECT_EQ(data.find_first_of("<>&"), std::string::npos);
     EXPECT_EQ(nlohmann::json::parse(data), value);
 }
 
-TEST(Filled, What_is_filled_in_is_not_looked_at_again) {
+TEST(Filled, WhatIsFilledInIsNotLookedAtAgain) {
     EXPECT_EQ(filled("a {{x}} {{y}} {", {{"x", "{{y}}"}, {"y", "$1 \\0 {{"}}),
               "a {{y}} $1 \\0 {{ {");
 }
 
-TEST(Filled, A_name_without_a_value_is_an_error) {
+TEST(Filled, ANameWithoutAValueIsAnError) {
     try {
         filled("{{nobody}}", {});
         FAIL();
@@ -44,7 +44,7 @@ TEST(Filled, A_name_without_a_value_is_an_error) {
     }
 }
 
-TEST(Policy, Nothing_but_its_own_scripts_and_styles_by_their_hashes) {
+TEST(Policy, NothingButItsOwnScriptsAndStylesByTheirHashes) {
     const std::string policy = page_policy();
     EXPECT_THAT(policy, HasSubstr("default-src 'none'; img-src data:;"));
     EXPECT_THAT(policy, testing::ContainsRegex("script-src 'sha256-[A-Za-z0-9+/]{43}=' 'sha256-"));
@@ -52,7 +52,7 @@ TEST(Policy, Nothing_but_its_own_scripts_and_styles_by_their_hashes) {
     EXPECT_THAT(policy, Not(HasSubstr("http")));
 }
 
-TEST(Status, Every_status_has_a_shape_and_all_errors_one_colour) {
+TEST(Status, EveryStatusHasAShapeAndAllErrorsOneColour) {
     EXPECT_EQ(page_class(Status::Passed), "passed");
     EXPECT_EQ(page_class(Status::SizeMismatch), "error");
     EXPECT_EQ(page_sign(Status::Missing), "missing");

@@ -11,7 +11,7 @@ std::string image(const std::string& name) {
     return std::string(TESTIMAGES_DIR) + "/" + name;
 }
 
-TEST(Probe, Says_what_is_wrong_with_files) {
+TEST(Probe, SaysWhatIsWrongWithFiles) {
     EXPECT_EQ(probed({image("plain.exr"), image("gone.exr")}).status, Status::Missing);
     EXPECT_EQ(probed({image("plain.exr"), image("truncated.exr")}).status, Status::Unreadable);
     EXPECT_EQ(probed({image("not_an_image.exr")}).status, Status::Unreadable);
@@ -21,7 +21,7 @@ TEST(Probe, Says_what_is_wrong_with_files) {
     EXPECT_THAT(probed({image("truncated.exr")}).message, HasSubstr("truncated.exr\""));
 }
 
-TEST(Settle, An_error_is_never_a_pass_whatever_was_measured) {
+TEST(Settle, AnErrorIsNeverAPassWhateverWasMeasured) {
     FrameResult frame;
     Measurement measured;
     measured.thresholds = {Threshold{"mean", 0, false, 1.0, {}}};
@@ -35,7 +35,7 @@ TEST(Settle, An_error_is_never_a_pass_whatever_was_measured) {
     EXPECT_EQ(frame.status, Status::Passed);
 }
 
-TEST(Settle, A_warning_keeps_from_passing) {
+TEST(Settle, AWarningKeepsFromPassing) {
     FrameResult frame;
     Measurement measured;
     measured.thresholds = {Threshold{"mean", 0, false, 1.0, {}}};

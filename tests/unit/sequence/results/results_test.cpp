@@ -62,17 +62,17 @@ ShotResult shot(std::vector<FrameResult> frames) {
     return result;
 }
 
-TEST(Judge, A_value_at_its_threshold_passes_and_above_fails) {
+TEST(Judge, AValueAtItsThresholdPassesAndAboveFails) {
     EXPECT_EQ(frame(1, 0.5).status, Status::Passed);
     EXPECT_EQ(frame(1, 0.50001).status, Status::Failed);
     EXPECT_THAT(frame(1, 0.75).message, HasSubstr("hdrflip: p99 0.75 > 0.5"));
 }
 
-TEST(Judge, A_value_that_is_no_number_fails) {
+TEST(Judge, AValueThatIsNoNumberFails) {
     EXPECT_EQ(frame(1, std::nan("")).status, Status::Failed);
 }
 
-TEST(Judge, All_thresholds_must_hold) {
+TEST(Judge, AllThresholdsMustHold) {
     const auto judged = [](std::vector<Threshold> thresholds) {
         FrameResult result = frame(1, 0.1);
         result.measurements.at(0).thresholds = std::move(thresholds);
@@ -92,7 +92,7 @@ TEST(Judge, All_thresholds_must_hold) {
     EXPECT_EQ(frame_from_json(to_json(both)).measurements.at(0).thresholds.size(), 2u);
 }
 
-TEST(Judge, A_threshold_of_an_older_part_is_read) {
+TEST(Judge, AThresholdOfAnOlderPartIsRead) {
     std::string text = to_json(frame(1, 0.6));
     const auto at = text.find("\"thresholds\"");
     ASSERT_NE(at, std::string::npos);
@@ -104,30 +104,30 @@ TEST(Judge, A_threshold_of_an_older_part_is_read) {
     EXPECT_EQ(result.status, Status::Failed);
 }
 
-TEST(Judge, Without_a_threshold_nothing_is_passed) {
+TEST(Judge, WithoutAThresholdNothingIsPassed) {
     EXPECT_EQ(frame(1, 0.1, std::nullopt).status, Status::Measured);
 }
 
-TEST(Judge, A_threshold_that_holds_passes_beside_a_measurement_without_one) {
+TEST(Judge, AThresholdThatHoldsPassesBesideAMeasurementWithoutOne) {
     FrameResult result = frame(1, 0.1);
     result.measurements.push_back(measured(0.9, std::nullopt));
     judge(result);
     EXPECT_EQ(result.status, Status::Passed);
 }
 
-TEST(Judge, Without_a_measurement_it_is_an_error) {
+TEST(Judge, WithoutAMeasurementItIsAnError) {
     FrameResult empty;
     empty.status = Status::Passed;
     judge(empty);
     EXPECT_EQ(empty.status, Status::Error);
 }
 
-TEST(Judge, What_is_worse_than_a_failure_stays) {
+TEST(Judge, WhatIsWorseThanAFailureStays) {
     EXPECT_EQ(missing(3).status, Status::Missing);
     EXPECT_EQ(missing(3).message, "no file \"a\"");
 }
 
-TEST(Judge, A_fault_counts_by_its_severity) {
+TEST(Judge, AFaultCountsByItsSeverity) {
     FrameResult result = frame(1, 0.1);
     result.faults = {{"dark", Severity::Info, "A bit dark.", "", {}, {}, {}}};
     judge(result);
@@ -138,7 +138,7 @@ TEST(Judge, A_fault_counts_by_its_severity) {
     EXPECT_EQ(result.message, "NaN.");
 }
 
-TEST(Conclude, The_worst_come_first) {
+TEST(Conclude, TheWorstComeFirst) {
     const ShotResult result = shot({frame(9, 0.9), frame(1, 0.1), missing(4), frame(2, 0.95)});
     EXPECT_EQ(result.verdict, Status::Missing);
     EXPECT_THAT(result.worst, ElementsAre(2, 1, 3)); // of 1, 2, 4, 9
@@ -146,14 +146,14 @@ TEST(Conclude, The_worst_come_first) {
     EXPECT_EQ(exit_status(result.verdict, false), 1);
 }
 
-TEST(Conclude, Where_all_passed_the_largest_error_is_named) {
+TEST(Conclude, WhereAllPassedTheLargestErrorIsNamed) {
     const ShotResult result = shot({frame(1, 0.1), frame(2, 0.3), frame(3, 0.2)});
     EXPECT_EQ(result.verdict, Status::Passed);
     EXPECT_THAT(result.worst, ElementsAre(1));
     EXPECT_EQ(exit_status(result.verdict, true), 0);
 }
 
-TEST(Conclude, Where_higher_is_better_the_lowest_is_named) {
+TEST(Conclude, WhereHigherIsBetterTheLowestIsNamed) {
     const auto of = [](const char* command, const char* quantity, std::vector<double> values) {
         std::vector<FrameResult> frames;
         for (const double value : values) {
@@ -172,14 +172,14 @@ TEST(Conclude, Where_higher_is_better_the_lowest_is_named) {
     EXPECT_THAT(of("hdrflip", "mean", {0.1, 0.2, 0.15}), ElementsAre(1));
 }
 
-TEST(Conclude, A_value_that_is_no_number_is_the_worst) {
+TEST(Conclude, AValueThatIsNoNumberIsTheWorst) {
     EXPECT_THAT(shot({frame(1, 0.9), frame(2, std::nan("")), frame(3, 0.8)}).worst,
                 ElementsAre(1, 0, 2));
     EXPECT_THAT(shot({frame(1, 0.9, std::nullopt), frame(2, std::nan(""), std::nullopt)}).worst,
                 ElementsAre(1));
 }
 
-TEST(Conclude, No_frame_is_an_error_and_one_twice_is_refused) {
+TEST(Conclude, NoFrameIsAnErrorAndOneTwiceIsRefused) {
     EXPECT_EQ(exit_status(shot({}).verdict, false), 1);
     EXPECT_THROW(shot({frame(1, 0.1), frame(1, 0.2)}), std::runtime_error);
 }
@@ -196,7 +196,7 @@ std::string qc_text() {
     return to_json(record);
 }
 
-TEST(Json, Comes_back_to_the_byte) {
+TEST(Json, ComesBackToTheByte) {
     FrameResult second = frame(2, std::nextafter(0.1, 1.0));
     second.view = "left";
     second.faults = {{"odd", Severity::Warning, "NaN.", "R", Position{1, 2}, -HUGE_VAL, 1e-310}};
@@ -213,14 +213,13 @@ TEST(Json, Comes_back_to_the_byte) {
     EXPECT_EQ(to_json(frame_from_json(to_json(second))), to_json(second));
 }
 
-TEST(Json, Every_name_of_a_status_comes_back) {
-    for (int i = 0; i <= int(Status::Error); ++i) {
+TEST(Json, EveryNameOfAStatusComesBack) {
+    for (int i = 0; i <= int(Status::Error); ++i)
         EXPECT_EQ(status_of_name(status_name(Status(i))), Status(i));
-    }
     EXPECT_FALSE(status_of_name("fine"));
 }
 
-TEST(Json, Names_that_are_no_text_do_not_break_it) {
+TEST(Json, NamesThatAreNoTextDoNotBreakIt) {
     FrameResult odd = missing(1);
     odd.test = "a\xff\"\n.exr";
     EXPECT_EQ(frame_from_json(to_json(odd)).test, "a\xEF\xBF\xBD\"\n.exr");
@@ -235,7 +234,7 @@ std::string refusal(const std::string& text) {
     return "accepted";
 }
 
-TEST(Json, Refuses_what_is_no_result_and_says_why) {
+TEST(Json, RefusesWhatIsNoResultAndSaysWhy) {
     EXPECT_THAT(refusal("[]"), HasSubstr("tonetool-check"));
     EXPECT_THAT(refusal("{"), HasSubstr("parse error"));
     EXPECT_THAT(refusal(R"({"format":"tonetool-check","version":9})"), HasSubstr("version 9"));

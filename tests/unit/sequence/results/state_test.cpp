@@ -48,7 +48,7 @@ protected:
     Kept m_kept{"{}", "printed\n", "", 3, {path("out.exr")}};
 };
 
-TEST_F(StateTest, What_was_kept_is_found) {
+TEST_F(StateTest, WhatWasKeptIsFound) {
     const State state(state_folder(), "frame");
     write("out.exr", "result");
     EXPECT_FALSE(state.find(m_item, origin()));
@@ -64,7 +64,7 @@ TEST_F(StateTest, What_was_kept_is_found) {
     EXPECT_FALSE(state.find(m_item, other));
 }
 
-TEST_F(StateTest, Every_change_of_a_file_that_was_opened_is_seen) {
+TEST_F(StateTest, EveryChangeOfAFileThatWasOpenedIsSeen) {
     const State state(state_folder(), "frame");
     write("out.exr", "result");
     const std::map<std::string, std::function<void()>> changes{
@@ -96,7 +96,7 @@ TEST_F(StateTest, Every_change_of_a_file_that_was_opened_is_seen) {
     }
 }
 
-TEST_F(StateTest, A_file_that_was_looked_for_is_seen_when_it_comes) {
+TEST_F(StateTest, AFileThatWasLookedForIsSeenWhenItComes) {
     const State state(state_folder(), "frame");
     write("out.exr", "result");
     state.keep(m_item, origin(), opened("lights.json"), m_kept);
@@ -105,7 +105,7 @@ TEST_F(StateTest, A_file_that_was_looked_for_is_seen_when_it_comes) {
     EXPECT_FALSE(state.find(m_item, origin()));
 }
 
-TEST_F(StateTest, A_file_with_parameters_behind_its_name_is_that_file) {
+TEST_F(StateTest, AFileWithParametersBehindItsNameIsThatFile) {
     const State state(state_folder(), "frame");
     write("out.exr", "result");
     state.keep(m_item, origin(), opened("in.exr?shot=cornell"), m_kept);
@@ -114,7 +114,7 @@ TEST_F(StateTest, A_file_with_parameters_behind_its_name_is_that_file) {
     EXPECT_FALSE(state.find(m_item, origin()));
 }
 
-TEST_F(StateTest, What_a_recipe_reads_counts) {
+TEST_F(StateTest, WhatARecipeReadsCounts) {
     const State state(state_folder(), "frame");
     write("out.exr", "result");
     write("shot.tone", "tonetool 1");
@@ -128,7 +128,7 @@ TEST_F(StateTest, What_a_recipe_reads_counts) {
     EXPECT_FALSE(state.find(m_item, origin()));
 }
 
-TEST_F(StateTest, The_luts_of_a_configuration_count) {
+TEST_F(StateTest, TheLutsOfAConfigurationCount) {
     const State state(state_folder(), "frame");
     write("out.exr", "result");
     write("show.ocio", R"(ocio_profile_version: 2
@@ -154,7 +154,7 @@ colorspaces:
     EXPECT_FALSE(state.find(m_item, origin()));
 }
 
-TEST_F(StateTest, A_file_that_changes_during_the_run_is_not_kept) {
+TEST_F(StateTest, AFileThatChangesDuringTheRunIsNotKept) {
     const State state(state_folder(), "frame");
     write("out.exr", "result");
     const FileLog before = opened("in.exr");
@@ -163,7 +163,7 @@ TEST_F(StateTest, A_file_that_changes_during_the_run_is_not_kept) {
     EXPECT_FALSE(state.find(m_item, origin()));
 }
 
-TEST_F(StateTest, An_output_that_is_gone_or_changed_is_made_again) {
+TEST_F(StateTest, AnOutputThatIsGoneOrChangedIsMadeAgain) {
     const State state(state_folder(), "frame");
     write("out.exr", "result");
     state.keep(m_item, origin(), opened("in.exr"), m_kept);
@@ -176,7 +176,7 @@ TEST_F(StateTest, An_output_that_is_gone_or_changed_is_made_again) {
     EXPECT_FALSE(state.find(m_item, origin()));
 }
 
-TEST_F(StateTest, Planted_links_are_not_followed) {
+TEST_F(StateTest, PlantedLinksAreNotFollowed) {
     const State state(state_folder(), "frame");
     write("out.exr", "result");
     state.keep(m_item, origin(), opened("in.exr"), m_kept);
@@ -193,20 +193,20 @@ TEST_F(StateTest, Planted_links_are_not_followed) {
     EXPECT_FALSE(fs::exists(path("nowhere.json")));
 }
 
-TEST_F(StateTest, A_folder_that_cannot_be_written_is_said) {
+TEST_F(StateTest, AFolderThatCannotBeWrittenIsSaid) {
     const State state(state_folder(), "frame");
     write("out.exr", "result");
     fs::remove_all(state_folder());
     EXPECT_THROW(state.keep(m_item, origin(), opened("in.exr"), m_kept), std::runtime_error);
 }
 
-TEST_F(StateTest, Names_stay_in_the_folder) {
+TEST_F(StateTest, NamesStayInTheFolder) {
     const State state(state_folder(), "frame");
     EXPECT_EQ(state.file({7, "../../x"}), state_folder() + "/frame.0007.%2E%2E%2F%2E%2E%2Fx.json");
     EXPECT_NE(state.file({7, "a"}), state.file({7, "A"}));
 }
 
-TEST_F(StateTest, A_file_is_no_folder) {
+TEST_F(StateTest, AFileIsNoFolder) {
     EXPECT_THROW(State(path("in.exr"), "frame"), std::runtime_error);
 }
 

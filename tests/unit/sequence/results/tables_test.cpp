@@ -31,7 +31,7 @@ ShotResult shot() {
     return made;
 }
 
-TEST(Csv, Cells_are_quoted_and_no_formula) {
+TEST(Csv, CellsAreQuotedAndNoFormula) {
     const std::string text = csv_text(shot());
     EXPECT_THAT(text, HasSubstr("frame,view,status,message,reference,test,faults,"
                                 "hdrflip.threshold,hdrflip.mean,hdrflip.p99,"
@@ -41,7 +41,7 @@ TEST(Csv, Cells_are_quoted_and_no_formula) {
     EXPECT_THAT(text, HasSubstr("b\xEF\xBF\xBD.exr"));
 }
 
-TEST(Csv, Further_thresholds_have_columns_of_their_own) {
+TEST(Csv, FurtherThresholdsHaveColumnsOfTheirOwn) {
     ShotResult made = shot();
     made.frames[1].measurements.resize(1);
     made.frames[1].measurements[0].thresholds.push_back({"mean", 0.1, false, 0.25, {}});
@@ -50,7 +50,7 @@ TEST(Csv, Further_thresholds_have_columns_of_their_own) {
     EXPECT_THAT(csv_text(made), HasSubstr(",,0.5,0.25,0.1,nan\r\n"));
 }
 
-TEST(Junit, Only_what_passed_is_a_plain_case) {
+TEST(Junit, OnlyWhatPassedIsAPlainCase) {
     const std::string text = junit_text(shot());
     EXPECT_THAT(text, HasSubstr("tests=\"4\" failures=\"1\" errors=\"1\" skipped=\"1\""));
     EXPECT_THAT(text, HasSubstr("<testcase classname=\"a.exr\" name=\"frame 0001\"/>"));
@@ -59,7 +59,7 @@ TEST(Junit, Only_what_passed_is_a_plain_case) {
     EXPECT_THAT(text, HasSubstr("<skipped message="));
 }
 
-TEST(Junit, Names_are_escaped) {
+TEST(Junit, NamesAreEscaped) {
     const std::string text = junit_text(shot());
     EXPECT_THAT(text, Not(HasSubstr("<img")));
     EXPECT_THAT(text, HasSubstr("&lt;img src=&quot;&amp;\xEF\xBF\xBD&quot;&gt;.exr"));

@@ -54,9 +54,8 @@ using Change = std::function<void(ordered_json&)>;
 // As if the words of the frames were those of their program: only the frames themselves contradict.
 void count_again(ordered_json& json) {
     Status verdict = Status::Passed;
-    for (auto& count : json["counts"].items()) {
+    for (auto& count : json["counts"].items())
         count.value() = 0;
-    }
     for (const auto& frame : json["frames"]) {
         const auto word = frame["status"].get<std::string>();
         json["counts"][word] = json["counts"].value(word, 0) + 1;
@@ -68,9 +67,8 @@ void count_again(ordered_json& json) {
 ShotResult read(const Change& change, const ShotResult& of_shot = shot()) {
     auto json = parse_json<ordered_json>(to_json(of_shot));
     change(json);
-    if (json["frames"].is_array()) {
+    if (json["frames"].is_array())
         count_again(json);
-    }
     return shot_from_json(json.dump());
 }
 
@@ -90,11 +88,11 @@ ordered_json& measured(ordered_json& json, size_t index = 1) {
     return frame(json, index)["measurements"][0];
 }
 
-TEST(Trust, A_result_that_is_as_it_was_written_is_believed) {
+TEST(Trust, AResultThatIsAsItWasWrittenIsBelieved) {
     EXPECT_EQ(read([](auto&) {}).verdict, Status::Failed);
 }
 
-TEST(Trust, Numbers_are_believed_not_the_word) {
+TEST(Trust, NumbersAreBelievedNotTheWord) {
     for (const char* word : {"passed", "measured", "warning"}) {
         const ShotResult result = read(
             [&](ordered_json& json) { frame(json)["status"] = measured(json)["status"] = word; });
@@ -104,7 +102,7 @@ TEST(Trust, Numbers_are_believed_not_the_word) {
     }
 }
 
-TEST(Trust, Faults_are_believed_not_the_word) {
+TEST(Trust, FaultsAreBelievedNotTheWord) {
     const ShotResult result = read([](ordered_json& json) {
         frame(json, 0)["faults"] = {{{"code", "odd"}, {"severity", "error"}, {"sentence", "Odd."}}};
     });
@@ -112,7 +110,7 @@ TEST(Trust, Faults_are_believed_not_the_word) {
     EXPECT_EQ(result.frames[0].message, "Odd.");
 }
 
-TEST(Trust, Numbers_that_are_missing_pass_nothing) {
+TEST(Trust, NumbersThatAreMissingPassNothing) {
     EXPECT_THAT(refusal([](auto& json) { measured(json, 0).erase("thresholds"); }),
                 HasSubstr("passed"));
     EXPECT_THAT(refusal([](auto& json) {
@@ -125,7 +123,7 @@ TEST(Trust, Numbers_that_are_missing_pass_nothing) {
     EXPECT_EQ(none.verdict, Status::Error);
 }
 
-TEST(Trust, A_threshold_is_the_one_of_the_check_and_of_its_quantity) {
+TEST(Trust, AThresholdIsTheOneOfTheCheckAndOfItsQuantity) {
     EXPECT_THAT(refusal([](auto& json) {
                     frame(json)["status"] = "passed";
                     measured(json)["thresholds"][0]["value"] = 0.001;
@@ -145,7 +143,7 @@ TEST(Trust, A_threshold_is_the_one_of_the_check_and_of_its_quantity) {
                 HasSubstr("called \"failed\", but its numbers and faults say \"passed\""));
 }
 
-TEST(Trust, Values_that_do_not_fit_are_named_with_their_place) {
+TEST(Trust, ValuesThatDoNotFitAreNamedWithTheirPlace) {
     for (const char* value : {"1e99", "1099511627776", "1.5", "\"nan\"", "null", "[]"}) {
         EXPECT_THAT(refusal([&](auto& json) { frame(json)["frame"] = ordered_json::parse(value); }),
                     HasSubstr("frames/1: \"frame\" is "))
@@ -178,7 +176,7 @@ std::string forged(const ShotResult& of_shot, const Change& change) {
         of_shot);
 }
 
-TEST(Trust, Direction_follows_from_the_quantity) {
+TEST(Trust, DirectionFollowsFromTheQuantity) {
     const auto flipped = [](ordered_json& one) {
         ordered_json& higher = one["thresholds"][0]["higher_is_better"];
         higher = !higher.get<bool>();
@@ -203,7 +201,7 @@ TEST(Trust, Direction_follows_from_the_quantity) {
                 HasSubstr("metric is mse"));
 }
 
-TEST(Trust, The_scores_of_tmqi_are_held_to_each_other) {
+TEST(Trust, TheScoresOfTmqiAreHeldToEachOther) {
     const auto score = [](double s, double n) {
         const double q = 0.8012 * std::pow(s, 0.3046) + 0.1988 * std::pow(n, 0.7088);
         return of("tmqi", {"Q", q, true, 0.8, {}}, {{"Q", q}, {"S", s}, {"N", n}});
@@ -220,7 +218,7 @@ Measurement difference(double count, double max, double fail = 0) {
               {{"mean", max / 100}, {"rms", max / 10}, {"max", max}});
 }
 
-TEST(Trust, A_comparison_of_values_is_held_to_the_check) {
+TEST(Trust, AComparisonOfValuesIsHeldToTheCheck) {
     const ShotResult plain = shot_of({"--diff"}, difference(0, 0), difference(150, 0.5));
     EXPECT_THAT(forged(plain, [](auto& one) { one["thresholds"][0]["value"] = 0; }),
                 HasSubstr("max of 0.5, which is above a limit of the check"));
@@ -254,7 +252,7 @@ TEST(Trust, A_comparison_of_values_is_held_to_the_check) {
                 HasSubstr("differing-pixels 0, which contradicts its max of 0.5"));
 }
 
-TEST(Trust, A_measurement_is_of_a_command_of_the_check) {
+TEST(Trust, AMeasurementIsOfACommandOfTheCheck) {
     EXPECT_THAT(forged(shot(),
                        [](auto& one) {
                            one["command"] = "diff";
@@ -271,7 +269,7 @@ TEST(Trust, A_measurement_is_of_a_command_of_the_check) {
                 HasSubstr("frame 1 has 0 measurements by ldrflip, but the check has 1"));
 }
 
-TEST(Trust, Each_limit_is_of_its_quantity_and_kind) {
+TEST(Trust, EachLimitIsOfItsQuantityAndKind) {
     const auto warned = [](double value) {
         Measurement one = of("hdrflip", {"p99", value, false, 0.9, 0.1}, {});
         one.thresholds.push_back({"mean", value / 2, false, {}, 0.1});
@@ -309,7 +307,7 @@ Measurement half_bad() {
     return one;
 }
 
-TEST(Trust, Numbers_of_a_map_are_held_to_each_other) {
+TEST(Trust, NumbersOfAMapAreHeldToEachOther) {
     const ShotResult maps = shot_of({"--hdrflip:fail=0.01"}, half_bad(), half_bad());
     const auto with = [&](const std::string& name, const ordered_json& value) {
         return forged(maps, [&](auto& one) { one["quantities"][name] = value; });
@@ -337,7 +335,7 @@ TEST(Trust, Numbers_of_a_map_are_held_to_each_other) {
                 HasSubstr("histogram of 99 buckets (valid: 100)"));
 }
 
-TEST(Trust, What_is_said_of_all_frames_is_of_those_that_are_there) {
+TEST(Trust, WhatIsSaidOfAllFramesIsOfThoseThatAreThere) {
     const auto said = [](const Change& change) {
         auto json = parse_json<ordered_json>(to_json(shot()));
         change(json);
@@ -364,7 +362,7 @@ TEST(Trust, What_is_said_of_all_frames_is_of_those_that_are_there) {
 }
 
 // What no number is does not hold.
-TEST(Trust, A_NaN_fails) {
+TEST(Trust, ANaNFails) {
     const ShotResult result = read([](ordered_json& json) {
         measured(json, 0)["thresholds"][0]["value"] = measured(json, 0)["quantities"]["mean"] =
             "nan";
@@ -372,7 +370,7 @@ TEST(Trust, A_NaN_fails) {
     EXPECT_EQ(result.frames[0].status, Status::Failed);
 }
 
-TEST(Trust, Depth_is_bounded) {
+TEST(Trust, DepthIsBounded) {
     const std::string deep = std::string(100000, '[') + std::string(100000, ']');
     const auto refused = [](const std::string& text) {
         try {
@@ -384,9 +382,8 @@ TEST(Trust, Depth_is_bounded) {
     };
     EXPECT_THAT(refused(deep), HasSubstr("nested deeper than 100"));
     std::string objects;
-    for (int i = 0; i < 10000; ++i) {
+    for (int i = 0; i < 10000; ++i)
         objects += "{\"a\":";
-    }
     EXPECT_THAT(refused(objects), HasSubstr("nested deeper than 100"));
     EXPECT_THAT(refused("\"" + std::string(500, '[') + "\\\"[[[[\""), HasSubstr("tonetool-check"));
     EXPECT_THROW(frame_from_json(deep), std::runtime_error);
