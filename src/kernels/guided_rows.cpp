@@ -261,7 +261,7 @@ HWY_INLINE void AddBatch(const Terms& terms, const Batch& batch, ptrdiff_t x, pt
     sums.Add(x, value, weight);
 }
 
-// WeightedRun of sums of sums: long rows of additions in float would lose digits.
+// Sums of sums of sums: long rows of additions in float would lose digits.
 constexpr ptrdiff_t kBlock = 16 * kBatch;
 
 template <class Terms>

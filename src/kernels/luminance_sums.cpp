@@ -18,7 +18,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 constexpr float kLargest = std::numeric_limits<float>::max();
 constexpr double kLn2 = 0.693147180559945309417232121458;
 
-// LuminanceLanes of values up to the largest of float are floats.
+// Sums of values up to the largest of float are floats.
 constexpr float kScale = 1.0f / (1 << 24);
 
 // Twice the digits of float: what an addition rounds off is added up beside it (D. E. Knuth, "The

@@ -14,7 +14,6 @@
 
 namespace tonetool::chain {
 
-using ImagePtr;
 
 class Call {
 public:

@@ -12,9 +12,6 @@
 namespace tonetool::chain {
 
 namespace IBA = OIIO::ImageBufAlgo;
-using Geometry;
-using parsed_size;
-using Size;
 using Floats = std::vector<float>;
 inline constexpr Range kAnyNumberAtAll{-3.4e38, 3.4e38};
 inline constexpr Range kAnyInteger{-2147483648.0, 2147483647.0};

@@ -25,15 +25,6 @@ struct CheckPart;
 
 namespace tonetool::chain {
 
-using DataFormat;
-using Image;
-using ImagePtr;
-using Listing;
-using NamedType;
-using OutputSettings;
-using Part;
-using PartPtr;
-using ReadOptions;
 
 /// What the frame loop has put in place of wildcards.
 struct Frame {
