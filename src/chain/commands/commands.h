@@ -17,7 +17,7 @@ std::vector<Command> cgtmo_commands();
 std::vector<Command> light_commands();
 std::vector<Command> memory_commands();
 
-/// All of them.
-std::vector<Command> commands();
+/// All rows of commands that oiiotool has not, and of its comparisons.
+std::vector<Command> own_commands();
 
 } // namespace tonetool::chain
