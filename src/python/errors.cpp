@@ -1,6 +1,7 @@
 // The measures that rendering papers report.
 #include "tonetool/errors.h"
 
+#include "imagebuf/options/flip_options.h"
 #include "python/compare.h"
 #include "python/families.h"
 
@@ -23,18 +24,9 @@ using Options = On<ErrorOptions>;
 using ErrorObject = Imaged<ErrorSummary>;
 
 Fields<Options> fields() {
-    return joined<Options>(
-        {{field<Options>("metric", &Options::metric, "One of error_metrics(); must be given."),
-          field<Options>("eps", &Options::eps, "Of rmae, relmse and smape, 1e-12 to 1e12."),
-          field<Options>("peak", &Options::peak, "Of psnr: linear light, 1e-12 to 1e12."),
-          field<Options>("start_exposure", &Options::start_exposure,
-                         "Of mpsnr: stops; None: as hdr_flip."),
-          field<Options>("stop_exposure", &Options::stop_exposure,
-                         "Of mpsnr: stops; None: as hdr_flip."),
-          field<Options>("num_exposures", &Options::num_exposures,
-                         "Of mpsnr: 1 to 1024; None: as hdr_flip.")},
-         pair_fields<Options>(),
-         {roi_field<Options>(), threads_field<Options>()}});
+    return joined<Options>({described<Options, ErrorOptions>(),
+                            pair_fields<Options>(),
+                            {roi_field<Options>(), threads_field<Options>()}});
 }
 
 py::object run(std::vector<py::object>& images, const Options& options) {

@@ -1,6 +1,7 @@
 // LDR-FLIP, HDR-FLIP and the filmstrip.
 #include "tonetool/flip.h"
 
+#include "imagebuf/options/flip_options.h"
 #include "python/families.h"
 #include "python/flip_results.h"
 
@@ -10,51 +11,20 @@ namespace {
 
 template <class O>
 Fields<O> flip_fields() {
-    return joined<O>(
-        {pair_fields<O>(),
-         {field<O>("ppd", &O::ppd,
-                   "Pixels per degree of visual angle, 1 to 1000; None: by the three below."),
-          field<O>("distance", &O::distance, "Viewing distance in metres, above 0."),
-          field<O>("width", &O::width, "Width of the screen in metres, above 0."),
-          field<O>("pixels_across", &O::pixels_across,
-                   "Width of the screen in pixels, above 0.")}});
-}
-
-template <class O>
-Fields<O> view_fields() {
-    return {
-        field<O>("curve", &O::curve, "Tone curve; None: aces as in the paper."),
-        field<O>("view", &O::view, "A view of an OpenColorIO configuration instead of the curve."),
-        field<O>("encoding", &O::encoding,
-                 "How the view's result is encoded where its display does not say: \"srgb\", "
-                 "\"gamma2.2\", \"rec1886\", \"gamma2.6\", \"linear\"."),
-        field<O>("peak", &O::peak,
-                 "Light in cd/m2 that counts as the display's white; HDR displays need it."),
-        field<O>("exact", &O::exact,
-                 "The view by OpenColorIO itself, not by a table baked from it."),
-    };
-}
-
-template <class O>
-Fields<O> exposure_fields() {
-    return {
-        field<O>("start_exposure", &O::start_exposure, "Stops; None: paper Eq. 2."),
-        field<O>("stop_exposure", &O::stop_exposure, "Stops; None: paper Eq. 3."),
-        field<O>("num_exposures", &O::num_exposures,
-                 "1 to 1024; None: max(2, ceil(stop - start))."),
-        field<O>("max_luminance", &O::max_luminance,
-                 "Instead of measuring the reference's maximum."),
-        field<O>("median_luminance", &O::median_luminance,
-                 "Instead of measuring the reference's median."),
-        field<O>("want_exposure_map", &O::want_exposure_map,
-                 "Fill exposure_stops and exposure_index of the result."),
-        field<O>("want_exposures", &O::want_exposures, "Fill exposures of the result."),
-    };
+    return joined<O>({pair_fields<O>(), described<O, FlipOptions>()});
 }
 
 template <class O>
 Fields<O> hdr_fields() {
-    return joined<O>({flip_fields<O>(), view_fields<O>(), exposure_fields<O>()});
+    return joined<O>(
+        {flip_fields<O>(),
+         {field<O>("curve", &O::curve, "Tone curve; None: aces as in the paper."),
+          field<O>("view", &O::view,
+                   "A view of an OpenColorIO configuration instead of the curve.")},
+         described<O, HdrFlipOptions>(),
+         {field<O>("want_exposure_map", &O::want_exposure_map,
+                   "Fill exposure_stops and exposure_index of the result."),
+          field<O>("want_exposures", &O::want_exposures, "Fill exposures of the result.")}});
 }
 
 const std::string kSourceLdr =

@@ -1,6 +1,7 @@
 // Light groups and panoramas.
 #include "tonetool/lights.h"
 
+#include "imagebuf/options/tone_options.h"
 #include "python/families.h"
 #include "python/lights.h"
 
@@ -19,21 +20,18 @@ template <>
 const Table<LightOptions>& table_of<LightOptions>() {
     using O = LightOptions;
     static const Table<O> table = {
-        "LightOptions",
-        "table",
-        "Where the lights are told apart, and how bright each of them is",
-        {field<O>("table", &O::table, "File (.csv, .json) of the table of lights; \"\": none."),
-         field<O>("unit", &O::unit,
-                  "Of the table's values: \"luminance\", that of the image; a number times that; "
-                  "or \"power\"."),
-         field<O>("layer", &O::layer,
-                  "Layer with the index of a light in each pixel; \"groups\": made of the light "
-                  "groups; \"\": one that is called so, else the groups."),
-         field<O>(
-             "index", &O::index,
-             "\"contribution\": the group that gives most light; \"power\": of those that give "
-             "1 % the one with the largest value in the table."),
-         field<O>("groups", &O::groups, "Light groups, by name or layer; []: found by name.")}};
+        "LightOptions", "table", "Where the lights are told apart, and how bright each of them is",
+        [] {
+            Fields<O> fields = described<O, LightOptions>();
+            // The command line names the layer in ways of each command: lightindex=, layer=.
+            fields.insert(
+                fields.begin() + 2,
+                field<O>("layer", &O::layer,
+                         "Layer with the index of a light in each pixel; \"groups\": made "
+                         "of the light groups; \"\": one that is called so, else the "
+                         "groups."));
+            return fields;
+        }()};
     return table;
 }
 

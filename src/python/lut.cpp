@@ -1,6 +1,7 @@
 // Tone curves and views as look-up tables.
 #include "tonetool/lut.h"
 
+#include "imagebuf/options/tone_options.h"
 #include "python/families.h"
 #include "python/results.h"
 
@@ -15,19 +16,10 @@ const std::string kSource =
 using O = LutOptions;
 
 Fields<O> fields() {
-    return {
-        field<O>("curve", &O::curve, "Tone curve; None: aces."),
-        field<O>("view", &O::view, "A view of an OpenColorIO configuration instead of the curve."),
-        field<O>(
-            "from_", &O::from,
-            "Colour space of the configuration that a view starts from; \"\": linear Rec.709."),
-        field<O>("encode", &O::encode, "Of the result of a curve, one of display_encodings()."),
-        field<O>("shaper", &O::shaper, "One of lut_shapers()."),
-        field<O>("min", &O::min, "Stops, of the shaper log2; -24 to 0."),
-        field<O>("max", &O::max, "Stops, of the shaper log2; 1 to 16."),
-        field<O>("size", &O::size,
-                 "Entries, 2 to 65536, or nodes along an edge of a cube, 2 to 129; 0: 4096 or 33."),
-    };
+    return joined<O>({{field<O>("curve", &O::curve, "Tone curve; None: aces."),
+                       field<O>("view", &O::view,
+                                "A view of an OpenColorIO configuration instead of the curve.")},
+                      described<O, LutOptions>()});
 }
 
 py::object run(std::vector<py::object>& arguments, const O& options) {

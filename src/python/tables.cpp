@@ -1,4 +1,5 @@
 // Tables of the structs of options that several functions take.
+#include "imagebuf/options/tone_options.h"
 #include "python/options.h"
 
 namespace tonetool::python {
@@ -55,25 +56,16 @@ template <>
 const Table<CalibrationOptions>& table_of<CalibrationOptions>() {
     using O = CalibrationOptions;
     static const Table<O> table = {
-        "CalibrationOptions",
-        "method",
-        "How the exposure is found",
-        {field<O>(
-             "method", &O::method,
-             "\"manual\": 2^stops; \"mean\": key / geometric mean; \"auto\": the same with the "
-             "key by the mean (Krawczyk et al. 2005)."),
-         field<O>("stops", &O::stops, "Stops of exposure, -126 to 126."),
-         field<O>("key", &O::key, "What the mean becomes, with \"mean\"; 1e-4 to 100."),
-         field<O>("level", &O::level,
-                  "Local means over 2^level x 2^level cells; 0: one mean for the image."),
-         field<O>("epsilon", &O::epsilon, "Added to each luminance before its logarithm, above 0."),
-         field<O>("skip_black", &O::skip_black,
-                  "Leave pixels of luminance 0 out of the statistics."),
-         field<O>("skip_transparent", &O::skip_transparent,
-                  "Leave pixels of alpha 0 out of the statistics."),
-         field<O>("white_percentile", &O::white_percentile,
-                  "The curve's parameter `white` from this percentile of the calibrated "
-                  "luminance; 100: the maximum.")}};
+        "CalibrationOptions", "method", "How the exposure is found",
+        joined<O>(
+            {{field<O>(
+                 "method", &O::method,
+                 "\"manual\": 2^stops; \"mean\": key / geometric mean; \"auto\": the same with the "
+                 "key by the mean (Krawczyk et al. 2005).")},
+             described<O, CalibrationOptions>(),
+             {field<O>("white_percentile", &O::white_percentile,
+                       "The curve's parameter `white` from this percentile of the calibrated "
+                       "luminance; 100: the maximum.")}})};
     return table;
 }
 

@@ -1,6 +1,7 @@
 // Tone mapping and calibration.
 #include "tonetool/tonemap.h"
 
+#include "imagebuf/options/tone_options.h"
 #include "python/families.h"
 #include "python/results.h"
 
@@ -31,19 +32,14 @@ using CalibrateObject = Imaged<CalibrationSummary>;
 
 Fields<MapOptions> map_fields() {
     using O = MapOptions;
-    return {
-        field<O>("curve", &O::curve, "Tone curve; None: aces."),
-        field<O>("view", &O::view, "A view of an OpenColorIO configuration instead of the curve."),
-        field<O>("calibration", &O::calibration, "How the exposure is found; None: as it is."),
-        field<O>("pixels", &O::pixels, "Layer and colour space."),
-        field<O>("primaries", &O::primaries,
-                 "\"rec709\" or \"image\": what a curve works in and the result has."),
-        field<O>("encode", &O::encode, "Of the result of a curve, one of display_encodings()."),
-        field<O>("clamp", &O::clamp, "The result of a curve to 0 to 1."),
-        field<O>("unpremult", &O::unpremult, "Divide colour by alpha before, multiply after."),
-        roi_field<O>(),
-        threads_field<O>(),
-    };
+    return joined<O>(
+        {{field<O>("curve", &O::curve, "Tone curve; None: aces."),
+          field<O>("view", &O::view,
+                   "A view of an OpenColorIO configuration instead of the curve."),
+          field<O>("calibration", &O::calibration, "How the exposure is found; None: as it is."),
+          field<O>("pixels", &O::pixels, "Layer and colour space.")},
+         described<O, TonemapOptions>(),
+         {roi_field<O>(), threads_field<O>()}});
 }
 
 Fields<CalibrateOptions> calibrate_fields() {

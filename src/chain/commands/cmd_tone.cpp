@@ -5,7 +5,9 @@
 #include "chain/commands/color_input.h"
 #include "chain/commands/commands.h"
 #include "chain/commands/flip_args.h"
+#include "chain/commands/options.h"
 #include "chain/commands/tone_args.h"
+#include "imagebuf/options/tone_options.h"
 #include "text/error.h"
 
 namespace tonetool::chain {
@@ -45,10 +47,7 @@ TonemapOptions tonemap_options(const Session& session, const Call& call) {
     options.calibration.white_percentile = white_percentile(call);
     if (options.view && (call.has("encode") || call.has("primaries") || call.has("clamp")))
         throw CommandError("encode=, primaries= and clamp= are of tone curves: a view has its own");
-    options.primaries = call.choice("primaries", {"rec709", "image"}).value_or("rec709");
-    options.encode = call.choice("encode", ToneAlgo::display_encodings()).value_or(options.encode);
-    options.clamp = call.flag("clamp", true);
-    options.unpremult = call.flag("unpremult", false);
+    read_options(call, options);
     return options;
 }
 
@@ -128,14 +127,9 @@ LutOptions lut_options(const Session& session, const Call& call) {
     check_one_way(call, "curve");
     options.curve = curve_options(call, "curve");
     options.view = view_options(session, call);
-    options.from = call.text("from").value_or("");
     if (options.view && call.has("encode"))
         throw CommandError("encode= is of tone curves: a view has its own");
-    options.encode = call.choice("encode", ToneAlgo::display_encodings()).value_or(options.encode);
-    options.shaper = call.choice("shaper", ToneAlgo::lut_shapers()).value_or(options.shaper);
-    options.min = call.number("min", {-24, 0}).value_or(options.min);
-    options.max = call.number("max", {1, 16}).value_or(options.max);
-    options.size = call.integer("size", {2, 65536}).value_or(0);
+    read_options(call, options);
     return options;
 }
 
@@ -163,12 +157,7 @@ std::vector<Modifier> exportlut_modifiers() {
         {{{"curve", "NAME", "tone curve (aces): " + join(ToneAlgo::tone_curve_names(), ", ")}},
          curve_modifiers(false),
          view_modifiers(),
-         {{"from", "SPACE", "colour space that a view starts from (linear Rec.709)"},
-          {"encode", join(ToneAlgo::display_encodings(), "|"), "of a curve's result (srgb)"},
-          {"shaper", join(ToneAlgo::lut_shapers(), "|"), "of scene light to 0 to 1 (log2)"},
-          {"min", "X", "stops of log2's low end, -24 to 0 (-12)"},
-          {"max", "X", "stops of its high end, 1 to 16 (10)"},
-          {"size", "N", "entries (4096), or nodes along a cube's edge (33)"}}});
+         modifiers_of<LutOptions>()});
 }
 
 std::vector<Modifier> method_modifier(const std::string& otherwise) {
@@ -184,10 +173,7 @@ std::vector<Modifier> tonemap_modifiers() {
          view_modifiers(),
          method_modifier("manual"),
          calibration_modifiers(),
-         {{"encode", join(ToneAlgo::display_encodings(), "|"), "of the result (srgb)"},
-          {"primaries", "rec709|image", "that a curve works in and the result has (rec709)"},
-          {"clamp", "0|1", "the result of a curve to 0 to 1 (1)"},
-          {"unpremult", "0|1", "divide by alpha before, multiply after (0)"}},
+         modifiers_of<TonemapOptions>(),
          pixel_modifiers()});
 }
 

@@ -4,15 +4,14 @@
 #include <algorithm>
 
 #include "chain/commands/frame_pictures.h"
+#include "chain/commands/options.h"
 #include "chain/commands/tone_args.h"
+#include "imagebuf/options/flip_options.h"
 #include "text/error.h"
 
 namespace tonetool::chain {
 
 namespace {
-
-const Range kStopsRange{-1000, 1000};
-const Range kLuminanceRange{1e-30, 1e30};
 
 std::string choices(const Strings& names) {
     return join(names, "|");
@@ -27,26 +26,25 @@ void read_size(const Call& call, PairOptions& options) {
 }
 
 void read_screen(const Call& call, FlipOptions& options) {
-    auto distance = call.number("distance", {1e-6, 1e6});
-    auto width = call.number("width", {1e-6, 1e6});
-    auto pixels = call.number("pixels", {1, 1e7});
-    if (options.ppd && (distance || width || pixels))
+    if (call.has("ppd") && (call.has("distance") || call.has("width") || call.has("pixels")))
         throw CommandError("ppd= goes without distance=, width= and pixels= (valid: either)");
-    options.distance = distance.value_or(options.distance);
-    options.width = width.value_or(options.width);
-    options.pixels_across = pixels.value_or(options.pixels_across);
+    read_options(call, options);
+}
+
+void check_order(const Call& call, const std::optional<double>& start,
+                 const std::optional<double>& stop) {
+    if (start && stop && *start > *stop) {
+        throw CommandError("startExposure " + *call.text("startExposure") +
+                           " is above stopExposure " + *call.text("stopExposure"));
+    }
 }
 
 template <class Options>
 void read_exposures(const Call& call, Options& options, double least = 1) {
     options.start_exposure = call.number("startExposure", kStopsRange);
     options.stop_exposure = call.number("stopExposure", kStopsRange);
-    if (options.start_exposure && options.stop_exposure &&
-        *options.start_exposure > *options.stop_exposure) {
-        throw CommandError("startExposure " + *call.text("startExposure") +
-                           " is above stopExposure " + *call.text("stopExposure"));
-    }
-    options.num_exposures = call.integer("numExposures", {least, 1024});
+    check_order(call, options.start_exposure, options.stop_exposure);
+    options.num_exposures = call.integer("numExposures", {least, double(kMostExposures)});
 }
 
 // fail= and warn= of a command.
@@ -201,10 +199,7 @@ std::vector<Modifier> pair_modifiers() {
 }
 
 std::vector<Modifier> viewing_modifiers() {
-    return {{"ppd", "X", "pixels per degree of visual angle; or the three numbers below"},
-            {"distance", "METRES", "viewing distance (0.7)"},
-            {"width", "METRES", "width of the screen (0.7)"},
-            {"pixels", "N", "width of the screen in pixels (3840)"}};
+    return modifiers_of<FlipOptions>();
 }
 
 std::vector<Modifier> hdr_modifiers() {
@@ -212,15 +207,7 @@ std::vector<Modifier> hdr_modifiers() {
         {{{"tonemapper", "NAME", "tone curve (aces): " + join(ToneAlgo::flip_tonemappers(), ", ")}},
          curve_modifiers(false, true),
          view_modifiers(),
-         {{"encoding", "srgb|gamma2.2|rec1886|gamma2.6|linear",
-           "of the view's result (its display's)"},
-          {"peak", "X", "light in cd/m2 that counts as white, for HDR displays"},
-          {"exact", "0|1", "the view by OpenColorIO itself instead of a table made from it (0)"},
-          {"startExposure", "STOPS", "first exposure (from the reference)"},
-          {"stopExposure", "STOPS", "last exposure (from the reference)"},
-          {"numExposures", "N", "number of exposures (from their range)"},
-          {"maxluminance", "X", "instead of the reference's maximum luminance"},
-          {"medianluminance", "X", "instead of the reference's median luminance"}}});
+         modifiers_of<HdrFlipOptions>()});
 }
 
 std::vector<Modifier> threshold_modifiers(const Measures& measures, const std::string& unless) {
@@ -271,7 +258,7 @@ void read_pair_options(const Session& session, const Call& call, PairOptions& op
 void read_flip_options(const Session& session, const Call& call, bool screen,
                        FlipOptions& options) {
     read_pair_options(session, call, options);
-    options.ppd = call.number("ppd", {1, 1000});
+    options.ppd = call.number("ppd", kPpdRange);
     if (screen)
         read_screen(call, options);
 }
@@ -281,15 +268,10 @@ void read_hdr_options(const Session& session, const Call& call, HdrFlipOptions& 
     options.view = view_options(session, call);
     read_view_spaces(options.view, options.pixels);
     options.curve = curve_options(call, "tonemapper");
-    options.encoding =
-        call.choice("encoding", {"srgb", "gamma2.2", "rec1886", "gamma2.6", "linear"}).value_or("");
-    options.peak = call.number("peak", {1, 10000});
-    options.exact = call.flag("exact", false);
+    read_options(call, options);
     if (!options.view && (call.has("encoding") || call.has("peak") || call.has("exact")))
         throw CommandError("encoding=, peak= and exact= need display= or view=");
-    read_exposures(call, options);
-    options.max_luminance = call.number("maxluminance", kLuminanceRange);
-    options.median_luminance = call.number("medianluminance", kLuminanceRange);
+    check_order(call, options.start_exposure, options.stop_exposure);
 }
 
 Limits limits_of(const Call& call, const Measures& measures, Strings& pooled) {
@@ -355,7 +337,7 @@ HdrFlipOptions flipdiff_options(const Session& session, const Call& call) {
     HdrFlipOptions options;
     options.memory = session.memory - std::min(session.memory, shown_bytes(session, call));
     options.pixels = pixel_options(call);
-    options.ppd = call.number("ppd", {1, 1000}).value_or(67.02);
+    options.ppd = call.number("ppd", kPpdRange).value_or(67.02);
     options.curve.name =
         call.choice("tonemapper", ToneAlgo::flip_tonemappers()).value_or(options.curve.name);
     read_exposures(call, options, 0);

@@ -26,8 +26,8 @@ std::vector<Modifier> modifiers_of() {
     std::vector<Modifier> rows;
     describe(Options(), [&](const auto& row) {
         const std::string initial = row.initial();
-        rows.push_back({row.key, hint_of(row),
-                        row.meaning() + (initial.empty() ? "" : " (" + initial + ")")});
+        rows.push_back(
+            {row.key, hint_of(row), row.meaning() + (initial.empty() ? "" : " (" + initial + ")")});
     });
     return rows;
 }
@@ -44,6 +44,10 @@ inline void read_value(const Call& call, const char* key, const Range&, bool& va
 inline void read_value(const Call& call, const char* key, const Range&, std::string& value) {
     value = call.text(key).value_or(value);
 }
+inline void read_value(const Call& call, const char* key, const Range&, Strings& value) {
+    if (const auto list = call.text(key))
+        value = split(*list, ',');
+}
 template <class T>
 void read_value(const Call& call, const char* key, const Range& range, std::optional<T>& value) {
     if (!call.has(key))
@@ -53,10 +57,12 @@ void read_value(const Call& call, const char* key, const Range& range, std::opti
     value = given;
 }
 
-/// What the modifiers say. Whether a name is one of the choices is left to the library.
+/// What the modifiers say.
 template <class Options>
 void read_options(const Call& call, Options& options) {
     describe(options, [&](const auto& row) {
+        if (!row.list.empty())
+            (void)call.choice(row.key, row.list);
         Range range = row.range.value_or(Range{-1e300, 1e300});
         if (row.or_zero)
             range.low = 0;

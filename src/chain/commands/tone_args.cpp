@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "chain/commands/options.h"
+#include "imagebuf/options/tone_options.h"
 #include "text/error.h"
 
 namespace tonetool::chain {
@@ -112,12 +114,7 @@ void check_one_way(const Call& call, const std::string& key) {
 }
 
 std::vector<Modifier> calibration_modifiers() {
-    return {{"stops", "X", "exposure in stops, added to what is measured (0)"},
-            {"key", "X", "what the geometric mean becomes, with mean (0.18)"},
-            {"level", "N", "local means over 2^N x 2^N cells; 0: one for the image (0)"},
-            {"epsilon", "X", "added to luminances before their logarithm (1e-6)"},
-            {"skipblack", "0|1", "black pixels are not measured (0)"},
-            {"skiptransparent", "0|1", "pixels of alpha 0 are not measured (0)"}};
+    return modifiers_of<CalibrationOptions>();
 }
 
 CalibrationOptions calibration_options(const Call& call) {
@@ -128,12 +125,7 @@ CalibrationOptions calibration_options(const Call& call) {
                                         : CalibrationMethod::Manual;
     if (call.has("key") && options.method != CalibrationMethod::Mean)
         throw CommandError("key= is of a calibration by mean, this one is " + method);
-    options.stops = call.number("stops", {-126, 126}).value_or(options.stops);
-    options.key = call.number("key", {1e-4, 100}).value_or(options.key);
-    options.level = call.integer("level", {0, 20}).value_or(options.level);
-    options.epsilon = call.number("epsilon", {1e-30, 1}).value_or(options.epsilon);
-    options.skip_black = call.flag("skipblack", false);
-    options.skip_transparent = call.flag("skiptransparent", false);
+    read_options(call, options);
     return options;
 }
 

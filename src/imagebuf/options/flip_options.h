@@ -19,7 +19,9 @@ void describe(const FlipOptions&, See&& see) {
     see(option("ppd", &O::ppd, "pixels per degree of visual angle")
             .within(kPpdRange.low, kPpdRange.high)
             .unset("of the three numbers below"));
-    see(option("distance", &O::distance, "viewing distance in metres").positive().shown_as("METRES"));
+    see(option("distance", &O::distance, "viewing distance in metres")
+            .positive()
+            .shown_as("METRES"));
     see(option("width", &O::width, "width of the screen in metres").positive().shown_as("METRES"));
     see(option("pixels", "pixels_across", &O::pixels_across, "width of the screen in pixels")
             .positive()
@@ -30,7 +32,8 @@ void describe(const FlipOptions&, See&& see) {
 template <class Options, class See>
 void describe_exposures(See&& see, const std::string& start, const std::string& stop,
                         const std::string& number) {
-    see(option("startExposure", "start_exposure", &Options::start_exposure, "first exposure in stops")
+    see(option("startExposure", "start_exposure", &Options::start_exposure,
+               "first exposure in stops")
             .within(kStopsRange.low, kStopsRange.high)
             .shown_as("STOPS")
             .unset(start));
@@ -58,8 +61,7 @@ void describe(const HdrFlipOptions&, See&& see) {
     see(option("exact", &O::exact,
                "the view by OpenColorIO itself for each pixel instead of a table baked from it"));
     describe_exposures<O>(see, "from the reference's maximum, paper Eq. 2",
-                          "from the reference's median, paper Eq. 3",
-                          "max(2, ceil(last - first))");
+                          "from the reference's median, paper Eq. 3", "max(2, ceil(last - first))");
     see(option("maxluminance", "max_luminance", &O::max_luminance,
                "maximum luminance that the first exposure is made from")
             .positive()

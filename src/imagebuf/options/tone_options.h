@@ -12,8 +12,10 @@ namespace tonetool {
 template <class See>
 void describe(const CalibrationOptions&, See&& see) {
     using O = CalibrationOptions;
-    see(option("stops", &O::stops, "exposure in stops, added to what is measured").within(-126, 126));
-    see(option("key", &O::key, "what the geometric mean becomes, with method=mean").within(1e-4, 100));
+    see(option("stops", &O::stops, "exposure in stops, added to what is measured")
+            .within(-126, 126));
+    see(option("key", &O::key, "what the geometric mean becomes, with method=mean")
+            .within(1e-4, 100));
     see(option("level", &O::level,
                "local means over 2^N x 2^N cells of the image; 0: one mean for the image")
             .within(0, 20));
