@@ -25,4 +25,5 @@ install(FILES ${CMAKE_CURRENT_BINARY_DIR}/tonetoolConfig.cmake
               cmake/OpenImageIOFolders.cmake
         DESTINATION ${tonetool_package_dir})
 install(FILES ${CMAKE_CURRENT_BINARY_DIR}/tonetool.pc DESTINATION ${tonetool_pc_dir})
-install(DIRECTORY include/tonetool DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+install(DIRECTORY include/tonetool ${TONETOOL_GENERATED}/tonetool
+        DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})

@@ -11,7 +11,7 @@ targets=("${@:2}")
 compiler=${CXX:-$(command -v clang++ || true)}
 [[ -n $compiler ]] || { echo "fuzz.sh: no clang++ here (or set CXX)" >&2; exit 1; }
 
-[[ -f build/release/src/libtonetool.so ]] || bash src/scripts/setup.sh
+[[ -f build/release/src/libtonetool.so ]] || bash src/scripts/setup.sh --targets tonetool
 # Where it is killed while it writes, the corpus is what it was: new inputs go to a folder beside it.
 cmake --preset fuzz -DCMAKE_CXX_COMPILER="$compiler" > /dev/null
 cmake --build build/fuzz --target "${targets[@]/#/fuzz_}"

@@ -1,9 +1,11 @@
 #!/usr/bin/python3
-"""Writes src/python/tonetool/__init__.pyi from the built module, which PYTHONPATH must lead to."""
+"""Writes FOLDER/__init__.pyi, FOLDER being the built package tonetool: write_stubs.py FOLDER."""
 
+import sys
 from pathlib import Path
 
-from tonetool import _tonetool
+package = Path(sys.argv[1]).resolve()
+sys.path.insert(0, str(package.parent))
+from tonetool import _tonetool  # noqa: E402
 
-STUBS = Path(__file__).resolve().parents[1] / "python" / "tonetool" / "__init__.pyi"
-STUBS.write_text(_tonetool._stubs, encoding="utf-8")
+(package / "__init__.pyi").write_text(_tonetool._stubs, encoding="utf-8")

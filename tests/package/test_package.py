@@ -12,6 +12,7 @@ HERE = Path(__file__).resolve().parent
 ROOT = HERE.parents[1]
 PAIR = [str(ROOT / "testimages" / f"cornell_{name}.exr") for name in ("ref", "test")]
 HEADERS = sorted((ROOT / "src" / "include" / "tonetool").glob("*.h"))
+HEADER_NAMES = [path.name for path in HEADERS] + ["version.h"]
 CMAKE = os.environ.get("CMAKE", "cmake")
 CXX = os.environ.get("CXX", "c++")
 
@@ -75,7 +76,7 @@ def test_library_shows_only_public_names(library):
 
 
 def test_library_is_versioned(library):
-    version = re.search(r'TONETOOL_VERSION "(\S+)"', (HEADERS[0].parent / "export.h").read_text())
+    version = re.search(r"project\(tonetool VERSION (\S+)", (ROOT / "CMakeLists.txt").read_text())
     name = re.search(r"SONAME.*\[(\S+)\]", run("readelf", "-d", library)).group(1)
     assert library.resolve().name == f"libtonetool.so.{version.group(1)}"
     assert name == "libtonetool.so." + version.group(1).rpartition(".")[0]
@@ -83,8 +84,9 @@ def test_library_is_versioned(library):
 
 
 def test_only_the_headers_are_installed(tree):
+    """Those of the sources, and the one that the build makes of the project's version."""
     installed = {path.relative_to(tree / "include") for path in (tree / "include").rglob("*.*")}
-    assert installed == {Path("tonetool") / path.name for path in HEADERS}
+    assert installed == {Path("tonetool") / name for name in HEADER_NAMES}
     assert not list(tree.rglob("*.a"))
 
 
@@ -94,7 +96,7 @@ def test_no_file_names_the_build(tree):
             assert str(ROOT) not in path.read_text(), path
 
 
-@pytest.mark.parametrize("header", [path.name for path in HEADERS])
+@pytest.mark.parametrize("header", HEADER_NAMES)
 def test_header_compiles_alone(header, flags, tmp_path):
     source = tmp_path / "alone.cpp"
     source.write_text(f"#include <tonetool/{header}>\n#include <tonetool/{header}>\n")

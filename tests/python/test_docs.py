@@ -1,4 +1,4 @@
-"""What help() shows is complete, and the stubs are those of the module."""
+"""What help() shows is complete, and so are the stubs that the build writes."""
 
 import ast
 import inspect
@@ -13,7 +13,7 @@ import tonetool
 from tonetool import _tonetool
 
 ROOT = Path(__file__).resolve().parents[2]
-STUBS = ROOT / "src" / "python" / "tonetool" / "__init__.pyi"
+STUBS = Path(tonetool.__file__).parent / "__init__.pyi"
 FUNCTIONS = sorted(name for name in tonetool.__all__ if inspect.isbuiltin(getattr(tonetool, name)))
 CLASSES = sorted(name for name in tonetool.__all__ if inspect.isclass(getattr(tonetool, name))
                  and not issubclass(getattr(tonetool, name), Exception))
@@ -91,7 +91,7 @@ def test_pydoc():
 
 
 def test_stubs_are_those_of_the_module():
-    """src/scripts/write_stubs.py makes them."""
+    """src/scripts/write_stubs.py makes them whenever the module is built."""
     assert STUBS.read_text(encoding="utf-8") == _tonetool._stubs
 
 
@@ -114,5 +114,5 @@ def test_stubs_declare_all():
 
 def test_version():
     assert tonetool.__version__ == _tonetool.__version__
-    header = (ROOT / "src" / "include" / "tonetool" / "export.h").read_text(encoding="utf-8")
-    assert f'TONETOOL_VERSION "{tonetool.__version__}"' in header
+    project = (ROOT / "CMakeLists.txt").read_text(encoding="utf-8")
+    assert f"project(tonetool VERSION {tonetool.__version__} " in project
