@@ -75,7 +75,7 @@ void print_count(Session& session, OIIO::imagesize_t count, const std::string& o
 }
 
 void colorcount(const Op& op) {
-    // Between the colours oiiotool takes a colon as well as the semicolon of its help.
+    // oiiotool accepts a colon between colours as well as the semicolon of its help.
     std::string list = op.call.argument(0);
     std::replace(list.begin(), list.end(), ';', ':');
     const Strings colors = split(list, ':');

@@ -13,7 +13,7 @@ struct Position {
     int x = 0, y = 0;
 };
 
-// From where the images lie.
+// The offset that the images' own windows give.
 Position asked_position(const Session& session, const std::string& text) {
     Position position;
     int end = 0;

@@ -10,7 +10,7 @@ const std::string kFilters = "filter=NAME: reconstruction filter (lanczos3, box,
 const std::string kHighlights = "highlightcomp=0|1: compress highlights while filtering\n";
 const std::string kRecompute = "recompute_roi=0|1: grow the data window as needed\n";
 
-// Runs a filter on the image, or between compressing and expanding its highlights.
+// Runs a filter on the image; with highlightcomp= between compressing and expanding its highlights.
 template <class Filter>
 bool filtered(Op& op, Filter filter) {
     if (!op.flag("highlightcomp"))

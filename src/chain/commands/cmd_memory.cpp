@@ -1,4 +1,4 @@
-// --memory, the bound of the comparisons.
+// --memory, the bound of the memory of comparisons.
 #include <cstdint>
 #ifdef __GLIBC__
 #include <malloc.h>
@@ -14,8 +14,8 @@ namespace {
 // Per thread OpenEXR's decoder holds blocks of rows of the whole width.
 constexpr int kThreadsWithinMemory = 2;
 
-// glibc keeps freed blocks of up to 32 MB for itself, and some for each thread; within a bound they
-// go back to the system.
+// glibc keeps freed blocks of up to 32 MB for itself, and some for each thread; with a bound set
+// they are returned to the system.
 void give_memory_back() {
 #ifdef __GLIBC__
     mallopt(M_MMAP_THRESHOLD, 1 << 20);

@@ -10,12 +10,13 @@ namespace tonetool::chain {
 
 namespace {
 
-// One setting of make_texture: the modifiers that set it, the first that is there counts.
+// One setting of make_texture and the modifiers that set it; the first modifier that is given
+// counts.
 struct Setting {
     const char* name;
     Strings keys;
     char kind;        ///< i, f or s
-    double otherwise; ///< i and f: without a modifier; s: is not set then
+    double otherwise; ///< default of i and f; s is not set without a modifier
 };
 
 const std::vector<Setting>& settings_of_textures() {
@@ -86,7 +87,7 @@ void set_layout(OIIO::ImageSpec& config, const OutputSettings& output) {
         config.attribute("planarconfig", output.planarconfig);
 }
 
-// What make_texture is to do.
+// The mode of make_texture.
 OIIO::ImageSpec texture_config(Session& session, const Call& call, const Image& image,
                                const OutputSettings& output) {
     OIIO::ImageSpec config;
@@ -107,7 +108,8 @@ OIIO::ImageSpec texture_config(Session& session, const Call& call, const Image& 
     config.set_format(output.type ? output.type->type
                                   : session.types.of(image.part(), session.compat).type);
     if (output.history) {
-        // By that name readers trust the average and the hash that are in it.
+        // Readers trust the average colour and the hash in the header only from a program of this
+        // name.
         config.attribute("Software",
                          "OpenImageIO " OIIO_VERSION_STRING " : " + session.command_line);
         config.attribute("maketx:full_command_line", session.command_line);

@@ -1,4 +1,4 @@
-// The commands of this room, written in the words of the chain.
+// The commands of tonetool itself, as rows of the registry.
 #pragma once
 
 #include <vector>
@@ -18,6 +18,6 @@ std::vector<Command> light_commands();
 std::vector<Command> memory_commands();
 
 /// All of them.
-std::vector<Command> commands();
+std::vector<Command> own_commands();
 
 } // namespace tonetool::chain

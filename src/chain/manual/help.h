@@ -10,11 +10,11 @@ namespace tonetool::chain {
 
 using chain::Command;
 
-/// How the program is called, in a few lines.
+/// A few lines about the use of the program.
 std::string usage_text();
-/// All commands by group.
+/// The list of all commands by group.
 std::string help_text();
-/// One command with its modifiers.
+/// The help of one command with its modifiers.
 std::string help_text(const Command& row);
 /// The whole registry as "man" (troff), "bash" or "zsh" (completion), "json"; a CommandError for
 /// any other format.
@@ -22,6 +22,6 @@ std::string registry_text(const std::string& format);
 bool is_registry_format(const std::string& format);
 
 /// The row of --help.
-std::vector<Command> commands();
+std::vector<Command> help_commands();
 
 } // namespace tonetool::chain
