@@ -1,6 +1,9 @@
 // CG-TMO.
 #include "tonetool/cgtmo.h"
 
+#include <algorithm>
+
+#include "imagebuf/options/cgtmo_options.h"
 #include "python/families.h"
 #include "python/lights.h"
 
@@ -16,57 +19,16 @@ namespace {
 using O = On<CgTmoOptions>;
 using CgTmoObject = Imaged<CgTmoSummary>;
 
-Fields<O> guide_fields() {
-    return {
-        field<O>("pixels", &O::pixels, "The beauty and its colour space."),
-        field<O>("preset", &O::preset,
-                 "\"default\", or \"paper\": Eq. 2 and 4 to the letter. What follows overrides."),
-        field<O>("domain", &O::domain, "Of the base: \"log\", \"linear\"; \"\": the preset's."),
-        field<O>("lumsigma", &O::lumsigma,
-                 "Of the luminance term in log10, 0 (none) to 10; None: the preset's."),
-        field<O>("position", &O::position,
-                 "Layer, or file that has it; \"none\": without; \"\": found by its name."),
-        field<O>("normal", &O::normal, "As position."),
-        field<O>("albedo", &O::albedo, "As position."),
-        field<O>("depth", &O::depth, "As position; positions are made of it where there are none."),
-        field<O>("fov", &O::fov,
-                 "Horizontal field of view in degrees, 1 to 179; None: the image's own, or 40."),
-        field<O>("strict", &O::strict,
-                 "A missing guide, light or panorama that was asked for is an error."),
-        field<O>("sigma", &O::sigma, "Of the window in pixels, 1 to 20."),
-        field<O>("samples", &O::samples, "Of the window, 4 to 400; 0: all."),
-        field<O>("normaldist", &O::normaldist, "\"euclid\": |n - m|^2; \"dot\": 1 - |n m|."),
-        field<O>("footprint", &O::footprint,
-                 "\"pixel\", \"global\", \"camera\", or a number in the unit of the positions."),
-        field<O>("filter", &O::filter,
-                 "\"guided\", \"bilateral\", \"wls\" (weighted least squares) or \"none\"."),
-        field<O>("wlsalpha", &O::wlsalpha, "Sensitivity of wls to edges, 0 to 4 (1.2)."),
-        field<O>("wlslambda", &O::wlslambda, "Smoothness of the base of wls, 0 to 100 (0.125)."),
-    };
-}
-
-Fields<O> curve_fields() {
-    return {
-        field<O>("lwa", &O::lwa,
-                 "Adaptation luminance: \"geometric\", \"harmonic\", \"arithmetic\" or \"median\" "
-                 "of the panorama, or of the image; or a number as a str."),
-        field<O>("env", &O::env, "File of a panorama at the camera, in the image's unit."),
-        field<O>("weight", &O::weight, "Of the panorama: \"solidangle\" or \"none\"."),
-        field<O>("lmax", &O::lmax, "Luminance that becomes white; None: as maximum says."),
-        field<O>("maximum", &O::maximum,
-                 "\"lights\", \"groups\", \"env\", \"image\"; \"auto\": the first there is."),
-        field<O>("max_percentile", &O::max_percentile,
-                 "Of groups and image, instead of their largest; 50 to 100."),
-        field<O>("lights", &O::lights, "The table of lights, and where they are told apart."),
-        field<O>("bias", &O::bias, "Of Drago's curve, 0.01 to 1."),
-        field<O>("ldmax", &O::ldmax, "cd/m2 of the display, 1 to 10000."),
-        field<O>("saturation", &O::saturation, "C' = (C / L)^saturation Ld, 0 to 4."),
-        field<O>("encode", &O::encode, "Of the result, one of display_encodings()."),
-        field<O>("clamp", &O::clamp, "The result to 0 to 1."),
-        field<O>("show", &O::show, "\"picture\"; or its \"base\" or \"detail\", linear."),
-        roi_field<O>(),
-        threads_field<O>(),
-    };
+Fields<O> cgtmo_fields() {
+    Fields<O> fields =
+        joined<O>({{field<O>("pixels", &O::pixels, "The beauty and its colour space.")},
+                   described<O, CgTmoOptions>(),
+                   {roi_field<O>(), threads_field<O>()}});
+    const auto place = std::find_if(fields.begin(), fields.end(),
+                                    [](const auto& row) { return row.name == "bias"; });
+    fields.insert(place, field<O>("lights", &O::lights,
+                                  "The table of lights, and where they are told apart."));
+    return fields;
 }
 
 py::object run(std::vector<py::object>& images, const O& options) {
@@ -133,7 +95,7 @@ void add_cgtmo(Module& module) {
             "F. Banterle et al., CG-TMO; F. Drago et al., \"Adaptive Logarithmic Mapping for "
             "Displaying High Contrast Scenes\", 2003; F. Durand, J. Dorsey, 2002 (bilateral); Z. "
             "Farbman et al., 2008 (wls)."},
-        joined<O>({guide_fields(), curve_fields()}), run);
+        cgtmo_fields(), run);
 }
 
 } // namespace tonetool::python

@@ -2,10 +2,12 @@
 // and the stubs are made.
 #pragma once
 
+#include <cctype>
 #include <functional>
 #include <string>
 #include <vector>
 
+#include "imagebuf/options/option.h"
 #include "python/types.h"
 
 namespace tonetool::python {
@@ -27,6 +29,30 @@ Field<Options> field(const char* name, T Owner::*member, const char* text) {
             [member](Options& options, py::handle value, const std::string& where) {
                 options.*member = Python<T>::from(value, where);
             }};
+}
+
+/// "Sigma of the window in pixels, 1 to 20.": what help() says of an option.
+template <class Owner, class T>
+std::string keyword_text(const Option<Owner, T>& row) {
+    std::string text = row.meaning();
+    text[0] = char(std::toupper(static_cast<unsigned char>(text[0])));
+    if (!row.list.empty())
+        text += ": \"" + OIIO::Strutil::join(row.list, "\", \"") + "\"";
+    text += ".";
+    if (!row.otherwise.empty())
+        text +=
+            std::string(Option<Owner, T>::optional ? " None: " : " \"\": ") + row.otherwise + ".";
+    return text;
+}
+
+/// The keywords of a described struct, from which `Options` may be derived.
+template <class Options, class Described>
+Fields<Options> described() {
+    Fields<Options> fields;
+    describe(Described(), [&](const auto& row) {
+        fields.push_back(field<Options>(row.keyword, row.member, keyword_text(row).c_str()));
+    });
+    return fields;
 }
 
 /// The name of a keyword that is not in the table, as a TypeError.

@@ -1,6 +1,9 @@
 #include "chain/commands/commands.h"
 
+#include <algorithm>
 #include <iterator>
+
+#include "chain/commands/options.h"
 
 namespace tonetool::chain {
 
@@ -14,6 +17,14 @@ std::vector<Command> own_commands() {
         }
     }
     return all;
+}
+
+std::vector<Modifier> inserted(std::vector<Modifier> rows, const std::string& key,
+                               const std::vector<Modifier>& more) {
+    const auto at =
+        std::find_if(rows.begin(), rows.end(), [&](const Modifier& row) { return row.key == key; });
+    rows.insert(at + 1, more.begin(), more.end());
+    return rows;
 }
 
 } // namespace tonetool::chain

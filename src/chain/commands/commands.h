@@ -17,7 +17,7 @@ std::vector<Command> cgtmo_commands();
 std::vector<Command> light_commands();
 std::vector<Command> memory_commands();
 
-/// All of them.
+/// All rows of these commands.
 std::vector<Command> own_commands();
 
 } // namespace tonetool::chain

@@ -3,14 +3,10 @@
 
 #include <string>
 
+#include "imagebuf/options/option.h"
 #include "text/text.h"
 
 namespace tonetool {
-
-/// A closed range that a number must lie in.
-struct Range {
-    double low, high;
-};
 
 /// "what "value" is not a number (valid: ...)" as a CommandError, for values of any origin.
 double checked_number(const std::string& what, const std::string& value, Range range);

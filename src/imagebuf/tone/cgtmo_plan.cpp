@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "imagebuf/pixels/checks.h"
+#include "imagebuf/options/cgtmo_options.h"
 #include "imagebuf/pixels/names.h"
 #include "tonemap/poisson.h"
 #include "tonetool/tonemap.h"
@@ -17,23 +17,18 @@ using OIIO::Strutil::fmt::format;
 // As the authors' programs have it: 2.5 sigma to each side.
 constexpr double kWindowOfSigma = 2.5;
 
-// The place of a name in a list, which enumerators follow.
+// The place of a name among the choices of its option, which enumerators follow.
 template <class Enum>
-bool choose(const char* what, const std::string& name, const std::vector<std::string>& valid,
-            Enum& out, std::string& error) {
-    if (!one_of(what, name, valid, error))
-        return false;
-    out = Enum(std::find(valid.begin(), valid.end(), name) - valid.begin());
-    return true;
-}
-
-bool check_numbers(const CgTmoOptions& o, std::string& error) {
-    return in_range(o.sigma, 1, 20, "sigma", error) && in_range(o.bias, 0.01, 1, "bias", error) &&
-           in_range(o.ldmax, 1, 10000, "ldmax", error) &&
-           in_range(o.saturation, 0, 4, "saturation", error) &&
-           in_range(o.lumsigma.value_or(0), 0, 10, "lumsigma", error) &&
-           in_range(o.fov.value_or(90), 1, 179, "fov", error) &&
-           (o.samples == 0 || in_range(o.samples, 4, 400, "samples", error));
+Enum chosen(const CgTmoOptions& o, const std::string CgTmoOptions::*member) {
+    Enum found{};
+    describe(o, [&](const auto& row) {
+        if constexpr (std::is_same_v<std::decay_t<decltype(row.member)>,
+                                     std::string CgTmoOptions::*>)
+            if (row.member == member)
+                found =
+                    Enum(std::find(row.list.begin(), row.list.end(), o.*member) - row.list.begin());
+    });
+    return found;
 }
 
 bool plan_wls(const CgTmoOptions& o, tonemap::WlsTerms& wls, std::string& error) {
@@ -46,8 +41,7 @@ bool plan_wls(const CgTmoOptions& o, tonemap::WlsTerms& wls, std::string& error)
         }
     wls.alpha = o.wlsalpha.value_or(wls.alpha);
     wls.lambda = o.wlslambda.value_or(wls.lambda);
-    return in_range(wls.alpha, 0, 4, "wlsalpha", error) &&
-           in_range(wls.lambda, 0, 100, "wlslambda", error);
+    return true;
 }
 
 void plan_filter(const CgTmoOptions& o, bool paper, LocalPlan& plan) {
@@ -67,21 +61,21 @@ void plan_filter(const CgTmoOptions& o, bool paper, LocalPlan& plan) {
 
 bool plan_local(const CgTmoOptions& o, LocalPlan& plan, std::string& error) {
     plan = {};
+    error = options_fault(o);
+    if (!error.empty())
+        return false;
     plan.encode = find_encoding(o.encode);
     if (!plan.encode) {
         error = unknown_name("encoding", o.encode, ToneAlgo::display_encodings());
         return false;
     }
-    bool paper = false, logarithmic = false;
-    if (!choose("preset", o.preset, {"default", "paper"}, paper, error))
-        return false;
-    const std::string domain = !o.domain.empty() ? o.domain : paper ? "linear" : "log";
-    if (!choose("domain", domain, {"linear", "log"}, logarithmic, error) ||
-        !choose("filter", o.filter, {"guided", "bilateral", "wls", "none"}, plan.filter, error) ||
-        !choose("show", o.show, {"picture", "base", "detail"}, plan.show, error) ||
-        !choose("normaldist", o.normaldist, {"euclid", "dot"}, plan.what.terms.normal_term,
-                error) ||
-        !check_numbers(o, error) || !plan_wls(o, plan.wls, error))
+    const bool paper = o.preset == "paper";
+    const bool logarithmic = o.domain.empty() ? !paper : o.domain == "log";
+    plan.filter = chosen<BaseFilter>(o, &CgTmoOptions::filter);
+    plan.show = chosen<decltype(plan.show)>(o, &CgTmoOptions::show);
+    plan.what.terms.normal_term =
+        chosen<decltype(plan.what.terms.normal_term)>(o, &CgTmoOptions::normaldist);
+    if (!plan_wls(o, plan.wls, error))
         return false;
     plan.what.logarithmic = plan.wls.logarithmic = logarithmic;
     plan_filter(o, paper, plan);

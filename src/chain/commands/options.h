@@ -1,0 +1,71 @@
+// Modifiers of commands made of the tables of options, and options read from modifiers.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "chain/commands/commands.h"
+#include "imagebuf/options/option.h"
+
+namespace tonetool::chain {
+
+/// "X", "N", "0|1", the choices, or what the table says a value looks like.
+template <class Owner, class T>
+std::string hint_of(const Option<Owner, T>& row) {
+    using Value = typename Option<Owner, T>::Value;
+    if (!row.hint.empty() || !row.list.empty())
+        return row.hint.empty() ? join(row.list, "|") : row.hint;
+    if constexpr (std::is_same_v<Value, bool>)
+        return "0|1";
+    else
+        return std::is_integral_v<Value> ? "N" : std::is_arithmetic_v<Value> ? "X" : "NAME";
+}
+
+template <class Options>
+std::vector<Modifier> modifiers_of() {
+    std::vector<Modifier> rows;
+    describe(Options(), [&](const auto& row) {
+        const std::string initial = row.initial();
+        rows.push_back({row.key, hint_of(row),
+                        row.meaning() + (initial.empty() ? "" : " (" + initial + ")")});
+    });
+    return rows;
+}
+
+inline void read_value(const Call& call, const char* key, const Range& range, double& value) {
+    value = call.number(key, range).value_or(value);
+}
+inline void read_value(const Call& call, const char* key, const Range& range, int& value) {
+    value = call.integer(key, range).value_or(value);
+}
+inline void read_value(const Call& call, const char* key, const Range&, bool& value) {
+    value = call.flag(key, value);
+}
+inline void read_value(const Call& call, const char* key, const Range&, std::string& value) {
+    value = call.text(key).value_or(value);
+}
+template <class T>
+void read_value(const Call& call, const char* key, const Range& range, std::optional<T>& value) {
+    if (!call.has(key))
+        return;
+    T given{};
+    read_value(call, key, range, given);
+    value = given;
+}
+
+/// What the modifiers say. Whether a name is one of the choices is left to the library.
+template <class Options>
+void read_options(const Call& call, Options& options) {
+    describe(options, [&](const auto& row) {
+        Range range = row.range.value_or(Range{-1e300, 1e300});
+        if (row.or_zero)
+            range.low = 0;
+        read_value(call, row.key, range, options.*row.member);
+    });
+}
+
+/// A list put into another one, behind the row of that key.
+std::vector<Modifier> inserted(std::vector<Modifier> rows, const std::string& key,
+                               const std::vector<Modifier>& more);
+
+} // namespace tonetool::chain

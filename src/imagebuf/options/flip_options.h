@@ -1,0 +1,83 @@
+// The fields of FlipOptions, HdrFlipOptions, FilmstripOptions and ErrorOptions that are numbers,
+// names or switches; pixels, curve and view are structs of their own.
+#pragma once
+
+#include "imagebuf/options/option.h"
+#include "tonetool/errors.h"
+#include "tonetool/flip.h"
+
+namespace tonetool {
+
+// The limits that src/flip knows, which is not included here: the test of the tables compares them.
+inline constexpr Range kPpdRange{1, 1000}, kStopsRange{-1000, 1000};
+inline constexpr int kMostExposures = 1024;
+
+/// The screen: of LDR-FLIP and HDR-FLIP.
+template <class See>
+void describe(const FlipOptions&, See&& see) {
+    using O = FlipOptions;
+    see(option("ppd", &O::ppd, "pixels per degree of visual angle")
+            .within(kPpdRange.low, kPpdRange.high)
+            .unset("of the three numbers below"));
+    see(option("distance", &O::distance, "viewing distance in metres").positive().shown_as("METRES"));
+    see(option("width", &O::width, "width of the screen in metres").positive().shown_as("METRES"));
+    see(option("pixels", "pixels_across", &O::pixels_across, "width of the screen in pixels")
+            .positive()
+            .shown_as("N"));
+}
+
+/// start_exposure, stop_exposure and num_exposures of any struct that has them.
+template <class Options, class See>
+void describe_exposures(See&& see, const std::string& start, const std::string& stop,
+                        const std::string& number) {
+    see(option("startExposure", "start_exposure", &Options::start_exposure, "first exposure in stops")
+            .within(kStopsRange.low, kStopsRange.high)
+            .shown_as("STOPS")
+            .unset(start));
+    see(option("stopExposure", "stop_exposure", &Options::stop_exposure, "last exposure in stops")
+            .within(kStopsRange.low, kStopsRange.high)
+            .shown_as("STOPS")
+            .unset(stop));
+    see(option("numExposures", "num_exposures", &Options::num_exposures, "number of exposures")
+            .within(1, kMostExposures)
+            .unset(number));
+}
+
+/// How the images are shown, and at which exposures: of HDR-FLIP alone.
+template <class See>
+void describe(const HdrFlipOptions&, See&& see) {
+    using O = HdrFlipOptions;
+    see(option("encoding", &O::encoding,
+               "how the view's result is encoded, where its display does not say so")
+            .one_of({"srgb", "gamma2.2", "rec1886", "gamma2.6", "linear"})
+            .unset("the display's"));
+    see(option("peak", &O::peak,
+               "luminance in cd/m2 that counts as the display's white; HDR displays need it")
+            .within(1, 10000)
+            .unset("of SDR displays"));
+    see(option("exact", &O::exact,
+               "the view by OpenColorIO itself for each pixel instead of a table baked from it"));
+    describe_exposures<O>(see, "from the reference's maximum, paper Eq. 2",
+                          "from the reference's median, paper Eq. 3",
+                          "max(2, ceil(last - first))");
+    see(option("maxluminance", "max_luminance", &O::max_luminance,
+               "maximum luminance that the first exposure is made from")
+            .positive()
+            .unset("the reference's"));
+    see(option("medianluminance", "median_luminance", &O::median_luminance,
+               "median luminance that the last exposure is made from")
+            .positive()
+            .unset("the reference's"));
+}
+
+template <class See>
+void describe(const ErrorOptions&, See&& see) {
+    using O = ErrorOptions;
+    see(option("metric", &O::metric, "error metric").one_of(ToneAlgo::error_metrics()));
+    see(option("eps", &O::eps, "epsilon of smape, rmae and relmse").within(1e-12, 1e12));
+    see(option("peak", &O::peak, "peak of psnr in linear light").within(1e-12, 1e12));
+    describe_exposures<O>(see, "of mpsnr alone; as hdrflip", "of mpsnr alone; as hdrflip",
+                          "of mpsnr alone; as hdrflip");
+}
+
+} // namespace tonetool

@@ -1,0 +1,76 @@
+// The fields of CalibrationOptions, TonemapOptions, LutOptions and LightOptions that are numbers,
+// names or switches.
+#pragma once
+
+#include "imagebuf/options/option.h"
+#include "tonetool/lights.h"
+#include "tonetool/lut.h"
+#include "tonetool/tonemap.h"
+
+namespace tonetool {
+
+template <class See>
+void describe(const CalibrationOptions&, See&& see) {
+    using O = CalibrationOptions;
+    see(option("stops", &O::stops, "exposure in stops, added to what is measured").within(-126, 126));
+    see(option("key", &O::key, "what the geometric mean becomes, with method=mean").within(1e-4, 100));
+    see(option("level", &O::level,
+               "local means over 2^N x 2^N cells of the image; 0: one mean for the image")
+            .within(0, 20));
+    see(option("epsilon", &O::epsilon, "added to each luminance before its logarithm")
+            .within(1e-30, 1));
+    see(option("skipblack", "skip_black", &O::skip_black,
+               "leave pixels of luminance 0 out of the statistics"));
+    see(option("skiptransparent", "skip_transparent", &O::skip_transparent,
+               "leave pixels of alpha 0 out of the statistics"));
+}
+
+template <class See>
+void describe(const TonemapOptions&, See&& see) {
+    using O = TonemapOptions;
+    see(option("encode", &O::encode, "how the result of a curve is encoded")
+            .one_of(ToneAlgo::display_encodings()));
+    see(option("primaries", &O::primaries, "primaries that a curve works in and the result has")
+            .one_of({"rec709", "image"}));
+    see(option("clamp", &O::clamp, "clamp the result of a curve to 0 to 1"));
+    see(option("unpremult", &O::unpremult, "divide colour by alpha before, multiply after"));
+}
+
+template <class See>
+void describe(const LutOptions&, See&& see) {
+    using O = LutOptions;
+    see(option("from", "from_", &O::from,
+               "colour space of the configuration that a view starts from")
+            .shown_as("SPACE")
+            .unset("linear Rec.709"));
+    see(option("encode", &O::encode, "how the result of a curve is encoded")
+            .one_of(ToneAlgo::display_encodings()));
+    see(option("shaper", &O::shaper, "what maps scene light to 0 to 1")
+            .one_of(ToneAlgo::lut_shapers()));
+    see(option("min", &O::min, "low end of shaper=log2 in stops").within(-24, 0));
+    see(option("max", &O::max, "high end of shaper=log2 in stops").within(1, 16));
+    see(option("size", &O::size, "entries, or nodes along the edge of a cube (2 to 129)")
+            .within(2, 65536)
+            .zero_too()
+            .unset("4096, or 33"));
+}
+
+template <class See>
+void describe(const LightOptions&, See&& see) {
+    using O = LightOptions;
+    see(option("lights", "table", &O::table, "file of the table of lights, .csv or .json")
+            .shown_as("FILE")
+            .unset("none"));
+    see(option("lightunit", "unit", &O::unit,
+               "unit of the table's values: luminances of the image, these times X, or powers")
+            .shown_as("luminance|power|X"));
+    see(option("index", &O::index,
+               "which light group a pixel has; contribution: the one that gives most light; power: "
+               "of those that give 1 % the one with the largest value in the table")
+            .one_of({"contribution", "power"}));
+    see(option("groups", &O::groups, "light groups, by name or layer")
+            .shown_as("NAME,...")
+            .unset("found by their names"));
+}
+
+} // namespace tonetool
