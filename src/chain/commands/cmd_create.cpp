@@ -228,8 +228,8 @@ const std::vector<OpRow> kDrawingRows = {
               "y=N: position (the middle)\n"
               "size=N: height of the letters (16)\n"
               "font=NAME: font, a name or a file\n"
-              "xalign=left|right|center: of the text to its position (left)\n"
-              "yalign=base|top|bottom|center: of the text to its position (base)\n"
+              "xalign=left|right|center: alignment of the text to its position (left)\n"
+              "yalign=base|top|bottom|center: alignment of the text to its position (base)\n"
               "shadow=N: width of a black outline (0)"},
 };
 
@@ -237,11 +237,11 @@ const std::vector<OpRow> kDrawingRows = {
 
 std::vector<Command> create_commands() {
     const std::string pattern = kRamps + noise_modifiers() +
-                                "width=N: of the squares of a checker (8)\n"
-                                "height=N: of the squares of a checker (width)\n"
-                                "depth=N: of the squares of a checker (width)\n"
-                                "color1=VALUES: of a checker (0)\n"
-                                "color2=VALUES: of a checker (1)";
+                                "width=N: width of a checker's squares (8)\n"
+                                "height=N: height of a checker's squares (width)\n"
+                                "depth=N: depth of a checker's squares (width)\n"
+                                "color1=VALUES: first colour of a checker (0)\n"
+                                "color2=VALUES: second colour of a checker (1)";
     std::vector<Command> all = {
         free_row(Group::Create, "create GEOM NCHANS", 0, 1, "A black image", run_create,
                  "type=TYPE: data type (float)"),

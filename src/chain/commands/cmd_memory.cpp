@@ -42,7 +42,7 @@ std::vector<Command> memory_commands() {
     return {of_manner(
         of_process(setting(Group::General, {"memory"}, {"SIZE"},
                            "Peak memory of the comparisons that follow, 256M or 1G: larger "
-                           "images are read in bands (half of the computer's)",
+                           "images are read in scanline blocks (half of the computer's memory)",
                            run_memory)))};
 }
 

@@ -96,7 +96,7 @@ void run_qc(Session& session, const Call& call) {
 
 std::vector<Modifier> modifiers() {
     std::vector<Modifier> all = pixel_modifiers();
-    all.push_back({"groups", "NAME,...", "light groups that add up to the picture (all)"});
+    all.push_back({"groups", "NAME,...", "light groups that must add up to the beauty (all)"});
     for (const sequence::QcRule& rule : sequence::qc_rules()) {
         std::string usual = severity_name(rule.severity);
         if (rule.threshold)
@@ -114,7 +114,7 @@ std::vector<Command> qc_commands() {
     return {
         {{{"qc"}, {}, 1, 1, Group::Measure},
          modifiers(),
-         "Look for faults of the pictures and of the shot; severities: off, info, warning, error",
+         "Look for faults of single images and of the shot; severities: off, info, warning, error",
          run_qc}};
 }
 

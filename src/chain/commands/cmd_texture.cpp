@@ -143,23 +143,28 @@ void run_texture(Session& session, const Call& call) {
 std::vector<Command> texture_commands() {
     const std::string options =
         output_modifiers() +
-        "wrap=MODE: black, clamp, periodic, mirror\nswrap=MODE: in x\ntwrap=MODE: in y\n"
-        "resize=0|1: to a power of 2\nnomipmap=0|1: the top level only\n"
-        "updatemode=0|1: only if the texture would change\n"
-        "constant_color_detect=0|1: one tile where all pixels are the same\n"
-        "monochrome_detect=0|1: one channel where all are the same\n"
-        "opaque_detect=0|1: without an alpha that is 1 everywhere\n"
-        "incolorspace=NAME: colour space of the image\noutcolorspace=NAME: of the texture\n"
+        "wrap=MODE: black, clamp, periodic, mirror\nswrap=MODE: wrap mode in x\ntwrap=MODE: wrap "
+        "mode in y\n"
+        "resize=0|1: resize to a power of 2\nnomipmap=0|1: write the top level only\n"
+        "updatemode=0|1: write only if the texture would change\n"
+        "constant_color_detect=0|1: write one tile if all pixels are the same\n"
+        "monochrome_detect=0|1: write one channel if all are the same\n"
+        "opaque_detect=0|1: leave out an alpha that is 1 everywhere\n"
+        "incolorspace=NAME: colour space of the image\noutcolorspace=NAME: colour space of the "
+        "texture\n"
         "highlightcomp=0|1: soften highlights before filtering\nhicomp=0|1: the same\n"
-        "sharpen=X: each level\nfilter=NAME: of the levels\nfiltername=NAME: the same\n"
+        "sharpen=X: sharpen each level\nfilter=NAME: filter of the MIP levels\nfiltername=NAME: "
+        "the same\n"
         "prman_options=0|1: settings of RenderMan\nprman=0|1: the same\n"
         "prman_metadata=0|1: metadata of RenderMan\n"
         "oiio_options=0|1: settings of OpenImageIO\noiio=0|1: the same\n"
         "compute_average=0|1: metadata of the average colour (1)\n"
-        "handed=left|right|none: of a vector displacement or normal map\n"
+        "handed=left|right|none: handedness of a displacement or normal map\n"
         "cdf=0|1: store the distribution of values in the metadata\n"
-        "cdfbits=N: its size (8)\ncdfsigma=X: its deviation (1/6)\nfovcot=X: field of view\n"
-        "bumpformat=height|normal|auto: of a bump map\nuvslopes_scale=X: of its slopes";
+        "cdfbits=N: size of the distribution (8)\ncdfsigma=X: its deviation (1/6)\nfovcot=X: field "
+        "of view\n"
+        "bumpformat=height|normal|auto: content of a bump map\nuvslopes_scale=X: scale of its "
+        "slopes";
     std::vector<Command> rows;
     for (const char* usage : {"otex FILENAME", "oenv FILENAME", "obump FILENAME"}) {
         rows.push_back(free_row(Group::Write, usage, 0, kAnyNumber,

@@ -10,8 +10,8 @@
 namespace tonetool::sequence {
 
 struct PatternOptions {
-    std::string
-        frames;      ///< frame range for patterns without their own; empty: the files on the disk
+    /// Frame range for patterns without their own; empty: the files on the disk.
+    std::string frames;
     int padding = 0; ///< digits of frame numbers; 0: as the pattern says
     std::vector<std::string> views{"left", "right"};
     /// As oiiotool: tolerant of malformed ranges, and without negative numbers on the disk.
