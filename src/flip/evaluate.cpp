@@ -14,10 +14,10 @@ namespace {
 using kernels::FlipTile;
 using kernels::Window;
 
-// A few rows of a tile must stay in a core's L2 cache; narrow or low tiles spend their time on
-// halos. Enough tiles remain for all threads to end at the same time.
+// The rows that are in use must stay in a core's L2 cache, but narrow or low tiles spend their time
+// on halos. Enough tiles remain for all threads to end at about the same time.
 constexpr int kTileWidth = 640, kTileHeight = 128;
-// Of several tests at a time, each with rows of its own.
+// The same for several tests at a time, each with rows of its own.
 constexpr int kNarrowTileWidth = 384, kNarrowFrom = 3;
 
 int parts_of(int length, int size) {
@@ -46,7 +46,7 @@ int tile_width(int width, int wanted, int halo) {
 }
 
 Window tile_size(const Evaluation& what, int width, int height, size_t tests) {
-    const int halo = reach(what.taps);
+    const int halo = filter_radius(what.taps);
     const int columns = tests >= kNarrowFrom ? kNarrowTileWidth : kTileWidth;
     const int rows =
         what.most_tile_rows > 0 ? what.most_tile_rows : std::max(kTileHeight, 8 * halo);
@@ -57,7 +57,7 @@ const kernels::FlipRows& functions_of(const Evaluation& what) {
     return what.functions ? *what.functions : kernels::flip_rows();
 }
 
-// Evaluates tiles, several at a time: each takes a work space that is free, or makes one.
+// Evaluates tiles in parallel: each takes a work space that is free, or makes one.
 class Tiles {
 public:
     Tiles(const Evaluation& what, const kernels::ConstRgb& reference,
@@ -97,7 +97,7 @@ private:
     std::vector<size_t> split_off_same(const Window& tile) const {
         std::vector<size_t> differing;
         for (size_t t = 0; t < m_tests.size(); ++t)
-            if (same_pixels(m_reference, m_tests[t], tile, reach(m_what.taps)))
+            if (same_pixels(m_reference, m_tests[t], tile, filter_radius(m_what.taps)))
                 clear(m_outputs[t], tile);
             else
                 differing.push_back(t);
@@ -152,7 +152,7 @@ private:
             }
         }
         const kernels::TileShape shape(m_functions.lanes, m_size.width, m_size.height,
-                                       reach(m_what.taps));
+                                       filter_radius(m_what.taps));
         return std::make_unique<FlipTile>(m_functions, shape, m_what.taps, m_tests.size(),
                                           m_keep_each);
     }
@@ -188,7 +188,7 @@ size_t work_bytes(const Evaluation& what, int width, size_t tests, bool keep_eac
     constexpr int enough = 1 << 20;
     const Window size = tile_size(what, width, enough, tests);
     const kernels::TileShape shape(functions_of(what).lanes, size.width, size.height,
-                                   reach(what.taps));
+                                   filter_radius(what.taps));
     return FlipTile::bytes(shape, tests, keep_each);
 }
 

@@ -35,8 +35,7 @@ void evaluate(const Evaluation& what, const kernels::ConstRgb& reference,
               const std::vector<kernels::ConstRgb>& tests, const kernels::Window& window,
               const std::vector<Output>& outputs, const kernels::ParallelFor& parallel);
 
-/// Bytes of work space that each thread takes to evaluate a window of at least the height of a
-/// tile.
+/// The work space of each thread in bytes, for windows at least as high as a tile.
 size_t work_bytes(const Evaluation& what, int width, size_t tests, bool keep_each);
 
 } // namespace tonetool::flip

@@ -22,14 +22,14 @@ bool in_range(double stops, const char* name, std::string& error) {
     return false;
 }
 
-// One end of the range from a luminance.
+// The exposure that brings a luminance to the exposure anchor.
 bool measure(std::optional<double> bright, double luminance, const char* name, double& stops,
              std::string& error) {
     if (!bright) {
         error = text("what the image is shown through never reaches %g, so there is no automatic "
                      "exposure: pass "
                      "startExposure and stopExposure",
-                     kBright);
+                     kAnchorValue);
         return false;
     }
     if (!(std::isfinite(luminance) && luminance > 0)) {
@@ -46,8 +46,9 @@ bool measure(std::optional<double> bright, double luminance, const char* name, d
 
 } // namespace
 
-std::optional<double> bright_point(const std::array<double, 6>& k) {
-    const double a = k[0] - kBright * k[3], b = k[1] - kBright * k[4], c = k[2] - kBright * k[5];
+std::optional<double> exposure_anchor(const std::array<double, 6>& k) {
+    const double a = k[0] - kAnchorValue * k[3], b = k[1] - kAnchorValue * k[4],
+                 c = k[2] - kAnchorValue * k[5];
     double x = 0;
     if (a == 0) {
         x = -c / b;
@@ -60,19 +61,20 @@ std::optional<double> bright_point(const std::array<double, 6>& k) {
     return x;
 }
 
-std::optional<double> bright_point(const GreyResponse& response) {
+std::optional<double> exposure_anchor(const GreyResponse& response) {
     constexpr double first = -64, last = 64;
     constexpr int steps_per_stop = 32;
     double low = first, high = last;
     int steps = int(last - first) * steps_per_stop;
-    // The uppermost step between two values on both sides of kBright, in ever finer steps.
+    // The uppermost step between two values on both sides of kAnchorValue, in ever finer steps.
     for (constexpr int finer = 64; (high - low) / steps > 1e-14; steps = finer) {
         std::vector<double> values;
         for (int i = 0; i <= steps; ++i)
             values.push_back(std::exp2(low + (high - low) * i / steps));
         const std::vector<double> shown = response(values);
         int i = steps - 1;
-        while (i >= 0 && (shown[size_t(i)] >= kBright) == (shown[size_t(i + 1)] >= kBright))
+        while (i >= 0 &&
+               (shown[size_t(i)] >= kAnchorValue) == (shown[size_t(i + 1)] >= kAnchorValue))
             --i;
         if (i < 0)
             return std::nullopt;

@@ -126,7 +126,7 @@ kernels::LaneTaps lane_taps(const kernels::FlipTaps<double>& taps) {
     return out;
 }
 
-int reach(const kernels::LaneTaps& taps) {
+int filter_radius(const kernels::LaneTaps& taps) {
     return int(std::max(
                {taps.y.size(), taps.cx.size(), taps.cz1.size(), taps.cz2.size(), taps.g.size()})) -
            1;

@@ -5,8 +5,9 @@
 
 namespace tonetool::flip {
 
-/// Bounds of what the filters are defined for; at the lower end a filter is a few pixels wide and
-/// the feature detectors are plain differences, above the upper one pixels are far below sight.
+/// The pixels per degree that the filters are defined for. At the lower end a filter is a few
+/// pixels wide and the feature detectors are plain differences; above the upper end pixels are far
+/// too small to be seen.
 inline constexpr double kMinPixelsPerDegree = 1.0;
 inline constexpr double kMaxPixelsPerDegree = 1000.0;
 
@@ -20,7 +21,8 @@ kernels::FlipTaps<double> make_taps(double pixels_per_degree);
 /// precision of float (two-sided tail < 2e-9 of the sum), and with the detectors on steps.
 kernels::LaneTaps lane_taps(const kernels::FlipTaps<double>& taps);
 
-/// Pixels around a pixel that its error depends on.
-int reach(const kernels::LaneTaps& taps);
+/// The radius of the largest filter's support: the error of a pixel depends on this many pixels to
+/// each side.
+int filter_radius(const kernels::LaneTaps& taps);
 
 } // namespace tonetool::flip

@@ -1,4 +1,4 @@
-// Colours in lanes. Included once per target.
+// Colours in SIMD lanes. Included once per target.
 #if defined(TONETOOL_KERNELS_COLOR_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef TONETOOL_KERNELS_COLOR_INL_H_
 #undef TONETOOL_KERNELS_COLOR_INL_H_

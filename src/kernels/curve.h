@@ -1,4 +1,4 @@
-// Tone curves as plain numbers: scene light, exposed, to display light.
+// Tone curves as plain numbers: exposed scene light in, display light out.
 #pragma once
 
 #include <array>
@@ -6,8 +6,8 @@
 
 namespace tonetool::kernels {
 
-/// The formulas. What the numbers of each one are is said where they are made, in
-/// tonemap/curves_*.cpp, and used, in curve_twin.cpp.
+/// The formulas. tonemap/curves_*.cpp makes the numbers of each curve and says what they are;
+/// curve_reference.cpp is the plainest use of them.
 enum class CurveKind {
     Rational,    ///< (k0 x^2 + k1 x + k2) / (k3 x^2 + k4 x + k5)
     Logarithmic, ///< log(1 + x) / log(1 + white)
@@ -21,7 +21,7 @@ enum class CurveKind {
     Neutral,     ///< Khronos PBR neutral
 };
 
-/// Those see a pixel as a whole: they cannot be run on luminance.
+/// These curves mix the channels of a pixel, so they cannot be run on luminance alone.
 constexpr bool mixes_channels(CurveKind kind) {
     return kind == CurveKind::AcesHill || kind == CurveKind::Agx || kind == CurveKind::Neutral;
 }

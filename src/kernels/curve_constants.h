@@ -1,4 +1,5 @@
-// Constants of the tone curves that mix channels: too many for CurveNumbers, and never chosen.
+// Constants of the tone curves that mix channels: there are too many for CurveNumbers, and no
+// option changes them.
 #pragma once
 
 #include <array>

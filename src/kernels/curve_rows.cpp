@@ -31,7 +31,7 @@ struct Mixed {
     HWY_INLINE Color operator()(const Color& x) const { return curve(x); }
 };
 
-// C / L, and what an overflow becomes: with weights of 0 a ratio has no bound.
+// C / L, limited to a finite value: with weights of 0 the ratio has no bound.
 struct PlainRatio {
     explicit PlainRatio(const CurveUse&) {}
     HWY_INLINE V operator()(V x, V lum) const {
@@ -73,7 +73,7 @@ struct OnLuminance {
     }
 };
 
-// `count` is a multiple of the lanes.
+// `count` is a multiple of the number of lanes.
 template <class Map>
 void MapVectors(const Map& map, const float* const in[3], float* const out[3], ptrdiff_t count,
                 float scale, bool clamp) {

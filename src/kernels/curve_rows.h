@@ -11,7 +11,7 @@ namespace tonetool::kernels {
 void curve_rows(const CurveNumbers& curve, const CurveUse& use, const float* const in[3],
                 float* const out[3], ptrdiff_t count, float scale);
 
-/// The instruction set that it runs on: "AVX2".
+/// The instruction set that tone_map_rows runs on: "AVX2".
 const char* curve_target();
 
 } // namespace tonetool::kernels

@@ -1,7 +1,7 @@
 // The tone curves in lanes. Included once per target.
 //
-// Each curve is a type, so that the pixel loop holds no branch. What parameters come to is worked
-// out in double when it is made.
+// Each curve is a type, so that the pixel loop holds no branch. Its constructor works out in double
+// what the parameters come to.
 #if defined(TONETOOL_KERNELS_CURVES_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef TONETOOL_KERNELS_CURVES_INL_H_
 #undef TONETOOL_KERNELS_CURVES_INL_H_
@@ -208,7 +208,8 @@ struct NeutralLanes {
         const V offset = hn::IfThenElse(hn::Lt(low, Number(float(kNeutralToe))), toe,
                                         Number(float(kNeutralFresnel)));
         const Color v = {hn::Sub(x.c0, offset), hn::Sub(x.c1, offset), hn::Sub(x.c2, offset)};
-        // Below the start this is the identity: scale 1, no grey.
+        // Below the start of the compression this is the identity: scale 1, nothing mixed with
+        // grey.
         const V peak = hn::Max(hn::Max(v.c0, hn::Max(v.c1, v.c2)), start);
         constexpr double room = 1 - kNeutralStart;
         const V pressed = hn::Sub(one, hn::Div(Number(float(room * room)),

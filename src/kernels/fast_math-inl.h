@@ -24,8 +24,9 @@ struct Root {
     V high, rest;
 };
 
-/// Cube root of x in [1e-30, 1e30], exact to 1e-9 relative. `high` is so short that its cube is
-/// exact in float, hence also what is missing, x - high^3; the rest is a series in it.
+/// Cube root of x in [1e-30, 1e30], exact to 1e-9 relative. `high` has so few bits that its cube is
+/// exact in float, and so is the remainder x - high^3; the rest of the root is a series in that
+/// remainder.
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE Root<V> CubeRoot(D tag, V x) {
     const hn::RebindToSigned<D> di;

@@ -1,4 +1,5 @@
-// The difference of two pixels' features in lanes. Included once per target.
+// The FLIP error of two pixels from their colours and features, in SIMD lanes. Included once per
+// target.
 #if defined(TONETOOL_KERNELS_FLIP_ERROR_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef TONETOOL_KERNELS_FLIP_ERROR_INL_H_
 #undef TONETOOL_KERNELS_FLIP_ERROR_INL_H_
@@ -60,8 +61,8 @@ HWY_INLINE V FeatureDistance(const float* const (&r)[kFeaturePlanes],
     return hn::Max(hn::Abs(Difference(r, t, kEdge, x)), hn::Abs(Difference(r, t, kPoint, x)));
 }
 
-// The power that features raise the colour error to: E = color^(1 - feature) is worked out as a
-// product of logarithms.
+// Features raise the colour error to a power: E = color^(1 - feature) is worked out as a product of
+// logarithms.
 HWY_INLINE V PowerOf(V feature_distance) {
     const V one = hn::Set(d, 1.0f);
     const V feature = hn::Sqrt(hn::Mul(feature_distance, hn::Set(d, 0.70710678118654752f)));

@@ -13,8 +13,8 @@
 #include <hwy/highway.h>
 
 #include "kernels/flip_error-inl.h"
-#include "kernels/fold-inl.h"
 #include "kernels/hunt_lab-inl.h"
+#include "kernels/symmetric_filter-inl.h"
 #include "kernels/tone_curve-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -33,7 +33,7 @@ void Transpose(const float* HWY_RESTRICT in, ptrdiff_t rows, ptrdiff_t columns,
             out[x * rows + y] = in[y * columns + x];
 }
 #else
-// In squares of 4 x 4: rows and columns are lanes and vectors of strips, multiples of it.
+// Transposes squares of 4 x 4: the numbers of lanes and of vectors in a strip are multiples of 4.
 void Transpose(const float* HWY_RESTRICT in, ptrdiff_t rows, ptrdiff_t columns,
                float* HWY_RESTRICT out) {
     const hn::Full128<float> four;
@@ -118,8 +118,8 @@ void FilterColumns(const RowTable (&in)[kOpponentPlanes], const TapVectors& taps
     }
 }
 
-// The vectors beside the row, `reach` on each side, of a wide row: those of the neighbouring strip,
-// and at its two ends the outer columns.
+// Fills the halo of a wide row, `radius` vectors on each side: they are copies of the neighbouring
+// strip's vectors, at the two ends of the row with the outer columns.
 void FillHaloOfRow(const StripShape& shape, float* row, const TapList& taps) {
     const ptrdiff_t lanes = LaneCount(), reach = taps.count - 1;
     float* HWY_RESTRICT first = row + shape.wide_start();

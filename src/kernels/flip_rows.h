@@ -14,10 +14,10 @@ namespace tonetool::kernels {
 /// Rows of this many pixels fill whole vectors on every instruction set; rows are aligned to it.
 inline constexpr ptrdiff_t kMostLanes = 16;
 
-/// Rows that the columns are filtered for at a time.
+/// Rows that one step of the vertical filter produces.
 inline constexpr int kRowBlock = 4;
 
-/// Vectors that are filtered along a row at a time, at most.
+/// The most vectors that one step of the horizontal filter produces.
 inline constexpr int kStripStep = 8;
 
 /// How a row of a tile lies in memory: in strips. Lane l of vector v is column l * strip + v, so
@@ -43,8 +43,8 @@ struct StripShape {
 /// of y to the row below. YCxCz without its scale and offset: filters are linear, sum to 1.
 enum OpponentPlane { kY, kXy, kYz, kStepY, kOpponentPlanes };
 
-/// What the pass along y leaves for the pass along x: three filtered colours, the last of them
-/// twice, and the luminance under the three filters of the features.
+/// The result of the pass along y, which the pass along x filters further: three filtered colours,
+/// the last of them twice, and the luminance under the three filters of the features.
 enum ColumnPlane {
     kColumnY,
     kColumnCx,
@@ -56,11 +56,13 @@ enum ColumnPlane {
     kColumnPlanes
 };
 
-/// What LDR-FLIP compares: Hunt-adjusted L, a, b of the filtered image, edge and point strength.
-/// L, in two parts, lacks its factor 116 and its offset; a and b lack 116 times 5 and 116 times 2.
+/// The features that LDR-FLIP compares: Hunt-adjusted L, a, b of the filtered image, edge and point
+/// strength. L, in two parts, lacks its factor 116 and its offset; a and b lack 116 times 5 and 116
+/// times 2.
 enum FeaturePlane { kLHigh, kLLow, kA, kB, kEdge, kPoint, kFeaturePlanes };
 
-/// Work space for one row: its filtered colours, and what Lab needs beside them.
+/// Work space for one row: its filtered colours, and the intermediate values of the conversion to
+/// Lab.
 enum WorkPlane { kFilteredY, kFilteredCx, kFilteredCz, kWorkFx, kWorkFz, kWorkPlanes };
 
 enum TapPlane { kTapsY, kTapsCx, kTapsCz1, kTapsCz2, kTapsG, kTapsD1, kTapsD2, kTapPlanes };
@@ -120,8 +122,8 @@ struct FlipRows {
                             const float* const (&columns)[kColumnPlanes], const float* steps,
                             float* edge, float* point);
 
-    /// Filtered colours, which are lost, to Hunt-adjusted Lab, the planes kLHigh to kB of `out`;
-    /// edge and point in `out` to their roots.
+    /// Turns filtered colours, which it overwrites, into Hunt-adjusted Lab (the planes kLHigh to kB
+    /// of `out`), and edge and point in `out` into their square roots.
     void (*to_features)(ptrdiff_t count, float* const (&work)[kWorkPlanes],
                         float* const (&out)[kFeaturePlanes]);
 
@@ -132,7 +134,7 @@ struct FlipRows {
                         float* const (&work)[kWorkPlanes], float* best, float* index, float* error);
 };
 
-/// For the best instruction set of this machine.
+/// The functions for the best instruction set of this machine.
 const FlipRows& flip_rows();
 
 /// `count` pixels exposed, tone mapped and clamped; in and out may be the same.

@@ -5,8 +5,8 @@
 
 namespace tonetool::kernels {
 
-/// As the papers define them. All filters are separable. `d1` is odd (its value at -i is -d1[i]),
-/// the others are even.
+/// The taps as the papers define them. All filters are separable. `d1` is odd (its value at -i is
+/// -d1[i]), the others are even.
 template <typename T>
 struct FlipTaps {
     std::vector<T> y, cx;     ///< contrast sensitivity, achromatic and red-green
@@ -14,9 +14,9 @@ struct FlipTaps {
     std::vector<T> g, d1, d2; ///< features: Gaussian, its first and second derivative
 };
 
-/// As the lanes apply them. Lists may be shorter than the radius where the tail is below the
-/// precision of float. `y` and `cx` are of one length, not longer than `g`; so are `cz1` and `cz2`.
-/// All of these have two taps or more.
+/// The taps as the lanes apply them. Lists may be shorter than the radius where the tail is below
+/// the precision of float. `y` and `cx` are of one length, not longer than `g`; so are `cz1` and
+/// `cz2`. All of these have two taps or more.
 ///
 /// The taps of both detectors sum to 0, so that they can be applied to the steps between
 /// neighbours, s[i] = v[i + 1] - v[i]: a flat area then gives exactly 0, which matters since the

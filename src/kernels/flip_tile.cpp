@@ -45,7 +45,7 @@ void prefetch(const float* row, int from, int to) {
     hwy::Prefetch(row + to - 1);
 }
 
-// Columns that the row of the image begins with before the tile: the halo, and on to whole vectors.
+// The number of columns before the tile: its halo, rounded up to whole vectors.
 ptrdiff_t lead(const StripShape& strips) {
     return round_up(strips.halo, kMostLanes);
 }
@@ -143,7 +143,7 @@ void FlipTile::load(const Window& tile, const ConstRgb& reference,
 
 void FlipTile::load(Side& side, const ConstRgb& image) {
     const StripShape& strips = m_shape.strips;
-    // No further than the halo of the last row: a band need not hold more.
+    // No further than the halo of the last row: a scanline block need not hold more.
     const int last = std::min(m_tile.y0 + m_tile.height - 1 + strips.halo, image.height - 1);
     const auto source = [&](int c, int y) {
         const int row = std::clamp(m_tile.y0 - strips.halo + y, 0, last) - image.first_row;
@@ -180,7 +180,7 @@ void FlipTile::find_differing_rows(Test& test) const {
     }
 }
 
-// Whether none of the rows that the block at `y` depends on differs.
+// Whether all rows that the block at `y` depends on are equal in test and reference.
 bool FlipTile::same_window(const Test& test, int y) const {
     return test.differing[size_t(y + m_slots)] == test.differing[size_t(y)];
 }
@@ -220,7 +220,7 @@ void FlipTile::show_rows(int y, const Exposure& exposure) {
         show_row(m_reference, row, exposure);
 }
 
-// Rows are shown from top to bottom: the first one that the block at `y` lacks.
+// The first row that the block at `y` still lacks: rows are tone mapped from top to bottom.
 int FlipTile::first_missing(const Side& side, int y) {
     return std::max(y, side.next_row);
 }

@@ -1,5 +1,5 @@
-// HDR-FLIP of one tile, all exposures in cache: the rows of flip_rows.h run over it from top to
-// bottom, nothing that is larger than a few rows is kept between them.
+// HDR-FLIP of one tile with all exposures in cache: the row functions of flip_rows.h run over it
+// from top to bottom, and no more than a few rows is kept between them.
 #pragma once
 
 #include <hwy/aligned_allocator.h>
@@ -41,8 +41,9 @@ struct TileShape {
 /// the halo around them.
 bool same_pixels(const ConstRgb& a, const ConstRgb& b, const Window& window, int halo);
 
-/// Compares the pixels of a tile of some tests with those of the reference. Made once and used for
-/// one tile after the other: its memory is as large as many tiles' work is long.
+/// Compares the pixels of a tile of some tests with those of the reference. An object is made once
+/// and used for one tile after the other, since allocating its memory takes as long as evaluating
+/// many tiles.
 class FlipTile {
 public:
     /// The functions must outlive the object. With `keep_each` the error of the last exposure
@@ -50,7 +51,7 @@ public:
     FlipTile(const FlipRows& functions, const TileShape& shape, const LaneTaps& taps, size_t tests,
              bool keep_each);
 
-    /// Bytes that such an object takes.
+    /// The memory that such an object takes, in bytes.
     static size_t bytes(const TileShape& shape, size_t tests, bool keep_each);
 
     /// Begins with the tile: as many tests as the object is for, or fewer.

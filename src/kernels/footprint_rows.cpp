@@ -72,7 +72,7 @@ void Clean(const GuidePlanes& image, int y, float* const to[3]) {
             to[c][x] = IsSurface(image, at + x) ? image.position[c][at + x] : kUnknown;
 }
 
-// Squared distance in space; infinite to what is no surface.
+// Squared distance in space; infinite where one of the two is background.
 HWY_INLINE V SquaredStep(const float* const (&a)[3], const float* const (&b)[3], int x, int dx) {
     V sum = hn::Zero(d);
     for (size_t c = 0; c < 3; ++c) {

@@ -6,7 +6,7 @@
 
 namespace tonetool::kernels {
 
-/// Before the first and behind the last pixel of rows here lie as many more floats.
+/// Rows have a margin of this many floats before their first and behind their last pixel.
 inline constexpr int kFootprintMargin = 64;
 
 /// How far from the local median a footprint may be, as a factor; and the neighbourhood of that
@@ -25,16 +25,16 @@ struct FootprintRows {
     /// and in the margins.
     void (*raw)(const float* const (&rows)[3][3], int width, float* to);
 
-    /// From the raw rows around: those within the spread of their local median, and at least
-    /// `step` times the largest coordinate. kNotSettled where they are not or it is unknown, 0
-    /// where there is no surface.
+    /// From the raw footprints of the rows around: those within kFootprintSpread of their local
+    /// median, raised to at least `step` times the largest coordinate. kNotSettled where they are
+    /// not or it is unknown, 0 where there is no surface.
     void (*settle)(const float* const (&raw)[2 * kFootprintReach + 1], const float* const row[3],
                    float step, int width, float* to);
 };
 
 inline constexpr float kNotSettled = -1;
 
-/// For the best instruction set of this machine.
+/// The functions for the best instruction set of this machine.
 const FootprintRows& footprint_rows();
 
 } // namespace tonetool::kernels

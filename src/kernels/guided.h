@@ -8,17 +8,16 @@
 
 namespace tonetool::kernels {
 
-/// Planes of one image, or of a band of its rows, as much as what is computed from it needs. All
-/// have one row stride; those that are null take no part.
+/// Planes of one image, or of a scanline block that holds all rows which the result depends on. All
+/// have the same row stride; planes that are null take no part.
 struct GuidePlanes {
     const float* value = nullptr; ///< what is averaged: luminance or a logarithm of it
     const float* position[3] = {nullptr, nullptr, nullptr};
     const float* normal[3] = {nullptr, nullptr, nullptr}; ///< of any length; 0: none
     const float* albedo[3] = {nullptr, nullptr, nullptr};
-    const float* range = nullptr;     ///< logarithm of luminance; may be the plane `value`
-    const float* footprint = nullptr; ///< of each pixel, in the unit of positions
-    const uint8_t* background =
-        nullptr; ///< not 0: no surface; nor is where a position is not finite
+    const float* range = nullptr;        ///< logarithm of luminance; may be the plane `value`
+    const float* footprint = nullptr;    ///< of each pixel, in the unit of positions
+    const uint8_t* background = nullptr; ///< not 0: background; so are non-finite positions
     ptrdiff_t stride = 0;
     int width = 0, height = 0; ///< of the whole image
     int first_row = 0;         ///< row of the image that the planes begin with
@@ -66,8 +65,8 @@ struct Tap {
 /// first column of the image.
 inline constexpr int kGuidedRun = 64;
 
-/// The offsets that are looked at: one set for all pixels, or several among which a hash of the
-/// place in the image chooses, so that results do not depend on tiles or windows.
+/// The offsets that are sampled: one set for all pixels, or several sets among which a hash of the
+/// pixel's coordinates chooses, so that results do not depend on tiles or regions.
 class TapSets {
 public:
     /// `sets`: 1 or 64 of them, each with (0, 0); sigma in pixels.
@@ -85,7 +84,7 @@ private:
     int m_half = 0;
 };
 
-/// Every offset of the square window, in rows.
+/// All offsets of the square window, row by row.
 std::vector<Offset> whole_window(int half);
 
 } // namespace tonetool::kernels

@@ -261,7 +261,7 @@ HWY_INLINE void AddBatch(const Terms& terms, const Batch& batch, ptrdiff_t x, pt
     sums.Add(x, value, weight);
 }
 
-// Sums of sums of sums: long rows of additions in float would lose digits.
+// Sums are added up in three stages: long series of additions in float would lose digits.
 constexpr ptrdiff_t kBlock = 16 * kBatch;
 
 template <class Terms>
@@ -307,7 +307,7 @@ void WithPlain(const GuidedLayout& layout, const GuidedScales& scales, const Gui
     }
 }
 
-// Beside pairs there is no plane but the range.
+// With packed pairs the range is the only other plane.
 template <bool kPosition, int kPairs>
 void WithPairs(const GuidedLayout& layout, const GuidedScales& scales, const GuidedRun& run,
                float* out) {

@@ -46,22 +46,23 @@ struct GuidedRun {
 struct GuidedRows {
     const char* name;
 
-    /// Announces pixels that are prepared soon.
+    /// Prefetches pixels that will be prepared soon.
     void (*fetch)(const GuidePlanes& image, ptrdiff_t from, ptrdiff_t count);
 
     /// `count` pixels of a row that begins at `from` in the planes; up to a vector more is written.
     void (*prepare)(const GuidePlanes& image, const GuidedLayout& layout,
                     const GuidedScales& scales, ptrdiff_t from, ptrdiff_t count, float* to);
 
-    /// Pixels outside the image: neighbours of none.
+    /// Pixels outside the image, which are no pixel's neighbours.
     void (*prepare_outside)(const GuidedLayout& layout, ptrdiff_t count, float* to);
 
-    /// The weighted means of a run. Where a pixel has no neighbour, not even itself: its own value.
+    /// The weighted means of a run. A pixel without any valid neighbour (it counts as its own)
+    /// keeps its value.
     void (*filter)(const GuidedLayout& layout, const GuidedScales& scales, const GuidedRun& run,
                    float* out);
 };
 
-/// For the best instruction set of this machine.
+/// The functions for the best instruction set of this machine.
 const GuidedRows& guided_rows();
 
 } // namespace tonetool::kernels

@@ -87,8 +87,8 @@ void GuidedTile::filter(const Window& window, const GuidedRow& row) {
     }
 }
 
-// Asks for a run of a row, and what is beside it at the ends of the tile: spread over the time that
-// a row takes, this costs nothing.
+// Prefetches a run of a row, and at the ends of the tile what is beside it: spread over the time
+// that a row takes, this costs nothing.
 void GuidedTile::fetch(int y, int x, bool leftmost, bool rightmost) const {
     const int from = std::max(0, leftmost ? x - m_taps.half() : x);
     const int to = std::min(m_image.width, x + kGuidedRun + (rightmost ? m_taps.half() : 0));

@@ -1,4 +1,4 @@
-// Columns of an image, from which the cross bilateral filter makes one row after the other.
+// The cross bilateral filter over some columns of an image, row by row.
 #pragma once
 
 #include <functional>
@@ -17,7 +17,7 @@ using GuidedRow = std::function<void(int x0, int y, int count, const float* base
 /// core's L2 cache holds them.
 class GuidedTile {
 public:
-    /// For windows of at most `columns`. What is given must outlive it.
+    /// For windows of at most `columns`. The arguments must outlive this object.
     GuidedTile(const GuidePlanes& image, const GuidedTerms& terms, const TapSets& taps,
                int columns);
 

@@ -19,7 +19,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 /// weights are 0, and the squares of these distances are floats.
 constexpr float kFarAway = 3e18f;
 
-/// Neighbours that are weighed side by side: each waits for many steps of its own.
+/// Neighbours that are weighed side by side, since each weight is a long chain of dependent steps.
 constexpr int kTogether = HWY_MAX_BYTES == 64 ? 4 : 2;
 using Together = V[kTogether];
 

@@ -1,4 +1,4 @@
-// The colour spaces of LDR-FLIP in lanes. Included once per target.
+// The colour spaces of LDR-FLIP in SIMD lanes. Included once per target.
 #if defined(TONETOOL_KERNELS_HUNT_LAB_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef TONETOOL_KERNELS_HUNT_LAB_INL_H_
 #undef TONETOOL_KERNELS_HUNT_LAB_INL_H_
@@ -96,7 +96,7 @@ HWY_INLINE V LabStep(V p, V q, V p_minus_q, V fp, V fq) {
     return hn::IfThenElse(roots, RootStep(p_minus_q, fp, fq), apart);
 }
 
-// What the clamp of RGB adds to a filtered opponent colour: exactly nothing to colours inside.
+// The change that clamping RGB makes to a filtered opponent colour: exactly 0 inside the gamut.
 HWY_INLINE Color BeyondGamut(const FromOpponentPlanes& to_rgb, const Color& c) {
     const Color rgb = to_rgb(c.c0, c.c1, c.c2);
     return {hn::Sub(Clamp01(rgb.c0), rgb.c0), hn::Sub(Clamp01(rgb.c1), rgb.c1),

@@ -18,22 +18,22 @@ struct LocalCurve {
     bool log_base = false;                                 ///< the base is a natural logarithm
 };
 
-/// Luminance of `count` pixels. Here as below any count, and in and out may be the same.
+/// Luminance of `count` pixels. These functions take any count, and in and out may be the same.
 void luminance_rows(const std::array<double, 3>& weights, const float* const in[3], float* out,
                     ptrdiff_t count);
 
 /// scale log2 of luminance, of `least` where it is smaller; NaN for what is not finite or negative.
 void log_rows(const float* in, float* out, ptrdiff_t count, float least, float scale);
 
-/// Pixels to display light, which is not clamped. 0 where luminance is not a finite positive
-/// number; where the base is none there is no detail, it is luminance itself. The curve stays at
-/// its end beyond Lmax. With saturation 1 negative channels remain what they are to the luminance;
-/// otherwise their magnitudes are raised and they keep their sign.
+/// Tone maps pixels to display light, which is not clamped. The result is 0 where luminance is not
+/// a finite positive number. Where the base is not one, luminance itself is the base, so there is
+/// no detail. The curve stays at its end beyond Lmax. With saturation 1 negative channels remain
+/// what they are to the luminance; otherwise their magnitudes are raised and they keep their sign.
 void local_rows(const LocalCurve& curve, const float* base, const float* const in[3],
                 float* const out[3], ptrdiff_t count);
 
-/// A pixel of local_rows in double precision.
-std::array<double, 3> local_twin(const LocalCurve& curve, double base,
-                                 const std::array<double, 3>& rgb);
+/// The reference implementation of local_rows for one pixel, in double precision.
+std::array<double, 3> local_reference(const LocalCurve& curve, double base,
+                                      const std::array<double, 3>& rgb);
 
 } // namespace tonetool::kernels

@@ -1,4 +1,4 @@
-// What the means of luminance are made of, row by row in float lanes (Google Highway, dynamic
+// The sums behind the means of luminance, row by row in float lanes (Google Highway, dynamic
 // dispatch).
 #pragma once
 
@@ -15,7 +15,7 @@ struct LuminanceSums {
     float most = 0;
 };
 
-/// Of `count` values; epsilon is not 0. Logarithms are those of float lanes, to 2e-7.
+/// The sums of `count` values; epsilon is not 0. Logarithms are those of float lanes, to 2e-7.
 LuminanceSums luminance_sums(const float* luminance, ptrdiff_t count, float epsilon);
 
 } // namespace tonetool::kernels

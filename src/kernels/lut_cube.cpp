@@ -55,7 +55,7 @@ void LightCube::set_row(int r, int g, const float* light) {
     }
 }
 
-void light_cube_twin(const LightCube& cube, const double (&in)[3], double (&out)[3]) {
+void light_cube_reference(const LightCube& cube, const double (&in)[3], double (&out)[3]) {
     int at[3], order[3] = {0, 1, 2};
     double part[3];
     for (int c = 0; c < 3; ++c) {

@@ -1,4 +1,4 @@
-// A table of colours behind a curve: light in, light in [0,1] out.
+// A 3D LUT behind a shaper curve: scene light in, display light in [0,1] out.
 #pragma once
 
 #include <cstddef>
@@ -31,7 +31,8 @@ public:
     const CubeShape& shape() const { return m_shape; }
     /// x^p / (x^p + pivot^p).
     double share(double x) const;
-    /// Where an input is, in cells; and what the vertices of plane i stand for.
+    /// The position of an input in units of cells, and the input that the vertices of plane i stand
+    /// for.
     double place(double x) const;
     double level(int i) const;
     /// Encoded R, G, B and a 0, of a multiple of 16 bytes.
@@ -54,7 +55,7 @@ private:
 void light_cube_rows(const LightCube& cube, const float* const in[3], float* const out[3],
                      ptrdiff_t count, float scale);
 
-/// The same in double precision, one pixel, plainly.
-void light_cube_twin(const LightCube& cube, const double (&in)[3], double (&out)[3]);
+/// The reference implementation for one pixel, in double precision.
+void light_cube_reference(const LightCube& cube, const double (&in)[3], double (&out)[3]);
 
 } // namespace tonetool::kernels

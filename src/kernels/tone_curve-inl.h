@@ -1,4 +1,4 @@
-// Tone curves in lanes. Included once per target.
+// Tone curves in SIMD lanes. Included once per target.
 #if defined(TONETOOL_KERNELS_TONE_CURVE_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef TONETOOL_KERNELS_TONE_CURVE_INL_H_
 #undef TONETOOL_KERNELS_TONE_CURVE_INL_H_

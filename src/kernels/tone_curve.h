@@ -1,4 +1,4 @@
-// The tone curves HDR-FLIP runs, as plain numbers.
+// The tone curves that HDR-FLIP runs, as plain numbers.
 #pragma once
 
 #include <array>

@@ -1,4 +1,4 @@
-// What the rooms below the border see of an image: pointers, strides and numbers.
+// Images as the libraries below the ImageBuf border see them: pointers, strides and numbers.
 #pragma once
 
 #include <cstddef>
@@ -7,8 +7,8 @@
 
 namespace tonetool::kernels {
 
-/// Three planes of one image, row stride in floats; or of a band of its rows, as much as what is
-/// computed from it needs.
+/// Three planes of one image, row stride in floats; or of a scanline block that holds all rows
+/// which the result depends on.
 struct ConstRgb {
     const float* plane[3] = {nullptr, nullptr, nullptr};
     ptrdiff_t stride = 0;

@@ -1,4 +1,4 @@
-// Rows of pixels by functions that run on whole vectors only.
+// Runs functions that take whole vectors only over rows of any length.
 #pragma once
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// Blocks of rows, looked at in parallel with results that do not show how they were scheduled.
+// Blocks of rows that are visited in parallel; results do not depend on how they are scheduled.
 #pragma once
 
 #include <algorithm>
@@ -30,7 +30,8 @@ void for_each_block(int width, int height, const kernels::ParallelFor& parallel,
 }
 
 /// Accumulators of type T, as many as are in use at once: large tables are not made for every
-/// block. What they end up with must not depend on the order: integers may be added so.
+/// block. Their final content must not depend on the order of additions, as that of integers does
+/// not.
 template <class T>
 class Accumulators {
 public:

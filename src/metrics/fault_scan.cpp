@@ -160,7 +160,7 @@ double GroupScan::sum() const {
     return chosen().picture > 0 ? chosen().groups / chosen().picture : 0;
 }
 
-// Groups over a black picture are as far off as they can be.
+// Light groups of a black beauty are as far off as they can be.
 double GroupScan::difference() const {
     const Sums& sums = chosen();
     return sums.picture > 0 ? sums.off / sums.picture : sums.off > 0 ? 1 : 0;

@@ -1,5 +1,5 @@
-// What is looked for in the pixels of a picture that may be broken: rows in, sums and places out.
-// Rows are scanned on their own and added up in their order, so that threads do not matter.
+// The measurements behind --qc: rows of pixels in, sums and positions of bad pixels out. Rows are
+// scanned one by one and added up in their order, so results do not depend on threads.
 #pragma once
 
 #include <cstddef>
@@ -13,7 +13,7 @@ struct Hit {
     double value = 0;
 };
 
-/// Pixels that have something, and the first few.
+/// The number of pixels that have a property, and the first few of them.
 struct Hits {
     static constexpr size_t kMost = 4;
     int64_t pixels = 0;
@@ -30,7 +30,7 @@ struct ChannelRow {
     int64_t width = 0, x = 0, y = 0;
 };
 
-/// A layer, but for its alpha, which only counts where it is no number.
+/// A layer. Its alpha counts only where it is NaN.
 struct LayerScan {
     Hits nan, inf, negative; ///< pixels where any channel is
     int64_t finite = 0, lit = 0;
@@ -40,10 +40,10 @@ struct LayerScan {
     void add(const LayerScan& later);
     double min() const;
     double max() const;
-    /// Each channel has one value, and is finite.
+    /// Whether every channel has the same finite value in all pixels.
     bool constant() const;
 };
-/// `alpha`: its channel; -1 if it has none.
+/// `alpha`: the layer's alpha channel; -1 if it has none.
 LayerScan scan_layer(const ChannelRow& row, const std::vector<int>& channels,
                      const std::vector<double>& weights, int alpha = -1);
 
@@ -51,32 +51,34 @@ struct RangeScan {
     Hits below, above;
     void add(const RangeScan& later);
 };
-/// Finite values of one channel beyond [low, high].
+/// Finds the finite values of one channel beyond [low, high].
 RangeScan scan_range(const ChannelRow& row, int channel, double low, double high);
 
-/// A pixel that is much larger than all that are kReach away, and the largest on the way.
+/// A firefly: a pixel that is kTimes as large as all pixels at the distance kRadius, and larger
+/// than those in between. `around` is the neighbourhood maximum.
 struct Spike {
-    static constexpr int kReach = 3;
+    static constexpr int kRadius = 3;
     static constexpr float kTimes = 8;
     int64_t x = 0, y = 0;
     double value = 0, around = 0;
 };
-/// Spikes of a row among its neighbours kReach above and below (null where there are none).
-void find_spikes(const float* const (&rows)[2 * Spike::kReach + 1], int64_t width, int64_t x,
+/// Finds the fireflies of the middle row; the other rows are those up to kRadius above and below it
+/// (null outside the image).
+void find_spikes(const float* const (&rows)[2 * Spike::kRadius + 1], int64_t width, int64_t x,
                  int64_t y, std::vector<Spike>& out);
-/// The `most` largest of them, by value, then place.
+/// Keeps the `most` largest fireflies, by value, then position.
 void keep_largest(std::vector<Spike>& spikes, size_t most);
 
-/// Whether light groups add up to a picture. Pixels at the picture's largest component may be
+/// Whether light groups add up to the beauty. Pixels at the beauty's largest component may be
 /// clamped: they count only where there are no others.
 class GroupScan {
 public:
-    /// Adds a pixel of the picture and the sum of its groups.
+    /// Adds a pixel of the beauty and the sum of its groups.
     void add(const float (&picture)[3], const double (&groups)[3], int64_t x, int64_t y);
     void add(const GroupScan& later);
 
-    double sum() const;        ///< light of the groups over that of the picture
-    double difference() const; ///< sum of absolute differences, over the same
+    double sum() const;        ///< light of the groups divided by that of the beauty
+    double difference() const; ///< sum of absolute differences, divided by the same
     Hit worst() const { return chosen().worst; }
 
 private:
@@ -91,19 +93,19 @@ private:
     Sums m_below, m_at;
 };
 
-/// Sums over the cells of a grid in one row.
+/// Sums over the cells that one row of a thumbnail crosses.
 struct CellRow {
     std::vector<double> sum;
     std::vector<float> largest;
     std::vector<int64_t> missing; ///< pixels that are not finite
 };
 
-/// Where a picture is looked at as a viewer does.
+/// The beauty as the thumbnail sees it.
 struct PictureRow {
     std::vector<float> largest; ///< component of each pixel, 0 where it is not finite
     CellRow cells;
 };
-/// Of interleaved colours. `cell_of` gives the cell of each pixel, or -1.
+/// Adds a row of interleaved colours. `cell_of` gives the cell of each pixel, or -1.
 PictureRow scan_picture(const float* rgb, int64_t width, const double (&weights)[3],
                         const int* cell_of, size_t cells);
 

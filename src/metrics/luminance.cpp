@@ -49,7 +49,7 @@ void averages(const float* plane, int width, int height, int64_t count, const Pa
     stats.log_average = all.lit ? std::exp(all.logs / double(all.lit)) : 0;
 }
 
-// Largest, upper median, upper median of the lit.
+// The maximum, the upper median, and the upper median of the non-black pixels.
 std::vector<Wanted> for_exposures(const OrderStatistics& order) {
     const int64_t n = order.count(), black = order.zeros();
     return {Wanted::rank(n - 1), Wanted::rank(n / 2), Wanted::rank(black + (n - black) / 2)};

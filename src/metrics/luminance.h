@@ -11,18 +11,18 @@ namespace tonetool::metrics {
 /// Luminance of `count` pixels of linear Rec.709.
 void luminance_row(const float* r, const float* g, const float* b, float* out, int64_t count);
 
-/// What the exposures of HDR-FLIP follow from; see LuminanceStats for the meaning.
+/// The luminances that the exposures of HDR-FLIP follow from; LuminanceStats says what each is.
 struct ExposureStats {
     int64_t counted = 0, black = 0;
     double max = 0, median = 0, median_lit = 0;
 };
 
-/// Of a luminance plane, row by row without padding; what is not finite is not looked at.
+/// The statistics of a luminance plane without padding; non-finite values are skipped.
 ExposureStats exposure_statistics(const float* plane, int width, int height,
                                   const kernels::ParallelFor& parallel);
 
-/// Of a luminance plane as above. Fills every figure of LuminanceStats but the counts of pixels,
-/// non-finite and negative ones, the layer and the space.
+/// The same for all of LuminanceStats. Fills every figure of LuminanceStats but the counts of
+/// pixels, non-finite and negative ones, the layer and the space.
 LuminanceStats luminance(const float* plane, int width, int height,
                          const kernels::ParallelFor& parallel);
 

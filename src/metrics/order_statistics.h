@@ -39,11 +39,11 @@ public:
     int64_t count() const { return m_count; }
     int64_t zeros() const { return m_zeros; }
 
-    /// All of them in one pass over the data; zeros if nothing was counted.
+    /// Finds all of these elements in one pass over the data; zeros if nothing was counted.
     std::vector<float> find(const std::vector<Wanted>& wanted) const;
 
 private:
-    /// An element by its bucket and what the buckets below it leave.
+    /// An element as its bucket and its rank or sum within that bucket.
     struct Place {
         size_t bucket = 0;
         int64_t rank = 0; ///< within the bucket, if not by mass

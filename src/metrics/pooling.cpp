@@ -92,7 +92,8 @@ void join(FlipPool& pool, const std::vector<Row>& rows, int width, int x0, int y
     pool.mean = sum / double(pool.pixels);
 }
 
-// Of a percentage in decimals: what dividing by 100 rounds up must not reach the next rank.
+// A rank is computed from a decimal percentage with some slack: the rounding of the division by 100
+// must not move it to the next rank.
 Wanted nearest_rank(double percent, int64_t count) {
     constexpr double rounding = 1e-9;
     return Wanted::rank(int64_t(std::ceil(percent * double(count) / 100 - rounding)) - 1);

@@ -9,10 +9,10 @@
 
 namespace tonetool::metrics {
 
-/// What a pool is to hold beside the usual quantities.
+/// The quantities that a pool holds beside the usual ones.
 struct PoolRequest {
     std::vector<double> percentiles; ///< 0 to 100
-    std::vector<double> above;       ///< errors: of the pixels that exceed one, the share
+    std::vector<double> above;       ///< errors: the share of the pixels above each
     std::vector<double> found_percentiles, found_above;
 };
 

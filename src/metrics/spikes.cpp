@@ -5,37 +5,37 @@
 namespace tonetool::metrics {
 namespace {
 
-constexpr int kReach = Spike::kReach;
-using Rows = const float* const (&)[2 * kReach + 1];
+constexpr int kRadius = Spike::kRadius;
+using Rows = const float* const (&)[2 * kRadius + 1];
 
-// The largest value on the square of the given reach around x.
-float largest_on_square(Rows rows, int64_t width, int64_t x, int reach) {
-    const int64_t left = std::max<int64_t>(x - reach, 0);
-    const int64_t right = std::min<int64_t>(x + reach, width - 1);
+// The largest value on the border of the square of this radius around x.
+float largest_on_square(Rows rows, int64_t width, int64_t x, int radius) {
+    const int64_t left = std::max<int64_t>(x - radius, 0);
+    const int64_t right = std::min<int64_t>(x + radius, width - 1);
     float largest = 0;
-    for (int dy = -reach; dy <= reach; ++dy) {
-        const float* row = rows[kReach + dy];
+    for (int dy = -radius; dy <= radius; ++dy) {
+        const float* row = rows[kRadius + dy];
         if (!row)
             continue;
-        if (dy == -reach || dy == reach) {
+        if (dy == -radius || dy == radius) {
             largest = std::max(largest, *std::max_element(row + left, row + right + 1));
             continue;
         }
-        if (x - reach >= 0)
-            largest = std::max(largest, row[x - reach]);
-        if (x + reach < width)
-            largest = std::max(largest, row[x + reach]);
+        if (x - radius >= 0)
+            largest = std::max(largest, row[x - radius]);
+        if (x + radius < width)
+            largest = std::max(largest, row[x + radius]);
     }
     return largest;
 }
 
-// Of equal pixels within reach only the first, by row, then column, is the top.
+// Among equal pixels within the radius only the first, by row, then column, is the firefly.
 bool is_top(Rows rows, int64_t width, int64_t x) {
-    const float value = rows[kReach][x];
-    for (int dy = -kReach + 1; dy < kReach; ++dy) {
-        const float* row = rows[kReach + dy];
-        for (int64_t at = std::max<int64_t>(x - kReach + 1, 0);
-             row && at < std::min(x + kReach, width); ++at) {
+    const float value = rows[kRadius][x];
+    for (int dy = -kRadius + 1; dy < kRadius; ++dy) {
+        const float* row = rows[kRadius + dy];
+        for (int64_t at = std::max<int64_t>(x - kRadius + 1, 0);
+             row && at < std::min(x + kRadius, width); ++at) {
             const bool before = dy < 0 || (dy == 0 && at < x);
             if (before ? row[at] >= value : row[at] > value)
                 return false;
@@ -46,16 +46,16 @@ bool is_top(Rows rows, int64_t width, int64_t x) {
 
 } // namespace
 
-void find_spikes(const float* const (&rows)[2 * kReach + 1], int64_t width, int64_t x, int64_t y,
+void find_spikes(const float* const (&rows)[2 * kRadius + 1], int64_t width, int64_t x, int64_t y,
                  std::vector<Spike>& out) {
-    const float* row = rows[kReach];
+    const float* row = rows[kRadius];
     for (int64_t at = 0; at < width; ++at) {
         const float value = row[at], limit = value / Spike::kTimes;
-        const bool left = at < kReach || row[at - kReach] <= limit;
-        const bool right = at >= width - kReach || row[at + kReach] <= limit;
+        const bool left = at < kRadius || row[at - kRadius] <= limit;
+        const bool right = at >= width - kRadius || row[at + kRadius] <= limit;
         if (!(value > 0 && left && right) || !is_top(rows, width, at))
             continue;
-        const float around = largest_on_square(rows, width, at, kReach);
+        const float around = largest_on_square(rows, width, at, kRadius);
         if (around <= limit)
             out.push_back({x + at, y, value, around});
     }

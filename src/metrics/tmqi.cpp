@@ -12,21 +12,21 @@ namespace {
 
 using kernels::ParallelFor;
 
-constexpr int kTaps = kTmqiWindow, kReach = kTaps / 2;
+constexpr int kTaps = kTmqiWindow, kRadius = kTaps / 2;
 constexpr size_t kScales = std::tuple_size_v<decltype(TmqiScore::scales)>;
 
 // Weights of the scales, which show 16, 8, 4, 2 and 1 cycles per degree.
 constexpr double kWeight[kScales] = {0.0448, 0.2856, 0.3001, 0.2363, 0.1333};
 constexpr double kFinestCycles = 16;
 
-// Of the structural fidelity.
+// Constants of the structural fidelity.
 constexpr double kC1 = 0.01, kC2 = 10;
 
 // Mean and contrast of natural pictures: a normal and a Beta distribution.
 constexpr double kMean = 115.94, kMeanSigma = 27.99;
 constexpr double kBetaA = 4.4, kBetaB = 10.1, kContrastRange = 64.29;
 
-// Of both in the index.
+// Weights of both in the index.
 constexpr double kShare = 0.8012, kStructurePower = 0.3046, kNaturalnessPower = 0.7088;
 
 using Taps = std::array<double, kTaps>;
@@ -36,7 +36,7 @@ Taps make_gaussian() {
     Taps taps{};
     double sum = 0;
     for (int i = 0; i < kTaps; ++i) {
-        taps[size_t(i)] = std::exp(-(i - kReach) * (i - kReach) / (2 * sigma * sigma));
+        taps[size_t(i)] = std::exp(-(i - kRadius) * (i - kRadius) / (2 * sigma * sigma));
         sum += taps[size_t(i)];
     }
     for (double& tap : taps)
@@ -81,14 +81,14 @@ struct Moments {
 Moments along_row(const Taps& taps, const double* h, const double* l) {
     Moments m;
     for (size_t i = 0; i < kTaps; ++i)
-        m.add(taps[i], h[i] - h[kReach], l[i] - l[kReach]);
-    m.center(h[kReach], l[kReach]);
+        m.add(taps[i], h[i] - h[kRadius], l[i] - l[kRadius]);
+    m.center(h[kRadius], l[kRadius]);
     return m;
 }
 
-// The variance of all is that within rows and that of their means.
+// The variance of the whole is the variance within rows plus that of the rows' means.
 Moments along_column(const Taps& taps, const Moments* rows, size_t stride) {
-    const Moments& middle = rows[kReach * stride];
+    const Moments& middle = rows[kRadius * stride];
     Moments m, within;
     for (size_t i = 0; i < kTaps; ++i) {
         const Moments& row = rows[i * stride];
@@ -135,9 +135,9 @@ std::vector<Moments> row_moments(const Scale& scale, int first, int end) {
     const Taps& taps = gaussian();
     const auto width = size_t(scale.width);
     std::vector<Moments> out(size_t(end - first) * width);
-    std::vector<double> h(width + 2 * kReach), l(width + 2 * kReach);
+    std::vector<double> h(width + 2 * kRadius), l(width + 2 * kRadius);
     for (int y = std::max(first, 0); y < std::min(end, scale.height); ++y) {
-        scale.row(y, h.data() + kReach, l.data() + kReach);
+        scale.row(y, h.data() + kRadius, l.data() + kRadius);
         Moments* row = out.data() + size_t(y - first) * width;
         for (size_t x = 0; x < width; ++x)
             row[x] = along_row(taps, h.data() + x, l.data() + x);
@@ -152,7 +152,7 @@ void structures(const Scale& scale, double cycles, const ParallelFor& parallel, 
     const Fidelity fidelity(cycles);
     const auto width = size_t(scale.width);
     for_each_block(scale.width, scale.height, parallel, [&](int first, int end) {
-        const auto moments = row_moments(scale, first - kReach, end + kReach);
+        const auto moments = row_moments(scale, first - kRadius, end + kRadius);
         std::vector<double> row(width);
         for (int y = first; y < end; ++y) {
             const Moments* column = moments.data() + size_t(y - first) * width;

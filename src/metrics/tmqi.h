@@ -12,7 +12,7 @@ namespace tonetool::metrics {
 /// The window of the statistics; smaller images have no TMQI.
 inline constexpr int kTmqiWindow = 11;
 
-/// An HDR image and the picture of it as planes of one size, row by row without padding.
+/// An HDR image and its tone-mapped image as planes of one size, row by row without padding.
 struct TmqiPair {
     const float* hdr = nullptr; ///< linear luminance, in any unit
     const float* ldr = nullptr; ///< luminance of the display-encoded values, 0 to 255
@@ -26,10 +26,11 @@ struct LightRange {
 LightRange light_range(const float* plane, int width, int height,
                        const kernels::ParallelFor& parallel);
 
-/// Scores the picture. `range`, not empty, is what the HDR image is scaled by; what is not finite
-/// enters as its low end, in the picture as 0, and has structure 0 in the finest scale where one of
-/// the two alone is not finite. `structure` receives the map of the finest scale, 1 where the
-/// picture keeps what the HDR image shows. The bits do not depend on how `parallel` schedules.
+/// Scores the tone-mapped image. The HDR image is scaled by `range`, which is not empty. A
+/// non-finite pixel enters as the low end of the range, in the tone-mapped image as 0; where only
+/// one of the two is non-finite, the structure in the finest scale is 0. `structure` receives the
+/// map of the finest scale, 1 where the tone-mapped image keeps the local structure of the HDR
+/// image. The bits do not depend on how `parallel` schedules.
 TmqiScore tmqi(const TmqiPair& pair, const LightRange& range, float* structure,
                const kernels::ParallelFor& parallel);
 

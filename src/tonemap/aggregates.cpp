@@ -8,11 +8,11 @@ namespace {
 using Matrix = Aggregates::Matrix;
 using Vector = Aggregates::Vector;
 
-// As P. Vanek et al. have them: what counts as strong on the first level, half of it on the next;
-// and the smoothing of members, for a matrix whose spectrum ends at 2.
+// Constants of P. Vanek et al.: the threshold of a strong coupling on the first level, which is
+// halved from level to level, and the smoothing of members for a matrix whose spectrum ends at 2.
 constexpr double kStrong = 0.08, kSmoothing = 2.0 / 3;
 
-// Without weak couplings, which are added to the diagonal: row sums stay.
+// The matrix without weak couplings. They are added to the diagonal, so that row sums stay.
 Matrix strong_part(const Matrix& a, double strong) {
     const Vector diagonal = a.diagonal();
     Matrix out(a.rows(), a.cols());

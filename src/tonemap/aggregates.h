@@ -19,7 +19,7 @@ public:
     /// Refers to `matrix` from then on. So many unknowns as `direct` are solved directly.
     void build(const Matrix& matrix, int direct);
 
-    /// For Eigen, which hands over a copy: nothing is left to be done.
+    /// Eigen calls this with a copy of the matrix; there is nothing left to do.
     template <class Any>
     Aggregates& compute(const Any&) {
         return *this;
@@ -29,7 +29,7 @@ public:
 
 private:
     struct Level {
-        Matrix coupled; ///< its unknowns; of the first level it is m_matrix
+        Matrix coupled; ///< of this level; the first level's is m_matrix
         Matrix members; ///< from the unknowns of the next level to its own; of the last none
     };
 

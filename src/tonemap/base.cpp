@@ -15,10 +15,10 @@ using kernels::kGuidedRun;
 using kernels::Window;
 
 // The rows of a tile must stay in a core's L2 cache; the rows above and beside it are prepared for
-// it alone. Low enough that all threads end at the same time.
+// it alone. Tiles are low enough for all threads to end at about the same time.
 constexpr int kTileWidth = 7 * kGuidedRun, kTileHeight = 540;
 
-// Filters tiles, several at a time: each takes a work space that is free, or makes one.
+// Filters tiles in parallel: each takes a work space that is free, or makes one.
 class Tiles {
 public:
     Tiles(const kernels::GuidePlanes& image, const kernels::GuidedTerms& terms,

@@ -7,7 +7,8 @@
 
 namespace tonetool::tonemap {
 
-/// Filters a window of the image. `row` gets pieces of rows, several at a time, in any order.
+/// Filters a window of the image. `row` receives parts of rows, from several threads and in any
+/// order.
 void filter_base(const kernels::GuidePlanes& image, const kernels::GuidedTerms& terms,
                  const kernels::TapSets& taps, const kernels::Window& window,
                  const kernels::GuidedRow& row, const kernels::ParallelFor& parallel);

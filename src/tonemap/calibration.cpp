@@ -23,7 +23,7 @@ Cover cover(int pixel, int pixels, int cells) {
     return {first, last, (first + 1 - from) / (to - from)};
 }
 
-// Between the middles of two cells of an axis.
+// The position of a pixel between the centres of two cells of an axis.
 struct Between {
     int first, second;
     double share; ///< of the second

@@ -1,4 +1,4 @@
-// How bright an image is to be shown: M. Pettineo, "A Closer Look at Tone Mapping" (2010), and
+// The exposure at which an image is shown: M. Pettineo, "A Closer Look at Tone Mapping" (2010), and
 // G. Krawczyk, K. Myszkowski, H.-P. Seidel, "Perceptual Effects in Real-Time Tone Mapping" (2005).
 #pragma once
 
@@ -9,7 +9,7 @@
 
 namespace tonetool::tonemap {
 
-/// A mean is taken for at least this, and key / mean too, as the article does.
+/// The lower limit of the mean and of key / mean, as in the article.
 inline constexpr double kLeastMean = 1e-3, kLeastGain = 1e-4;
 
 /// The key of an image of this geometric mean, meant for cd/m2: 1.03 - 2 / (2 + log10(1 + mean)).

@@ -9,8 +9,8 @@ std::vector<Curve> basic_curves();
 std::vector<Curve> filmic_curves();
 std::vector<Curve> modern_curves();
 
-/// The scene value that becomes display white, or what the curve takes for it: calibrations set it
-/// by this name.
+/// The parameter `white`: the scene value that becomes display white, or the nearest thing that the
+/// curve has. Calibration sets it by this name.
 inline CurveParameter white_parameter(double value, const char* help) {
     return {"white", value, 1e-4, 1e9, help};
 }

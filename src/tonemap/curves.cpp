@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "kernels/curve_twin.h"
+#include "kernels/curve_reference.h"
 #include "tonemap/curve_families.h"
 
 namespace tonetool::tonemap {
@@ -48,14 +48,14 @@ std::string unknown_parameter(const Curve& curve, const std::string& name) {
            (names.empty() ? " (it has none)" : " (it has " + joined(names) + ")");
 }
 
-// Values that are each valid may not go together: a pole, a toe above the line. Where the curve,
-// clamped, falls or is no number, on 2^-32 to 2^64; empty if nowhere.
+// Values that are valid one by one may not fit together: they may give a pole, or a toe above the
+// line. Returns where the clamped curve falls or is NaN between 2^-32 and 2^64; empty if nowhere.
 std::string fault(const Curve& curve, const CurveValues& values) {
     constexpr int steps = 8; // to an octave
     const kernels::CurveNumbers numbers = curve.make(values);
     double before = 0;
     for (int i = -32 * steps; i <= 64 * steps; ++i) {
-        const double x = std::exp2(double(i) / steps), y = kernels::curve_twin(numbers, x);
+        const double x = std::exp2(double(i) / steps), y = kernels::curve_reference(numbers, x);
         if (!std::isfinite(y))
             return of_curve(curve) + " with these values has no result at x = " + number(x);
         const double clamped = std::clamp(y, 0.0, 1.0);

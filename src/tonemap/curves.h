@@ -17,7 +17,7 @@ struct CurveParameter {
     double value;     ///< default
     double low, high; ///< closed range of valid values
     const char* help;
-    /// Default in HDR-FLIP where its paper has another one.
+    /// The default in HDR-FLIP, where its paper has another one.
     std::optional<double> flip_value{};
 };
 

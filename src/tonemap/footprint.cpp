@@ -17,7 +17,7 @@ using kernels::kFootprintMargin;
 using kernels::kFootprintReach;
 using kernels::kFootprintSpread;
 
-// Rows in turn, with margins, for a band of rows that is walked downwards.
+// A ring of rows with margins, for a scanline block that is processed downwards.
 class Ring {
 public:
     Ring(int rows, int width)
@@ -35,7 +35,7 @@ private:
     std::vector<float> m_data;
 };
 
-// A band of rows: positions, the steps between them, what follows from both.
+// The rows around the current one: positions, the steps between them, and the footprints.
 class Band {
 public:
     Band(const GuidePlanes& image, double step)
@@ -97,7 +97,7 @@ private:
         return std::max(within, m_step * most);
     }
 
-    // The median of what is known around a pixel, the upper one of two.
+    // The median of the known footprints around a pixel, the upper one of two.
     static float local_median(const float* const (&raw)[kSide], int x) {
         std::array<float, size_t(kSide) * kSide> known;
         auto end = known.begin();
@@ -118,7 +118,8 @@ private:
     Ring m_positions[3], m_raw, m_settled;
 };
 
-// Low enough that all threads have some, high enough that the rows around them are few.
+// The height of a scanline block: low enough for all threads to have some, high enough for the rows
+// around them to be few.
 constexpr int kBandRows = 64;
 
 } // namespace

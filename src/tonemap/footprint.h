@@ -1,4 +1,4 @@
-// How large a pixel is in the scene, as far as its positions tell.
+// The footprint of pixels in the scene, from their positions.
 #pragma once
 
 #include "kernels/guided.h"
@@ -18,7 +18,7 @@ inline constexpr double kHalfStep = 1.0 / 1024, kFloatStep = 4.0 / 8388608;
 void footprints(const kernels::GuidePlanes& image, double step, float* out,
                 const kernels::ParallelFor& parallel);
 
-/// The median of those that are not 0 (the upper one of two); 0 if there are none.
+/// The median of the footprints that are not 0 (the upper one of two); 0 if there are none.
 double median_footprint(const float* plane, int width, int height);
 
 } // namespace tonetool::tonemap

@@ -1,14 +1,14 @@
 #include <algorithm>
 #include <cmath>
 
-#include "kernels/curve_twin.h"
+#include "kernels/curve_reference.h"
 #include "tonemap/curves.h"
 #include "tonemap/rational.h"
 
 namespace tonetool::tonemap {
 namespace {
 
-using kernels::curve_twin;
+using kernels::curve_reference;
 using kernels::CurveKind;
 using kernels::CurveNumbers;
 
@@ -18,7 +18,7 @@ constexpr double kLargest = 0x1p64;
 std::optional<double> rational_inverse(const CurveNumbers& curve, double y) {
     const auto& k = curve.p;
     auto roots = roots_within(k[0] - y * k[3], k[1] - y * k[4], k[2] - y * k[5], kLargest);
-    while (!roots.empty() && !std::isfinite(curve_twin(curve, roots.back())))
+    while (!roots.empty() && !std::isfinite(curve_reference(curve, roots.back())))
         roots.pop_back();
     return roots.empty() ? std::nullopt : std::optional(roots.back());
 }
@@ -26,11 +26,12 @@ std::optional<double> rational_inverse(const CurveNumbers& curve, double y) {
 // -1, 0, 1: the curve is below y, there, above. A few ulp are rounding: a curve must be found to
 // reach its white.
 int side(const CurveNumbers& curve, double x, double y) {
-    const double off = curve_twin(curve, x) - y, rounding = 1e-15 * std::abs(y);
+    const double off = curve_reference(curve, x) - y, rounding = 1e-15 * std::abs(y);
     return (off > rounding) - (off < -rounding);
 }
 
-// Where the side that `high` is on ends, seen from there; `low` is on another one.
+// Bisects between `low` and `high`, which are on different sides, for the end of the side that
+// `high` is on.
 double boundary(const CurveNumbers& curve, double y, double low, double high) {
     const int beyond = side(curve, high, y);
     for (;;) {
@@ -43,7 +44,8 @@ double boundary(const CurveNumbers& curve, double y, double low, double high) {
 
 } // namespace
 
-// From above, in sixteenths of an octave: no curve of the registry but the rational ones turns.
+// Searches downwards in sixteenths of an octave: of the curves of the registry only the rational
+// ones have turning points.
 std::optional<double> inverse(const CurveNumbers& curve, double y) {
     if (curve.kind == CurveKind::Rational)
         return rational_inverse(curve, y);

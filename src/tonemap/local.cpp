@@ -17,7 +17,7 @@ using kernels::Window;
 
 const double kLn2 = std::log(2.0), kLn10 = std::log(10.0);
 
-// The value and, if there is a luminance term, what it compares.
+// The planes of the value and, with a luminance term, of the range that it compares.
 class Planes {
 public:
     Planes(const LocalOperator& what, const GuidePlanes& image, const kernels::TapSets& taps,
@@ -56,7 +56,7 @@ kernels::GuidedTerms terms_of(const LocalOperator& what) {
     return terms;
 }
 
-// Pixels to display light, on their base.
+// Tone maps pixels to display light, given their base.
 class Recombination {
 public:
     Recombination(const LocalOperator& what, const ConstRgb& color, const Window& window,

@@ -1,5 +1,5 @@
-// CG-TMO: Drago's curve on a base, which the G-buffer guides. F. Banterle et al., Eq. 2 to 4; here
-// everything is a number or a plane.
+// CG-TMO: Drago's curve on a base, which the G-buffer guides. F. Banterle et al., Eq. 2 to 4; this
+// library sees only numbers and planes.
 #pragma once
 
 #include "kernels/guided.h"
@@ -31,8 +31,8 @@ struct LocalOutput {
     ptrdiff_t stride = 0;
 };
 
-/// Makes a plane of luminance, packed, what bases are means of: its natural logarithm, if they are
-/// logarithmic. NaN stays where luminance is not finite or negative.
+/// Turns a packed plane of luminance into the values that the base averages: their natural
+/// logarithms if the base is logarithmic. NaN stays where luminance is not finite or negative.
 void take_logarithms(const LocalOperator& what, float* luminance, int width, int height,
                      const kernels::ParallelFor& parallel);
 
@@ -49,10 +49,10 @@ void tone_map_guided(const LocalOperator& what, const kernels::ConstRgb& color,
                      const kernels::Window& window, const LocalOutput& output,
                      const kernels::ParallelFor& parallel);
 
-/// What luminance is the product of.
+/// The two factors of luminance.
 enum class LocalPart { Base, Detail };
 
-/// One of the parts, linear. Where the base is no finite positive number it is luminance, and the
+/// One of the factors, linear. Where the base is no finite positive number it is luminance, and the
 /// detail 1. Row stride of `out` in floats.
 void local_part(const LocalOperator& what, const kernels::ConstRgb& color, const LocalBase& base,
                 const kernels::Window& window, LocalPart part, float* out, ptrdiff_t stride,

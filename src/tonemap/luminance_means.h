@@ -1,4 +1,4 @@
-// Means of luminance that adaptation is taken from.
+// The means of luminance that the adaptation luminance is taken from.
 #pragma once
 
 #include <cstdint>
@@ -14,8 +14,8 @@ struct LuminanceMeans {
     double harmonic = 0;  ///< 1 / mean of 1 / (L + epsilon)
 };
 
-/// Of a luminance plane without padding, all 0 if no pixel counts. Sums are of rows, in their
-/// order; epsilon is above 0.
+/// The means of a luminance plane without padding, all 0 if no pixel counts. Sums are of rows, in
+/// their order; epsilon is above 0.
 LuminanceMeans luminance_means(const float* plane, int width, int height, double epsilon,
                                const kernels::ParallelFor& parallel);
 

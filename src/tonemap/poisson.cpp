@@ -129,7 +129,7 @@ std::vector<Offset> make_set(int half, int count, const Density& density, unsign
     }
 }
 
-// At least the centre, at most every place.
+// At least the centre, at most every position of the window.
 int possible(int half, int count) {
     return std::clamp(count, 1, (2 * half + 1) * (2 * half + 1));
 }

@@ -8,7 +8,7 @@
 
 namespace tonetool::tonemap {
 
-/// What the authors' programs take for a window of 41 x 41.
+/// The number of samples that the authors' programs take for a window of 41 x 41.
 inline constexpr int kPoissonSamples = 80, kPoissonSets = 64;
 
 /// `count` different offsets, |dx|, |dy| <= half, the first of them (0, 0), well apart from one
@@ -20,8 +20,8 @@ inline constexpr int kPoissonSamples = 80, kPoissonSets = 64;
 /// At most as many as the window holds.
 std::vector<kernels::Offset> poisson_set(int half, int count, unsigned seed);
 
-/// As many sets as TapSets takes, no two the same unless there are too few offsets for that. Those
-/// asked for last are kept.
+/// As many sets as TapSets takes; no two are the same unless there are too few offsets for that.
+/// The result of the last call is cached.
 std::vector<std::vector<kernels::Offset>> poisson_sets(int half, int count);
 
 } // namespace tonetool::tonemap

@@ -125,7 +125,7 @@ private:
     throw std::runtime_error("weighted least squares: " + why);
 }
 
-// Solves for what the equations lack until they hold.
+// Solves for the residual and adds the correction, until the equations hold.
 VectorXd solve(const Equations& equations, const WlsMethod& method) {
     Eigen::ConjugateGradient<Aggregates::Matrix, Eigen::Lower | Eigen::Upper, Aggregates> solver;
     solver.setTolerance(kCgTolerance);

@@ -11,8 +11,9 @@ struct WlsTerms {
     bool logarithmic = false;           ///< g and u are l, not luminance
 };
 
-/// The equations hold to this: absolutely, of logarithms, else of u. So does u, or of u smoothed
-/// once more, since the inverse of their matrix has no negative element and rows of sum 1.
+/// The tolerance of the equations: absolute for logarithms, relative to u for luminance. The error
+/// of u has the same bound (for luminance relative to u smoothed once more), since the inverse of
+/// the matrix has no negative element and rows of sum 1.
 inline constexpr double kWlsTolerance = 1e-7;
 
 /// Conjugate gradients behind multigrid, whose coarsest level is factorised.

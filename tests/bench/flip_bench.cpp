@@ -19,8 +19,8 @@
 #include "flip/filters.h"
 #include "imagebuf/color/view.h"
 #include "imagebuf/pixels/parallel.h"
+#include "kernels/flip_reference.h"
 #include "kernels/flip_rows.h"
-#include "kernels/flip_twin.h"
 #include "kernels/lut_rows.h"
 #include "metrics/luminance.h"
 #include "stages.h"
@@ -178,16 +178,16 @@ void evaluate_stages(benchmark::State& state) {
         state.counters[name] = benchmark::Counter(share);
 }
 
-void evaluate_twin(benchmark::State& state) {
+void evaluate_reference(benchmark::State& state) {
     const int width = int(state.range(0)), height = int(state.range(1));
     const auto count = int(state.range(2));
     const PicturePair pair = make_pair(width, height);
     const auto taps = flip::make_taps(kPixelsPerDegree);
     Fastest fastest;
     fastest.run(state, [&] {
-        benchmark::DoNotOptimize(kernels::hdr_flip_twin(pair.reference.view(), pair.test.view(),
-                                                        taps, *tonemap::rational_curve("aces"),
-                                                        exposures(count), nullptr));
+        benchmark::DoNotOptimize(kernels::hdr_flip_reference(
+            pair.reference.view(), pair.test.view(), taps, *tonemap::rational_curve("aces"),
+            exposures(count), nullptr));
     });
     fastest.report(state, double(width) * height * count);
 }
@@ -348,7 +348,7 @@ BENCHMARK(measure_exposures)
     ->Args({1920, 1080, kAll})
     ->Unit(benchmark::kMillisecond)
     ->UseRealTime();
-BENCHMARK(evaluate_twin)
+BENCHMARK(evaluate_reference)
     ->ArgNames({"width", "height", "exposures"})
     ->Args({512, 512, 2})
     ->Unit(benchmark::kMillisecond)

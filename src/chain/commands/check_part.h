@@ -1,4 +1,4 @@
-// Where the commands of a check put what they find.
+// The part of a session that collects the results of a check.
 #pragma once
 
 #include "chain/session/session.h"
@@ -9,14 +9,15 @@
 namespace tonetool::chain {
 
 struct CheckPart {
-    sequence::FrameResult* result = nullptr;   ///< gathers what commands measure
-    sequence::FramePainter* painter = nullptr; ///< with a report: what it shows
-    /// The range of exposures=shot or of a file; while that is still measured, where to.
+    sequence::FrameResult* result = nullptr;   ///< collects the measurements of commands
+    sequence::FramePainter* painter = nullptr; ///< with a report: draws its images
+    /// The range of exposures=shot or of a file; while the range is still being measured, the place
+    /// for the frame's sample.
     const sequence::ShotExposures* shot = nullptr;
     sequence::ExposureSample* sample = nullptr;
 };
 
-// Of the check that a session is part of; nullptr without one.
+// The check that a session is part of; nullptr without one.
 inline sequence::FrameResult* result_of(const chain::Session& session) {
     return session.check ? session.check->result : nullptr;
 }

@@ -75,7 +75,7 @@ void print_count(Session& session, OIIO::imagesize_t count, const std::string& o
 }
 
 void colorcount(const Op& op) {
-    // Between the colours oiiotool takes a colon as well as the semicolon of its help.
+    // oiiotool accepts a colon between colours as well as the semicolon of its help.
     std::string list = op.call.argument(0);
     std::replace(list.begin(), list.end(), ';', ':');
     const Strings colors = split(list, ':');
@@ -103,13 +103,13 @@ void rangecheck(const Op& op) {
     print_count(op.session, within, "within range");
 }
 
-const char* const kCountHelp = "n=N: so many images instead of two\n";
+const char* const kCountHelp = "n=N: number of images (2)\n";
 
 const std::vector<OpRow> kRows = {
     named("", {"ch CHANLIST", 1,
                "Select or shuffle channels (\"R,G,B\", \"2,1,0\", \"R,G=0.5,B,A=1.0\")", ch, "",
                Scope::Levels}),
-    named("", {"chappend", 2, "The channels of the last two images (or n=) in one",
+    named("", {"chappend", 2, "Join the channels of the last two images (or n=)",
                [](Op& op) {
                    op.dst.copy(op.a());
                    for (size_t i = 1; i < op.src.size(); ++i)
@@ -127,12 +127,12 @@ std::vector<Command> subimage_commands() {
     return {
         row("subimage INDEX", 1, 1, "Select one subimage by index or name", run_subimage,
             "delete=0|1: keep all but this one"),
-        row("sisplit", 1, kAnyNumber, "An image of its own for each subimage", run_sisplit),
+        row("sisplit", 1, kAnyNumber, "Split the subimages into images", run_sisplit),
         row(
-            "siappend", 2, 1, "The subimages of the last two images (or n=) in one image",
+            "siappend", 2, 1, "Join the subimages of the last two images (or n=)",
             [](Session& session, const Call& call) { push_appended(session, call.images); },
             kCountHelp),
-        row("siappendall", 0, kAnyNumber, "The subimages of all images of the stack in one image",
+        row("siappendall", 0, kAnyNumber, "Join the subimages of all images of the stack",
             [](Session& session, const Call&) { push_appended(session, take_images(session, 0)); }),
         row("selectmip MIPLEVEL", 1, 1, "Select one MIP level (0: the largest)",
             [](Session& session, const Call& call) {
@@ -160,7 +160,7 @@ std::vector<Command> channel_commands() {
         Group::Print, "colorcount COLORLIST", 1, 1,
         "Count the pixels of each colour (COLOR:COLOR:...)",
         [](Session& session, const Call& call) { run_count(session, call, colorcount); },
-        "eps=VALUES: how near a value must be (0.001)"));
+        "eps=VALUES: tolerance of a match (0.001)"));
     all.push_back(free_row(
         Group::Print, "rangecheck MIN MAX", 1, 1, "Count the pixels outside a range of values",
         [](Session& session, const Call& call) { run_count(session, call, rangecheck); }));

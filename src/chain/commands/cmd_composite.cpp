@@ -13,7 +13,7 @@ struct Position {
     int x = 0, y = 0;
 };
 
-// From where the images lie.
+// The offset that the images' own windows give.
 Position asked_position(const Session& session, const std::string& text) {
     Position position;
     int end = 0;
@@ -99,13 +99,14 @@ const std::vector<OpRow> kRows = {
 
 std::vector<Command> composite_commands() {
     std::vector<Command> all = op_rows(Group::Composite, kRows);
-    all.push_back(free_row(Group::Composite, "paste +X+Y", 0, kAnyNumber,
-                           "Paste the first image over the second, there or as it lies (auto, -)",
-                           run_paste,
-                           "all=0|1: all images of the stack over the last\n"
-                           "mergeroi=0|1: a data window that holds both"));
+    all.push_back(free_row(
+        Group::Composite, "paste +X+Y", 0, kAnyNumber,
+        "Paste the first image over the second, at an offset or where its window lies (auto, -)",
+        run_paste,
+        "all=0|1: all images of the stack over the last\n"
+        "mergeroi=0|1: a data window that holds both"));
     all.push_back(free_row(Group::Composite, "mosaic WxH", 0, kAnyNumber,
-                           "Assemble as many images as there are into columns and rows", run_mosaic,
+                           "Assemble images into columns and rows", run_mosaic,
                            "pad=N: pixels between images (0)\n"
                            "fit=WxH: fit each image to this size first"));
     return all;

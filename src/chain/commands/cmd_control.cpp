@@ -11,7 +11,7 @@ namespace tonetool::chain {
 
 namespace {
 
-// --if, --for and --while that may be within one another.
+// The depth to which --if, --for and --while may be nested.
 constexpr size_t kMostNestedBlocks = 100;
 
 void push_block(Session& session, const Block& block) {
@@ -45,7 +45,7 @@ void run_endif(Session& session, const Call&) {
     session.flow.blocks.pop_back();
 }
 
-// Back to the --while, whose argument is evaluated anew.
+// Goes back to the --while, whose argument is evaluated again.
 void run_endwhile(Session& session, const Call&) {
     Block block = innermost(session, "endwhile", "while");
     session.flow.blocks.pop_back();

@@ -1,4 +1,4 @@
-// Commands that make images of nothing, and draw.
+// Commands that create images, and draw.
 #include <OpenImageIO/strutil.h>
 
 #include "chain/session/ops.h"
@@ -10,7 +10,7 @@ namespace {
 
 using Corners = std::vector<Floats>;
 
-// The window and the number of channels that the last two arguments ask for.
+// The window and the number of channels of the last two arguments.
 OIIO::ImageBuf blank(Session& session, const Call& call, size_t first) {
     OIIO::ROI window(0, 64, 0, 64);
     adjust_window(session, call, call.argument(first), Geometry::Window, window);
@@ -72,7 +72,7 @@ bool fill(Op& op, const OIIO::ROI& window) {
     if (Corners two = colors(op, {"left", "right"}); !two.empty())
         return IBA::fill(op.dst, two[0], two[1], two[0], two[1], window);
     if (!op.call.has("color") && op.session.compat && op.call.row().label() == "pattern")
-        return true; // black, without a word
+        return true; // black, without a message
     if (!op.call.has("color")) {
         const std::string why = "No recognized fill parameters";
         if (!op.session.compat) {
@@ -141,8 +141,8 @@ std::vector<int> positions(const Op& op, size_t least) {
     return all;
 }
 
-// A colour to draw with: after the channels its alpha, which counts where the image has none. As in
-// oiiotool one value is that of the alpha, too.
+// A colour to draw with: a value for each channel, then its alpha, which is used where the image
+// has none. As in oiiotool a single value is that of the alpha, too.
 Floats paint(const Op& op) {
     const size_t values = size_t(op.a().nchannels()) + 1;
     const auto words = op.call.text("color");
@@ -228,8 +228,8 @@ const std::vector<OpRow> kDrawingRows = {
               "y=N: position (the middle)\n"
               "size=N: height of the letters (16)\n"
               "font=NAME: font, a name or a file\n"
-              "xalign=left|right|center: of the text to its position (left)\n"
-              "yalign=base|top|bottom|center: of the text to its position (base)\n"
+              "xalign=left|right|center: alignment of the text to its position (left)\n"
+              "yalign=base|top|bottom|center: alignment of the text to its position (base)\n"
               "shadow=N: width of a black outline (0)"},
 };
 
@@ -237,11 +237,11 @@ const std::vector<OpRow> kDrawingRows = {
 
 std::vector<Command> create_commands() {
     const std::string pattern = kRamps + noise_modifiers() +
-                                "width=N: of the squares of a checker (8)\n"
-                                "height=N: of the squares of a checker (width)\n"
-                                "depth=N: of the squares of a checker (width)\n"
-                                "color1=VALUES: of a checker (0)\n"
-                                "color2=VALUES: of a checker (1)";
+                                "width=N: width of a checker's squares (8)\n"
+                                "height=N: height of a checker's squares (width)\n"
+                                "depth=N: depth of a checker's squares (width)\n"
+                                "color1=VALUES: first colour of a checker (0)\n"
+                                "color2=VALUES: second colour of a checker (1)";
     std::vector<Command> all = {
         free_row(Group::Create, "create GEOM NCHANS", 0, 1, "A black image", run_create,
                  "type=TYPE: data type (float)"),

@@ -1,6 +1,6 @@
 // --diff and --pdiff, with oiiotool's report and exit status, but for what oiiotool lets pass:
-// images with values that are no numbers (files/unlike.h), and without --compat images whose
-// windows, channels or parts differ, and parts that it does not look at.
+// images with values that are no numbers (images/nonfinite_mismatch.h), and without --compat images
+// whose windows, channels or parts differ, and parts that it does not look at.
 #include <OpenImageIO/imagebufalgo.h>
 #include <OpenImageIO/strutil.h>
 #include <algorithm>
@@ -11,7 +11,7 @@
 #include "chain/commands/check_part.h"
 #include "chain/commands/color_input.h"
 #include "chain/commands/commands.h"
-#include "chain/images/unlike.h"
+#include "chain/images/nonfinite_mismatch.h"
 #include "imagebuf/pixels/upright.h"
 #include "sequence/results/results.h"
 #include "text/error.h"
@@ -133,7 +133,7 @@ Results results_of(const OIIO::ImageBuf& a, const OIIO::ImageBuf& b, const DiffL
 }
 
 // No limit is as large as the error of the first unlike pixel.
-void add(Results& found, const Unlike& unlike) {
+void add(Results& found, const NonfiniteMismatch& unlike) {
     found.maxerror = std::numeric_limits<double>::infinity();
     found.maxx = unlike.x;
     found.maxy = unlike.y;
@@ -179,7 +179,7 @@ void compare_pixels(Session& session, const OIIO::ImageBuf& a, const OIIO::Image
     Verdict verdict = judge(found, session.diff, pixels);
     // Where oiiotool fails, too, its report is kept.
     const bool settled = session.compat && verdict == Verdict::Failure;
-    const Unlike unlike = settled ? Unlike{} : unlike_values(a, b);
+    const NonfiniteMismatch unlike = settled ? NonfiniteMismatch{} : find_nonfinite_mismatch(a, b);
     if (unlike.pixels > 0) {
         add(found, unlike);
         verdict = judge(found, session.diff, pixels);

@@ -57,14 +57,14 @@ const std::vector<OpRow> kNeighbourRows = {
     {"convolve", 2, "Convolve the first image with the second, a kernel",
      [](Op& op) { return IBA::convolve(op.dst, op.a(), op.b()); }},
     {"blur WxH", 1, "Blur", blur, "kernel=NAME: kernel (gaussian)"},
-    {"median WxH", 1, "Median of the pixels around", windowed<IBA::median_filter>},
-    {"dilate WxH", 1, "Largest of the pixels around", windowed<IBA::dilate>},
-    {"erode WxH", 1, "Smallest of the pixels around", windowed<IBA::erode>},
+    {"median WxH", 1, "Median of the neighbourhood", windowed<IBA::median_filter>},
+    {"dilate WxH", 1, "Maximum of the neighbourhood", windowed<IBA::dilate>},
+    {"erode WxH", 1, "Minimum of the neighbourhood", windowed<IBA::erode>},
     {"unsharp", 1, "Sharpen by an unsharp mask", unsharp,
      "kernel=NAME: kernel of the blur (gaussian)\n"
      "width=X: its width (3)\n"
-     "contrast=X: how much is added (1)\n"
-     "threshold=X: differences below stay (0)"},
+     "contrast=X: strength (1)\n"
+     "threshold=X: leave smaller differences as they are (0)"},
     {"laplacian", 1, "Laplacian", [](Op& op) { return IBA::laplacian(op.dst, op.a()); }},
 };
 
@@ -77,7 +77,7 @@ const std::vector<OpRow> kOtherRows = {
      [](Op& op) { return IBA::polar_to_complex(op.dst, op.a()); }},
     named("", {"fixnan STRATEGY", 1, "Replace NaN and infinity: none, black, box3 or error", fixnan,
                "", Scope::Levels}),
-    named("", {"fillholes", 1, "Fill where alpha is not 1 from around",
+    named("", {"fillholes", 1, "Fill pixels whose alpha is not 1 from their neighbourhood",
                [](Op& op) { return IBA::fillholes_pushpull(op.dst, op.a()); }}),
 };
 

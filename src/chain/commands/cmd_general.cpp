@@ -35,7 +35,7 @@ Command row(const char* usage, const char* help, Run run, const char* modifiers 
     return free_row(Group::General, usage, 0, 0, help, std::move(run), modifiers);
 }
 
-// What is said, and when it ends.
+// Settings of messages and of the end of the command line.
 std::vector<Command> talk_rows() {
     return {
         row("version", "Print the version",
@@ -67,7 +67,7 @@ std::vector<Command> talk_rows() {
     };
 }
 
-// What holds for the commands that follow.
+// Settings of the commands that follow.
 std::vector<Command> work_rows() {
     return {
         row("n", "Dry run: nothing is written", set_on<&Session::dry_run>),
@@ -102,7 +102,7 @@ std::vector<Command> work_rows() {
     };
 }
 
-// What holds for the whole process.
+// Settings of the whole process.
 std::vector<Command> process_rows() {
     return {
         of_manner(row("threads N", "Number of threads (0: one per core)",

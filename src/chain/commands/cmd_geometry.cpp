@@ -10,7 +10,7 @@ const std::string kFilters = "filter=NAME: reconstruction filter (lanczos3, box,
 const std::string kHighlights = "highlightcomp=0|1: compress highlights while filtering\n";
 const std::string kRecompute = "recompute_roi=0|1: grow the data window as needed\n";
 
-// Runs a filter on the image, or between compressing and expanding its highlights.
+// Runs a filter on the image; with highlightcomp= between compressing and expanding its highlights.
 template <class Filter>
 bool filtered(Op& op, Filter filter) {
     if (!op.flag("highlightcomp"))
@@ -169,7 +169,8 @@ const std::vector<OpRow> kWindowRows = {
                [](Op& op) { return crop_to(op, op.a().roi_full()); }}),
     named("", {"trim", 1, "Crop to the smallest window of pixels that are not 0", trim}),
     named("", {"cut GEOM", 1, "Cut out a window and move it to the origin", cut}),
-    {"cshift +X+Y", 1, "Shift around the edges", cshift},
+    {"cshift +X+Y", 1, "Shift circularly: pixels that leave at one edge return at the opposite one",
+     cshift},
 };
 
 const std::vector<OpRow> kScaleRows = {
@@ -177,23 +178,25 @@ const std::vector<OpRow> kScaleRows = {
                        "interp=0|1: bilinear (1) or nearest"}),
     named("resize", {"resize GEOM", 1, "Resize with a filter (640x480, 640x0, 50%)", resize,
                      kFilters + kHighlights}),
-    named("", {"fit GEOM", 1, "Resize to fit within a window", fit,
-               kFilters + kHighlights +
-                   "pad=0|1: pad to the window\n"
-                   "fillmode=letterbox|width|height: what is made to fit (letterbox)\n"
-                   "exact=0|1: to fractions of pixels"}),
+    named("",
+          {"fit GEOM", 1, "Resize to fit within a window", fit,
+           kFilters + kHighlights +
+               "pad=0|1: pad to the window\n"
+               "fillmode=letterbox|width|height: the dimension that must fit (letterbox: both)\n"
+               "exact=0|1: fit exactly, not to whole pixels"}),
     named("resize",
           {"pixelaspect ASPECT", 1, "Scale up width or height for another pixel aspect ratio",
            pixelaspect, kFilters + kHighlights}),
     {"rotate DEGREES", 1, "Rotate clockwise around the middle of the display window", rotate,
-     kFilters + kHighlights + kRecompute + "center=X,Y: around this position instead"},
+     kFilters + kHighlights + kRecompute + "center=X,Y: centre of the rotation"},
     {"warp MATRIX", 1, "Warp by a 3x3 matrix of 9 numbers with commas between them", warp,
-     kFilters + kHighlights + kRecompute + "wrap=MODE: black, clamp, periodic, mirror beyond it"},
+     kFilters + kHighlights + kRecompute +
+         "wrap=MODE: pixels beyond the image: black, clamp, periodic, mirror"},
     {"st_warp", 2, "Warp the first image by the st coordinates in the second", st_warp,
      kFilters + "chan_s=N: channel of s (0)\n"
                 "chan_t=N: channel of t (1)\n"
-                "flip_s=0|1: s from the right\n"
-                "flip_t=0|1: t from the bottom"},
+                "flip_s=0|1: s runs from the right\n"
+                "flip_t=0|1: t runs from the bottom"},
 };
 
 const std::vector<OpRow> kTurnRows = {

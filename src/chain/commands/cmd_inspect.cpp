@@ -60,7 +60,7 @@ void run_printstats(Session& session, const Call& call) {
     Listing what;
     what.stats = true;
     what.verbose = session.verbose;
-    // Its help says roi=, but what oiiotool takes is window=.
+    // oiiotool's help says roi=, but oiiotool takes window=.
     if (call.has("roi") && session.compat)
         session.warning(call.text(), "roi= has no effect, as in oiiotool (window= has)");
     auto text = call.text("window");
@@ -76,7 +76,7 @@ void run_printstats(Session& session, const Call& call) {
         } catch (const CommandError& problem) {
             if (!session.compat)
                 throw;
-            session.error(call.text(), problem.what()); // and of all pixels, as oiiotool
+            session.error(call.text(), problem.what()); // then prints all pixels, as oiiotool does
         }
     }
     print_listing(session, call, what);

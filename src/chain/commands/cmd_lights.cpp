@@ -1,4 +1,4 @@
-// Which light each pixel is lit by.
+// The index of the light that lights each pixel.
 #include "chain/commands/color_input.h"
 #include "chain/commands/commands.h"
 #include "chain/commands/flip_args.h"

@@ -1,4 +1,4 @@
-// --memory, the bound of the comparisons.
+// --memory, the bound of the memory of comparisons.
 #include <cstdint>
 #ifdef __GLIBC__
 #include <malloc.h>
@@ -14,8 +14,8 @@ namespace {
 // Per thread OpenEXR's decoder holds blocks of rows of the whole width.
 constexpr int kThreadsWithinMemory = 2;
 
-// glibc keeps freed blocks of up to 32 MB for itself, and some for each thread; within a bound they
-// go back to the system.
+// glibc keeps freed blocks of up to 32 MB for itself, and some for each thread; with a bound set
+// they are returned to the system.
 void give_memory_back() {
 #ifdef __GLIBC__
     mallopt(M_MMAP_THRESHOLD, 1 << 20);
@@ -42,7 +42,7 @@ std::vector<Command> memory_commands() {
     return {of_manner(
         of_process(setting(Group::General, {"memory"}, {"SIZE"},
                            "Peak memory of the comparisons that follow, 256M or 1G: larger "
-                           "images are read in bands (half of the computer's)",
+                           "images are read in scanline blocks (half of the computer's memory)",
                            run_memory)))};
 }
 

@@ -11,14 +11,14 @@ namespace tonetool::chain {
 
 namespace {
 
-// "" and "current": what the image says it is in.
+// "" and "current": the colour space in the image's header.
 std::string space_of(const Op& op, const std::string& name) {
     const bool current = name.empty() || name == "current";
     return current ? std::string(op.a().spec().get_string_attribute("oiio:ColorSpace", "Linear"))
                    : name;
 }
 
-// The source's profile and gamma do not describe converted pixels; oiiotool keeps them.
+// The source's profile and gamma do not describe the converted pixels. oiiotool keeps them.
 bool converted(Op& op, bool done) {
     if (done && !op.session.compat)
         drop_profile(op.dst.specmod());

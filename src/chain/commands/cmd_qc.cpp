@@ -1,4 +1,4 @@
-// --qc: the faults that a picture shows without a reference.
+// --qc: the faults of an image that are found without a reference.
 #include <algorithm>
 
 #include "chain/commands/check_part.h"
@@ -30,7 +30,7 @@ sequence::QcLimits limits_of(const Call& call) {
     return limits;
 }
 
-// Of files that were read before, only the stack knows the types of the channels.
+// Only the stack still knows the channel types of files that were read before.
 void take_types(const Image& image, QcFacts& facts) {
     size_t channel = 0;
     for (const PartPtr& part : image.parts()) {
@@ -49,7 +49,7 @@ bool has_picture(const QcFacts& facts) {
                        [](const QcLayer& layer) { return layer.kind == "picture"; });
 }
 
-// The picture, and from near the pixels that have a fault or may turn out to have one.
+// Draws the image, and enlarged the pixels that have a fault or may turn out to have one.
 void show_faults(Session& session, const Call& call, const sequence::QcRecord& record) {
     if (!painter_of(session) || !has_picture(record.facts))
         return;
@@ -74,7 +74,7 @@ void run_qc(Session& session, const Call& call) {
     session.push(call.images[0]);
     session.produced = true;
     if (!result_of(session))
-        return; // the exposures of the shot are being measured
+        return; // this run only measures the exposures of the shot
     std::vector<OIIO::ImageBuf> parts;
     std::vector<const OIIO::ImageBuf*> pointers;
     for (const PartPtr& part : image.parts())
@@ -88,7 +88,7 @@ void run_qc(Session& session, const Call& call) {
     if (!ToneAlgo::qc_facts(record.facts, pointers, why, options))
         throw CommandError("\"" + image.name() + "\": " + why);
     take_types(image, record.facts);
-    if (has_picture(record.facts) && !painter_of(session)) // which looks at the picture itself
+    if (has_picture(record.facts) && !painter_of(session)) // which reads the image itself
         tell_encoding(session, call, image, image.part().header(), options.pixels);
     result_of(session)->qc = sequence::to_json(record);
     show_faults(session, call, record);
@@ -96,7 +96,7 @@ void run_qc(Session& session, const Call& call) {
 
 std::vector<Modifier> modifiers() {
     std::vector<Modifier> all = pixel_modifiers();
-    all.push_back({"groups", "NAME,...", "light groups that add up to the picture (all)"});
+    all.push_back({"groups", "NAME,...", "light groups that must add up to the beauty (all)"});
     for (const sequence::QcRule& rule : sequence::qc_rules()) {
         std::string usual = severity_name(rule.severity);
         if (rule.threshold)
@@ -114,7 +114,7 @@ std::vector<Command> qc_commands() {
     return {
         {{{"qc"}, {}, 1, 1, Group::Measure},
          modifiers(),
-         "Look for faults of the pictures and of the shot; severities: off, info, warning, error",
+         "Look for faults of single images and of the shot; severities: off, info, warning, error",
          run_qc}};
 }
 

@@ -28,7 +28,7 @@ void convert_current(Session& session, const std::string& from, const std::strin
 
 namespace {
 
-// Of the same file in another frame, or of the first image that was read.
+// The header of the same file in another frame, or of the first image that was read.
 OIIO::ImageSpec missing_header(const Session& session) {
     OIIO::ImageSpec usual(1920, 1080, 4, OIIO::TypeHalf);
     if (session.compat || session.first_header)
@@ -54,7 +54,7 @@ ImagePtr open_or_substitute(Session& session, const std::string& filename) {
     return Image::placeholder(filename, missing_header(session), session.missing_file == "checker");
 }
 
-// From the colour space that the file's name or its metadata tell to the linear one.
+// Converts from the colour space that the file's name or its metadata tell to the linear one.
 void convert_input(Session& session, const std::string& filename, bool unpremult) {
     std::string space = color_config(session).getColorSpaceFromFilepath(filename);
     if (space.empty())
@@ -63,7 +63,7 @@ void convert_input(Session& session, const std::string& filename, bool unpremult
         convert_current(session, space, linear_space(session), unpremult);
 }
 
-// What --info, --stats, ... ask for of a file that was just read.
+// Prints what --info, --stats, ... ask for of a file that was just read.
 void inspect_if_asked(Session& session, const Image& image) {
     if (session.verbose)
         session.print("Reading " + image.name());
@@ -76,7 +76,8 @@ void inspect_if_asked(Session& session, const Image& image) {
     }
 }
 
-// A recipe's run has no other place to say it; an image that was made of one says it no more.
+// The warnings of a recipe's run are in its header. They are repeated here once and not in images
+// that are made from it.
 void warn_as_the_recipe_did(Session& session, const Image& image) {
     const std::string said = image.part().header().get_string_attribute("tone:warnings");
     if (!said.empty() && image.file_format() == "tone")
@@ -115,7 +116,7 @@ void push_file_or_label(Session& session, const std::string& word) {
 
 namespace {
 
-// Settings of one -i, put back when it is done.
+// Settings of one -i, restored when it is done.
 struct InfoForOne {
     InfoForOne(Session& the_session, int level) : session(the_session), before(session.list) {
         session.list.info = session.list.info || level > 0;
@@ -149,7 +150,7 @@ void run_input(Session& session, const Call& call) {
         const Strings names = session.stack.back()->part().header().channelnames;
         const bool in_order =
             std::search(names.begin(), names.end(), wanted.begin(), wanted.end()) != names.end();
-        session.stack.back()->noted = session.compat && !in_order; // so float, as oiiotool
+        session.stack.back()->noted = session.compat && !in_order; // hence float, as oiiotool
         run_command(session, "ch", {*list});
     }
 }

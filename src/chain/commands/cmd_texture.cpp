@@ -10,12 +10,13 @@ namespace tonetool::chain {
 
 namespace {
 
-// One setting of make_texture: the modifiers that set it, the first that is there counts.
+// One setting of make_texture and the modifiers that set it; the first modifier that is given
+// counts.
 struct Setting {
     const char* name;
     Strings keys;
     char kind;        ///< i, f or s
-    double otherwise; ///< i and f: without a modifier; s: is not set then
+    double otherwise; ///< default of i and f; s is not set without a modifier
 };
 
 const std::vector<Setting>& settings_of_textures() {
@@ -86,7 +87,7 @@ void set_layout(OIIO::ImageSpec& config, const OutputSettings& output) {
         config.attribute("planarconfig", output.planarconfig);
 }
 
-// What make_texture is to do.
+// The mode of make_texture.
 OIIO::ImageSpec texture_config(Session& session, const Call& call, const Image& image,
                                const OutputSettings& output) {
     OIIO::ImageSpec config;
@@ -107,7 +108,8 @@ OIIO::ImageSpec texture_config(Session& session, const Call& call, const Image& 
     config.set_format(output.type ? output.type->type
                                   : session.types.of(image.part(), session.compat).type);
     if (output.history) {
-        // By that name readers trust the average and the hash that are in it.
+        // Readers trust the average colour and the hash in the header only from a program of this
+        // name.
         config.attribute("Software",
                          "OpenImageIO " OIIO_VERSION_STRING " : " + session.command_line);
         config.attribute("maketx:full_command_line", session.command_line);
@@ -141,23 +143,28 @@ void run_texture(Session& session, const Call& call) {
 std::vector<Command> texture_commands() {
     const std::string options =
         output_modifiers() +
-        "wrap=MODE: black, clamp, periodic, mirror\nswrap=MODE: in x\ntwrap=MODE: in y\n"
-        "resize=0|1: to a power of 2\nnomipmap=0|1: the top level only\n"
-        "updatemode=0|1: only if the texture would change\n"
-        "constant_color_detect=0|1: one tile where all pixels are the same\n"
-        "monochrome_detect=0|1: one channel where all are the same\n"
-        "opaque_detect=0|1: without an alpha that is 1 everywhere\n"
-        "incolorspace=NAME: colour space of the image\noutcolorspace=NAME: of the texture\n"
+        "wrap=MODE: black, clamp, periodic, mirror\nswrap=MODE: wrap mode in x\ntwrap=MODE: wrap "
+        "mode in y\n"
+        "resize=0|1: resize to a power of 2\nnomipmap=0|1: write the top level only\n"
+        "updatemode=0|1: write only if the texture would change\n"
+        "constant_color_detect=0|1: write one tile if all pixels are the same\n"
+        "monochrome_detect=0|1: write one channel if all are the same\n"
+        "opaque_detect=0|1: leave out an alpha that is 1 everywhere\n"
+        "incolorspace=NAME: colour space of the image\noutcolorspace=NAME: colour space of the "
+        "texture\n"
         "highlightcomp=0|1: soften highlights before filtering\nhicomp=0|1: the same\n"
-        "sharpen=X: each level\nfilter=NAME: of the levels\nfiltername=NAME: the same\n"
+        "sharpen=X: sharpen each level\nfilter=NAME: filter of the MIP levels\nfiltername=NAME: "
+        "the same\n"
         "prman_options=0|1: settings of RenderMan\nprman=0|1: the same\n"
         "prman_metadata=0|1: metadata of RenderMan\n"
         "oiio_options=0|1: settings of OpenImageIO\noiio=0|1: the same\n"
         "compute_average=0|1: metadata of the average colour (1)\n"
-        "handed=left|right|none: of a vector displacement or normal map\n"
+        "handed=left|right|none: handedness of a displacement or normal map\n"
         "cdf=0|1: store the distribution of values in the metadata\n"
-        "cdfbits=N: its size (8)\ncdfsigma=X: its deviation (1/6)\nfovcot=X: field of view\n"
-        "bumpformat=height|normal|auto: of a bump map\nuvslopes_scale=X: of its slopes";
+        "cdfbits=N: size of the distribution (8)\ncdfsigma=X: its deviation (1/6)\nfovcot=X: field "
+        "of view\n"
+        "bumpformat=height|normal|auto: content of a bump map\nuvslopes_scale=X: scale of its "
+        "slopes";
     std::vector<Command> rows;
     for (const char* usage : {"otex FILENAME", "oenv FILENAME", "obump FILENAME"}) {
         rows.push_back(free_row(Group::Write, usage, 0, kAnyNumber,

@@ -55,7 +55,7 @@ void run_tonemap(Session& session, const Call& call) {
     const Image& image = *call.images[0];
     const std::string label = call.row().label();
     TonemapOptions options = tonemap_options(session, call);
-    // A view's space is the configuration's business.
+    // The configuration of a view defines its own colour spaces.
     PixelOptions checked = options.pixels;
     checked.from = options.view ? "rec709" : checked.from;
     OIIO::ImageBuf source = color_input(session, call, image, checked);
@@ -92,7 +92,7 @@ void print_curve(Session& session, const ToneCurveInfo& curve) {
     session.print("    from: " + curve.source);
 }
 
-// Stops against display light, a column per curve.
+// A table of stops and display-linear values, with a column for each curve.
 void print_table(Session& session) {
     const Strings names = ToneAlgo::tone_curve_names();
     session.print("stops," + join(names, ","));

@@ -23,7 +23,7 @@ void check_outputs(const Session& session) {
 
 namespace {
 
-// oiiotool takes less than with -d, and has no word for what it does not know.
+// oiiotool accepts fewer types here than with -d, and ignores unknown ones without a message.
 void take_named_type(Session& session, const Call& call, const std::string& name,
                      OutputSettings& settings) {
     if (session.compat && OIIO::TypeDesc(name).basetype == OIIO::TypeDesc::UNKNOWN) {
@@ -86,7 +86,7 @@ void take_type_of(const std::string& space, Session& session, const Call& call,
         call.has("datatype") || call.has("type") ? settings.type : NamedType{implied, 0};
 }
 
-// The one colour space that files of the format have, or "".
+// The only colour space that files of the format can have, or "".
 std::string space_of_format(const std::string& filename) {
     static const std::map<std::string, std::string> spaces = {
         {".jpg", "sRGB"},  {".jpeg", "sRGB"},  {".gif", "sRGB"},
@@ -95,8 +95,8 @@ std::string space_of_format(const std::string& filename) {
     return known == spaces.end() ? "" : known->second;
 }
 
-// Where a format has no alpha the colours are written as they are, over black, and are converted
-// so.
+// In formats without alpha the colours are written as they are, over black, and are converted as
+// such.
 bool keeps_alpha(const std::string& filename, const OutputSettings& settings) {
     const auto writer =
         OIIO::ImageOutput::create(settings.format_name.empty() ? filename : settings.format_name);
@@ -104,7 +104,7 @@ bool keeps_alpha(const std::string& filename, const OutputSettings& settings) {
     return !writer || oiio::format_supports(*writer, "alpha");
 }
 
-// To the colour space that the file's name tells, or else its format.
+// Converts to the colour space that the file's name tells, or else its format.
 void convert_output(Session& session, const Call& call, const std::string& filename,
                     OutputSettings& settings) {
     const std::string linear = linear_space(session);
@@ -126,7 +126,7 @@ bool keeps_old(Session& session, const Call& call, const std::string& filename) 
     if (session.no_clobber && OIIO::Filesystem::exists(filename)) {
         session.warning("-" + call.row().names.front(),
                         filename + " already exists, not overwriting.");
-        session.produced |= !session.compat; // what was asked for is there
+        session.produced |= !session.compat; // the requested output exists
         return true;
     }
     return session.update && !session.compat && OIIO::Filesystem::exists(filename) &&
@@ -227,7 +227,7 @@ Command output_row() {
                     run_output, output_modifiers());
 }
 
-// What holds for the outputs that follow.
+// Settings of the outputs that follow.
 std::vector<Command> output_setting_rows() {
     const std::string types = join(data_type_names(), "|");
     const auto set = [](const char* usage, const std::string& help, Run run) {

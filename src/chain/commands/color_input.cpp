@@ -114,7 +114,8 @@ Part& checked_part(Session& session, const Call& call, const Image& image,
     if (part.integer_encoded())
         header.format = part.format().value_or(DataFormat{OIIO::TypeUInt8, {}, 0}).type;
     check_header(image, header, options);
-    // A tag must be a known one also where the library would take an integer file's for sRGB.
+    // The tag must be a known one also for integer files, where the library would take any tag for
+    // sRGB.
     if (header.find_attribute("oiio:ColorSpace") && header.format != OIIO::TypeFloat) {
         header.set_format(OIIO::TypeFloat);
         check_header(image, header, options);

@@ -1,4 +1,4 @@
-// Images as the library's measuring functions take them.
+// Converts images of the stack to the inputs of the library's measuring functions.
 #pragma once
 
 #include "chain/commands/commands.h"
@@ -6,36 +6,39 @@
 
 namespace tonetool::chain {
 
-/// The part of an image that a command looks at: that of the layer, the view or the name in the
-/// options, else the beauty. Where others have a picture, too, that nobody looks at, this is an
-/// error of commands that end in a verdict, and a warning of others; with -a commands that compare
-/// refuse images of several parts.
+/// The subimage of an image that a command reads: the one with the layer, the view or the name in
+/// the options, else the beauty. If other subimages have a beauty, too, which would be left out,
+/// this is an error in commands that end in a verdict, and a warning in others; with -a, commands
+/// that compare refuse images of several subimages.
 Part& color_part(Session& session, const Call& call, const Image& image,
                  const PixelOptions& options);
 
-/// A CommandError if commands before have left out parts of the image that have a picture.
+/// Throws a CommandError if earlier commands have left out subimages that have a beauty.
 void check_nothing_left_out(const Image& image);
 
-/// The headers of all parts, as find_part() takes them.
+/// The headers of all subimages, as find_part() takes them.
 std::vector<OIIO::ImageSpec> headers_of(const Image& image);
 
-/// Whether the parts of these numbers came from one place of one file, by whatever names and links.
+/// Whether the subimages with these indices are the same subimage of the same file, by whatever
+/// names and links.
 bool same_file(const Image& a, size_t part_of_a, const Image& b, size_t part_of_b);
 
-/// color_part(), whose tag of a space and whose layer must be known: messages name the image.
+/// color_part() with a check that its colour space and its layer are known; messages name the
+/// image.
 Part& checked_part(Session& session, const Call& call, const Image& image,
                    const PixelOptions& options);
 
-/// What its header says of the encoding, beyond the colour space: the gamma and the EXPOSURE that
-/// are applied are told, an ICC profile that is not is a warning.
+/// Reports the parts of the encoding beyond the colour space: the gamma and the EXPOSURE, which are
+/// applied, and as a warning an ICC profile, which is not.
 void tell_encoding(Session& session, const Call& call, const Image& image,
                    const OIIO::ImageSpec& header, const PixelOptions& options);
 
-/// The pixels of color_part() and a header that tells display-encoded integers from linear floats.
+/// The pixels of color_part(), with a header that distinguishes display-encoded integers from
+/// linear floats.
 OIIO::ImageBuf color_input(Session& session, const Call& call, const Image& image,
                            const PixelOptions& options);
 
-/// As color_input(), unread where the library may read what it needs of the file by itself.
+/// As color_input(), but unread where the library may read the file by itself.
 OIIO::ImageBuf color_source(Session& session, const Call& call, const Image& image,
                             const PixelOptions& options);
 

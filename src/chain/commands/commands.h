@@ -1,4 +1,4 @@
-// The commands of this room, written in the words of the chain.
+// The commands of tonetool itself, as rows of the registry.
 #pragma once
 
 #include <vector>
@@ -17,7 +17,7 @@ std::vector<Command> cgtmo_commands();
 std::vector<Command> light_commands();
 std::vector<Command> memory_commands();
 
-/// All rows of commands that oiiotool has not, and of its comparisons.
+/// All rows of these commands.
 std::vector<Command> own_commands();
 
 } // namespace tonetool::chain

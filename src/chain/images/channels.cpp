@@ -11,7 +11,7 @@ namespace tonetool::chain {
 namespace {
 
 struct Selection {
-    std::vector<int> sources; // -1: the value
+    std::vector<int> sources; // -1: the constant value
     std::vector<float> values;
     Strings names;
 

@@ -6,13 +6,13 @@
 
 namespace tonetool::chain {
 
-/// A CommandError unless `map` is the name of a colour map or a list of RGB triples.
+/// Throws a CommandError unless `map` is the name of a colour map or a list of RGB triples.
 void check_colormap(const std::string& map);
 
 /// One channel (or the luminance of three) in the colours of `map`: R,G,B, sRGB-encoded.
 OIIO::ImageBuf colored(const OIIO::ImageBuf& pixels, const std::string& map);
 
-/// oiiotool's: of the luminance, as linear light.
+/// The colours as oiiotool makes them: of the luminance, in linear light.
 OIIO::ImageBuf linear_colored(const OIIO::ImageBuf& pixels, const std::string& map);
 
 } // namespace tonetool::chain

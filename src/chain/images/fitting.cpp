@@ -14,7 +14,7 @@ namespace tonetool::chain {
 
 namespace {
 
-// How many channels the format takes; 0: as many as there are.
+// The most channels that the format takes; 0: any number.
 int most_channels(const OIIO::ImageSpec& spec, const OIIO::ImageOutput& writer) {
     const bool alpha = oiio::format_supports(writer, "alpha");
     const bool fits = spec.nchannels <= 3 || (spec.nchannels == 4 && alpha) ||
@@ -33,8 +33,8 @@ std::vector<int> usual_channels(const OIIO::ImageSpec& spec, int kept) {
     return chosen;
 }
 
-// Where the file has no names for its channels, its fourth one (or the second of two) is its alpha:
-// TIFF says of each whether it is.
+// In formats without channel names the fourth channel (or the second of two) is read as alpha. TIFF
+// is none of them: it stores which channel is alpha.
 bool tells_channels_apart(const OIIO::ImageOutput& writer) {
     const std::string format = writer.format_name();
     return format == "openexr" || format == "tiff" || format == "null" || format == "zfile";
@@ -47,7 +47,7 @@ bool is_alpha(const OIIO::ImageSpec& spec, int channel) {
            OIIO::Strutil::iequals(last, "alpha");
 }
 
-// The picture and its alpha: that which was tone mapped, else the one among the layers.
+// The displayed layer and its alpha: the tone-mapped one, else the beauty.
 bool find_shown(const OIIO::ImageSpec& spec, ColorChoice& choice, bool& mapped) {
     PixelOptions options;
     options.from = "rec709"; // it is not looked at
@@ -59,7 +59,7 @@ bool find_shown(const OIIO::ImageSpec& spec, ColorChoice& choice, bool& mapped) 
     return mapped || ToneAlgo::find_color(spec, options, choice, ignored);
 }
 
-// The channels of the picture, else the first ones; `mapped`: they were tone mapped.
+// The channels of the displayed layer, else the first ones; `mapped`: they were tone mapped.
 std::vector<int> picture_channels(const OIIO::ImageSpec& spec, int most, bool& mapped) {
     ColorChoice choice;
     const bool found = find_shown(spec, choice, mapped);
@@ -77,7 +77,7 @@ std::vector<int> picture_channels(const OIIO::ImageSpec& spec, int most, bool& m
     return chosen;
 }
 
-// What a file for a screen may take for alpha is one.
+// A channel that a file for a screen would read as alpha is one.
 bool is_safe(const OIIO::ImageSpec& spec, const OIIO::ImageOutput& writer) {
     const bool with_alpha = spec.nchannels == 2 || spec.nchannels >= 4;
     const bool alpha = oiio::format_supports(writer, "alpha");
@@ -90,7 +90,7 @@ bool holds_floats(const OIIO::ImageOutput& writer) {
     return std::find(formats.begin(), formats.end(), writer.format_name()) != formats.end();
 }
 
-// What is left at the right of and below 0: one pixel where that is nothing.
+// The part of the window at x, y >= 0; one pixel if that is empty.
 OIIO::ROI not_negative(OIIO::ROI window) {
     window.xbegin = std::max(window.xbegin, 0);
     window.ybegin = std::max(window.ybegin, 0);
@@ -144,7 +144,7 @@ void fit_channels(Outgoing& image, const OIIO::ImageOutput& writer, const Writer
     Strings names;
     for (int index : chosen)
         names.push_back(std::string(spec.channel_name(index)));
-    // What was tone mapped is what is to be seen.
+    // The tone-mapped layer is the one to be seen.
     if (!mapped) {
         from.warn("Can't save " + std::to_string(spec.nchannels) + " channels to " +
                   writer.format_name() + "... saving only " + join(names, ","));
@@ -165,7 +165,7 @@ void mark_alpha(OIIO::ImageSpec& spec) {
 
 void warn_of_unseen(const Warn& warn, const OIIO::ImageBuf& pixels, const OIIO::ImageSpec& written,
                     const OIIO::ImageOutput& writer) {
-    constexpr double share = 0.01; // of the lit pixels: fewer are glints on an edge
+    constexpr double share = 0.01; // share of the non-black pixels: fewer are glints on an edge
     const OIIO::ImageSpec& spec = pixels.spec();
     const int alpha = spec.nchannels - 1;
     const bool integers = !written.format.is_floating_point() || !holds_floats(writer);

@@ -1,4 +1,4 @@
-// An image as a file format can hold it, and as a screen is to show it.
+// Fits an image to the limits of a file format, and to its display on a screen.
 #pragma once
 
 #include <OpenImageIO/imagebuf.h>
@@ -16,22 +16,23 @@ struct Outgoing {
     DataFormat format;
 };
 
-/// Formats that cannot hold both windows get the display window, with its corner at 0 where they
-/// cannot hold its negative origin either. If lenient, as oiiotool: without what is left of or
-/// above 0. False where the image is fine as it is.
+/// For formats that cannot store both windows: crops to the display window, and moves its corner to
+/// 0 where the format cannot store a negative origin, either. If lenient, as oiiotool: cuts off
+/// what lies left of or above 0. False where the image is fine as it is.
 bool fit_windows(const OIIO::ImageBuf& image, const OIIO::ImageOutput& writer, bool lenient,
                  OIIO::ImageBuf& fitted);
 
-/// Where the format holds fewer channels, or would take the one behind the colours for its alpha:
-/// the picture, with its alpha where it has one. oiiotool's choice if the writer is lenient.
+/// For formats that hold fewer channels, or that would read the channel behind the colours as
+/// alpha: keeps the displayed layer, with its alpha if it has one. Makes oiiotool's choice if the
+/// writer is lenient.
 void fit_channels(Outgoing& image, const OIIO::ImageOutput& writer, const Writer& from);
 
-/// Tells the writer of the alpha behind one channel or three ("C.A"), by which it divides the
-/// colour.
+/// Tells the writer which channel behind one or three colour channels is the alpha ("C.A"), since
+/// it divides the colour by alpha.
 void mark_alpha(OIIO::ImageSpec& spec);
 
-/// A warning where alpha hides pixels of a picture that is written as integers. In files of floats
-/// light of alpha 0 adds up.
+/// Warns where alpha hides pixels of an image that is written as integers. In files of floats,
+/// colour at alpha 0 is light that is added.
 void warn_of_unseen(const Warn& warn, const OIIO::ImageBuf& pixels, const OIIO::ImageSpec& written,
                     const OIIO::ImageOutput& writer);
 

@@ -62,7 +62,7 @@ std::unique_ptr<OIIO::ImageInput> open_input(const std::string& filename, const 
     return input;
 }
 
-// To read its pixels.
+// Opens the file to read its pixels.
 std::unique_ptr<OIIO::ImageInput> open_whole(const std::string& filename, const ReadOptions& how) {
     auto input = open_input(filename, how);
     if (const std::string why = bytes_missing(*input, filename); !why.empty())
@@ -81,7 +81,7 @@ std::vector<OIIO::ImageSpec> level_headers(OIIO::ImageInput& input, const std::s
     return levels;
 }
 
-// By its inode, so that links to it are the same file.
+// Compares inodes, since links name the same file.
 uint64_t lineage_of_file(const std::string& filename) {
     struct stat info {};
     const bool found = ::stat(filename.c_str(), &info) == 0;
@@ -119,7 +119,7 @@ Part::Part(std::vector<OIIO::ImageBuf> levels, std::optional<DataFormat> format,
       m_integer_encoded(integer_encoded),
       m_pixels(std::move(levels)) {
     for (OIIO::ImageBuf& level : m_pixels) {
-        level.specmod().erase_attribute(kStoredType); // of a view that it was made of
+        level.specmod().erase_attribute(kStoredType); // left over from the view that it was made of
         m_headers.push_back(level.spec());
     }
 }
@@ -221,7 +221,7 @@ OIIO::ImageBuf Part::color_view(int begin, int end) {
     OIIO::ImageSpec spec = header();
     spec.set_format(OIIO::TypeFloat);
     spec.nchannels = end - begin;
-    spec.channelnames.resize(size_t(header().nchannels)); // some readers name fewer
+    spec.channelnames.resize(size_t(header().nchannels)); // some readers name fewer channels
     spec.channelnames = {spec.channelnames.begin() + begin, spec.channelnames.begin() + end};
     spec.alpha_channel = spec.z_channel = -1;
     tag_encoding(spec);
@@ -236,7 +236,7 @@ OIIO::ImageBuf Part::color_source() {
     if (m_source || m_pixels.front().initialized() || header().deep)
         return color_view();
     check_unchanged();
-    if (!m_cache) // what was given away before still asks it
+    if (!m_cache) // images that were handed out before still use it
         m_cache = oiio::make_header_cache();
     OIIO::ImageBuf buffer = oiio::unread_file(m_file, m_subimage, m_cache);
     return buffer.has_error() || buffer.spec().roi() != header().roi() ? color_view()

@@ -1,4 +1,4 @@
-// One entry of the image stack: what was read from a file, or what a command made.
+// One entry of the image stack: read from a file, or made by a command.
 #pragma once
 
 #include <OpenImageIO/imagebuf.h>
@@ -14,7 +14,7 @@
 
 namespace tonetool::chain {
 
-/// The data types that an image would be written with.
+/// The data types that an image is written with by default.
 struct DataFormat {
     OIIO::TypeDesc type = OIIO::TypeFloat;  ///< the widest
     std::vector<OIIO::TypeDesc> of_channel; ///< empty where all are the same
@@ -27,20 +27,20 @@ struct ReadOptions {
     OIIO::TypeDesc type = OIIO::TypeFloat; ///< unknown: the file's own
 };
 
-/// What tells whether a file is still the one that was opened.
+/// The time and size of a file, which tell whether it is still the one that was opened.
 struct FileState {
     std::filesystem::file_time_type written{};
     uintmax_t size = 0;
     bool operator==(const FileState& o) const { return written == o.written && size == o.size; }
 };
 
-/// One subimage with its MIP levels. The headers are there at once, pixels come with the first use.
+/// One subimage with its MIP levels. Headers are read at once, pixels on first use.
 class Part {
 public:
     /// A subimage of a file, whose levels have these headers.
     Part(std::string file, int subimage, std::vector<OIIO::ImageSpec> levels, ReadOptions how);
-    /// Pixels that a command made, a level each. Without a format the file they are written to
-    /// is as wide as those that were read.
+    /// Pixels that a command made, one ImageBuf for each level. Without a format they are written
+    /// in the widest data type of the images that were read.
     Part(std::vector<OIIO::ImageBuf> levels, std::optional<DataFormat> format,
          bool integer_encoded);
 
@@ -57,22 +57,23 @@ public:
     /// The values come from an integer file: display-encoded unless the header says otherwise.
     bool integer_encoded() const { return m_integer_encoded; }
 
-    /// The pixels as float (deep ones as they are). A CommandError where they cannot be read.
+    /// The pixels as float (deep images in their own types). Throws a CommandError if they cannot
+    /// be read.
     const OIIO::ImageBuf& pixels(int level = 0);
 
-    /// Reads the pixels now if they are still to come from `filename`.
+    /// Reads the pixels now if they have not been read from `filename` yet.
     void read_before_replacing(const std::string& filename);
 
-    /// The pixels with a header that says sRGB where that was only implied by the integer file
-    /// they come from. Valid as long as this part is.
+    /// The pixels with a header that says sRGB where that was only implied by an integer file.
+    /// Valid as long as this part is.
     OIIO::ImageBuf color_view();
 
-    /// The same for functions that read what they need of an ImageBuf that was not read: the file
-    /// if its pixels are still to come.
+    /// The same for functions that read by themselves what they need: an unread ImageBuf if the
+    /// pixels have not been read yet.
     OIIO::ImageBuf color_source();
 
-    /// As color_view(), but of a file whose pixels are still to come only the channels from `begin`
-    /// to before `end`, which the caller owns.
+    /// As color_view(); but if the pixels have not been read yet, only the channels from `begin` to
+    /// before `end` are read, into an ImageBuf that the caller owns.
     OIIO::ImageBuf color_view(int begin, int end);
 
 private:
@@ -83,14 +84,15 @@ private:
 
     std::vector<OIIO::ImageSpec> m_headers; ///< of the MIP levels
     std::optional<DataFormat> m_format;
-    std::shared_ptr<Part> m_source; ///< whose pixels these are; else nullptr
+    std::shared_ptr<Part> m_source; ///< the part that owns the pixels; nullptr: this one
     int m_first_level = 0;          ///< of the source
     std::string m_file;
     FileState m_state; ///< of the file when its header was read
     ReadOptions m_how;
     int m_subimage = 0;
     bool m_integer_encoded = false;
-    std::vector<OIIO::ImageBuf> m_pixels; ///< of the MIP levels; not initialized: still to be read
+    /// Of the MIP levels; an uninitialized one has not been read yet.
+    std::vector<OIIO::ImageBuf> m_pixels;
     std::shared_ptr<OIIO::ImageCache> m_cache; ///< of the header, for color_source
 };
 
@@ -106,41 +108,41 @@ public:
         : m_name(std::move(name)),
           m_parts(std::move(parts)) {}
 
-    /// Opens the file and reads the headers of its subimages; a CommandError if that fails.
+    /// Opens the file and reads the headers of its subimages; throws a CommandError if that fails.
     static ImagePtr open(const std::string& filename, const ReadOptions& how = {});
-    /// What a command made of `from`: a format that is its own and the encoding go on.
+    /// The result of a command on `from`: it inherits an explicit format and the encoding.
     static ImagePtr derived(const Image& from, OIIO::ImageBuf pixels);
-    /// Several subimages (of one or more MIP levels) that a command made of those of `from`.
+    /// The same for several subimages, each with one or more MIP levels.
     static ImagePtr derived(const Image& from, std::vector<std::vector<OIIO::ImageBuf>> subimages);
-    /// What a command made of nothing, written in the widest format that was read.
+    /// An image that a command created, written in the widest format that was read.
     static ImagePtr created(std::string name, OIIO::ImageBuf pixels,
                             std::optional<DataFormat> format = {});
-    /// Black, or a checker board, in the place of a file that is not there: written with the data
-    /// type of the header.
+    /// Black, or a checkerboard, in place of a missing file: written with the data type of the
+    /// header.
     static ImagePtr placeholder(std::string name, OIIO::ImageSpec header, bool checker);
-    /// What a command measured: float, and not display-encoded unless its header says so.
+    /// The result of a measurement: float, and not display-encoded unless its header says so.
     static ImagePtr computed(std::string name, OIIO::ImageBuf pixels);
 
-    /// Whether some command has taken the image from the stack, or has written it.
+    /// Whether a command has taken the image from the stack, or has written it.
     bool used = false, written = false;
-    /// Whether one has done more with it than move it about, or has measured it.
+    /// Whether a command has changed or measured it, beyond rearranging the stack.
     bool worked_on = false;
-    /// A comparison has made it, or what was made of that.
+    /// It is the result of a comparison, or derived from one.
     bool is_result = false;
-    /// It is made of files that are the same in every frame, and of nothing else; and the command
-    /// line says of them that this is meant.
+    /// It is made only of files that are the same in every frame; and the command line says that
+    /// this is intended.
     bool same_in_all_frames = false, meant_for_all_frames = false;
-    /// The same for images that must have the same pixels: those of one file (by whatever name),
-    /// and what the same commands make of them. 0: nothing is known of it.
+    /// An id that is equal for images that must have equal pixels: images of the same file (by
+    /// whatever name), and the results of the same commands on them. 0: unknown.
     uint64_t lineage = 0;
-    /// Parts with a picture that a command has left out without being asked to.
+    /// Subimages with a beauty that a command has left out without being asked to.
     std::set<std::string> left_out;
     bool noted = false; ///< its data type has gone into Session::read_format
 
     void rename(std::string name) { m_name = std::move(name); }
     const std::string& name() const { return m_name; } ///< file, or what it was made from
     Part& part(size_t index = 0) const { return *m_parts.at(index); }
-    /// The subimage of that name or index; a CommandError if there is none.
+    /// The subimage of that name or index; throws a CommandError if there is none.
     size_t find_part(const std::string& which, bool lenient) const;
     size_t part_count() const { return m_parts.size(); }
     const std::vector<PartPtr>& parts() const { return m_parts; }
@@ -151,7 +153,7 @@ private:
     std::vector<PartPtr> m_parts;
 };
 
-/// The process decodes files on at most so many threads from now on; 0 sets no bound.
+/// From now on the process decodes files on at most this many threads; 0 sets no bound.
 void limit_reader_threads(int most);
 
 } // namespace tonetool::chain

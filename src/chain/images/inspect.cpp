@@ -161,7 +161,7 @@ std::string xml_text(const Image& image, size_t subimage, bool verbose) {
     return text;
 }
 
-// What follows the line of the image or of one of its subimages.
+// Prints what follows the line of the image or of one of its subimages.
 std::string subimage_text(const Image& image, const Listing& what, size_t subimage) {
     const Part& part = image.part(subimage);
     std::string text = what.verbose && part.mip_levels() > 1 ? mip_line(part) : "";

@@ -8,18 +8,18 @@
 
 namespace tonetool::chain {
 
-/// What is printed of an image that is read: --info, --stats, --hash, --dumpdata.
+/// The choice of what is printed about an image that is read: --info, --stats, --hash, --dumpdata.
 struct Listing {
     bool info = false, verbose = false, all_subimages = false, hash = false, stats = false;
-    bool named = true;   ///< a file, in its own data type; else pixels in memory
-    bool native = false; ///< pixels in memory with the data type of their file
+    bool named = true;   ///< describe a file, in its own data type; else pixels in memory
+    bool native = false; ///< show pixels in memory with the data type of their file
     std::string format, metamatch, no_metamatch; ///< "xml"; lines that (do not) match
     std::optional<std::string> dump;             ///< name of a C array, or "" for plain text
     bool dump_black = true;
-    OIIO::ROI roi{}; ///< of the statistics
+    OIIO::ROI roi{}; ///< region of the statistics
 };
 
-/// What `what` asks for of an image.
+/// Prints what `what` asks for.
 std::string listing_text(const Image& image, const Listing& what);
 
 /// Size, channels and data type in a line, and the metadata if `detailed`.
@@ -28,13 +28,13 @@ std::string header_text(const Image& image, size_t subimage, bool detailed, bool
 std::string stats_text(const Image& image, const std::string& indent, size_t subimage = 0,
                        int level = 0, OIIO::ROI roi = {});
 
-/// SHA-1 of the values of a subimage in the data types that the file has them in; of a deep one, of
-/// the numbers of samples and of all samples.
+/// SHA-1 of the values of a subimage in the file's data types; for a deep image, of the numbers of
+/// samples and of all samples.
 std::string stored_hash(const std::string& file, int subimage);
 
-/// The same of the depth samples of a deep image.
+/// The same for the depth samples of a deep image.
 std::string deep_stats_text(const OIIO::ImageBuf& image, const std::string& indent);
-/// All samples of all pixels, and the pixels without samples.
+/// Prints all samples of all pixels, and the pixels without samples.
 std::string deep_dump_text(const OIIO::ImageBuf& image, bool empty_ones);
 
 /// The image formats and their extensions; without recipes if `lenient`, as oiiotool.

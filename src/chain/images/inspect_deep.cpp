@@ -1,4 +1,4 @@
-// What is printed of images with depth samples.
+// Prints information about deep images.
 #include <OpenImageIO/strutil.h>
 #include <cmath>
 #include <limits>
@@ -43,7 +43,8 @@ struct Samples {
     }
 };
 
-// The numbers of samples one by one, from 8 on up to the next power of two.
+// The histogram of sample counts: one bin for each count below 8, then bins up to the next power of
+// two.
 std::string histogram(const std::vector<size_t>& pixels_with, size_t pixels) {
     std::string text;
     size_t first = 0, sum = 0;

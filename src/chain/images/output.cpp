@@ -85,7 +85,7 @@ void set_layout(OIIO::ImageSpec& spec, const OutputSettings& settings,
         spec.tile_width = settings.tile_width;
         spec.tile_height = settings.tile_height;
         spec.tile_depth = 1;
-    } else if (!tiles || lenient) { // oiiotool keeps no tiles
+    } else if (!tiles || lenient) { // oiiotool does not keep tiles
         spec.tile_width = spec.tile_height = spec.tile_depth = 0;
     }
     if (!settings.planarconfig.empty() && settings.planarconfig != "default")
@@ -140,7 +140,8 @@ void warn_of_encoding(const Warn& warn, const OIIO::ImageSpec& spec,
     }
 }
 
-// No writer of OpenImageIO keeps what some readers hand over; the pixels are copied as they are.
+// No writer of OpenImageIO stores these attributes, which some readers set; the pixels are copied
+// as they are.
 void warn_of_lost(const Warn& warn, const OIIO::ImageSpec& spec, const OIIO::ImageOutput& writer) {
     const std::string kept_by = std::string(writer.format_name()) + " file does not say so";
     if (const double exposure = stated_exposure(spec); exposure != 1) {
@@ -257,7 +258,7 @@ OIIO::TypeDesc output_type(const Part& part, const OutputSettings& settings, con
 
 namespace {
 
-// Types that OpenImageIO's writer takes, and then writes wrong.
+// Data types that OpenImageIO's writer accepts but writes wrongly.
 void avoid_broken_type(DataFormat& format, const OIIO::ImageOutput& writer,
                        const OutputSettings& asked, const Writer& from) {
     const std::string name = writer.format_name();
@@ -267,7 +268,7 @@ void avoid_broken_type(DataFormat& format, const OIIO::ImageOutput& writer,
         from.warn("PNM files of 16 bits would have their bytes swapped: 8 bits are written");
 }
 
-// The levels of a part on their way to the file.
+// The MIP levels of a subimage on their way to the file.
 void prepare_part(const Image& image, Part& part, const std::string& filename,
                   const OutputSettings& settings, const Writer& from,
                   const OIIO::ImageOutput& writer, std::deque<Outgoing>& outgoing,
@@ -285,7 +286,7 @@ void prepare_part(const Image& image, Part& part, const std::string& filename,
         avoid_broken_type(next.format, writer, settings, from);
         ready.push_back({next.pixels, output_spec(next, from, settings, filename, writer),
                          level > 0, settings.format_name, !from.lenient});
-        if (levels == 1) // OpenEXR would wait for more
+        if (levels == 1) // OpenEXR would wait for more levels
             ready.back().spec.erase_attribute("textureformat");
         warn_of_encoding(from.warn, ready.back().spec, writer);
         if (!from.lenient) {
@@ -299,7 +300,7 @@ void prepare_part(const Image& image, Part& part, const std::string& filename,
     }
 }
 
-// The time that the file's DateTime tells.
+// The time in the file's DateTime attribute.
 void adjust_time(const OIIO::ImageSpec& spec, const std::string& filename) {
     std::tm taken{};
     const std::string date = spec.get_string_attribute("DateTime");
@@ -323,7 +324,7 @@ const OIIO::ImageBuf& texture_pixels(const OIIO::ImageBuf& image, const std::str
 void write_output(const Image& image, const std::string& filename, const OutputSettings& settings,
                   const Writer& from, const std::function<void()>& before) {
     auto writer = find_writer(filename, settings.format_name);
-    std::deque<Outgoing> outgoing; // addresses stay
+    std::deque<Outgoing> outgoing; // a deque keeps addresses valid
     std::vector<OutputImage> ready;
     const size_t count = parts_to_write(from.warn, image, *writer);
     for (size_t i = 0; i < count; ++i)

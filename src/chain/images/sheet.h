@@ -1,4 +1,4 @@
-// Images made of several: pasted over each other, or side by side.
+// Images assembled from several: pasted over each other, or side by side.
 #pragma once
 
 #include <OpenImageIO/imagebuf.h>
@@ -11,18 +11,18 @@ namespace tonetool::chain {
 
 using Pictures = std::vector<const OIIO::ImageBuf*>;
 
-/// The last image is the background, on which the others go at that place, the deepest on top.
-/// `merge`: windows that hold all of them; else the background's. A CommandError if that fails.
+/// Pastes images over the last one at that position, the deepest of the stack on top. `merge`: the
+/// windows hold all images; else they are the background's. Throws a CommandError if that fails.
 OIIO::ImageBuf pasted(const Pictures& images, int x, int y, bool merge);
 
-/// Rows of images.
+/// The layout of a contact sheet.
 struct Sheet {
     int columns = 0, rows = 0;
-    int pad = 0;                  ///< pixels between them
-    std::optional<Size> fit = {}; ///< that each is made to fit first
+    int pad = 0;                  ///< pixels between images
+    std::optional<Size> fit = {}; ///< the size that each image is fitted to first
 };
 
-/// As large as the largest display window needs in each cell, black where there is no image.
+/// Each cell is as large as the largest display window, and black where there is no image.
 OIIO::ImageBuf mosaic(const Sheet& sheet, const Pictures& images);
 
 } // namespace tonetool::chain

@@ -1,4 +1,4 @@
-// What tells whether two files hold the same values.
+// The hash that tells whether two files hold the same values.
 #include <OpenImageIO/deepdata.h>
 #include <OpenImageIO/hash.h>
 #include <OpenImageIO/imageio.h>

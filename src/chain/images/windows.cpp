@@ -21,7 +21,7 @@ int rounded(float size) {
     return static_cast<int>(size + 0.5F); // NOLINT(bugprone-incorrect-roundings)
 }
 
-// A size of 0 follows the other one.
+// A size of 0 follows from the other one and the aspect ratio.
 void keep_aspect(const Window& old, Window& now) {
     if (now.width == 0 && now.height != 0)
         now.width = rounded(float(now.height) * float(old.width) / float(old.height));
@@ -29,7 +29,7 @@ void keep_aspect(const Window& old, Window& now) {
         now.height = rounded(float(now.width) * float(old.height) / float(old.width));
 }
 
-// `end` is where the text that was understood ends.
+// `end` is the end of the text that was parsed.
 Found parse(const char* text, const Window& old, Window& now, int& end) {
     int right = 0, bottom = 0;
     float x = 1, y = 1;

@@ -10,13 +10,13 @@ namespace tonetool::chain {
 /// Position: only the origin may change; Scalable: also "50%", "0.5".
 enum class Geometry { Position, Window, Scalable };
 
-/// What is wrong with a geometry, and what was let pass of it.
+/// The problem of a geometry, and what oiiotool makes of it.
 struct Adjusted {
     std::string error, warning;
 };
 
 /// A size or position as oiiotool takes it ("40x30+5+6", "x0,y0,x1,y1", "50%", "+5+6"), applied to
-/// a window. If `lenient`, text behind it and sizes that are not allowed are let pass.
+/// a window. If `lenient`, text behind it and invalid sizes are accepted, as oiiotool does.
 Adjusted adjust_window(const std::string& text, Geometry allowed, OIIO::ROI& window, bool lenient);
 
 /// The header of an image resized to another display window, in which the data window keeps its

@@ -1,4 +1,4 @@
-// The registry for other programs: the man page, shell completion, JSON.
+// The registry of commands for other programs: the man page, shell completion, JSON.
 #include <nlohmann/json.hpp>
 
 #include "chain/manual/help.h"

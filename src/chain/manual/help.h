@@ -10,11 +10,11 @@ namespace tonetool::chain {
 
 using chain::Command;
 
-/// How the program is called, in a few lines.
+/// A few lines about the use of the program.
 std::string usage_text();
-/// All commands by group.
+/// The list of all commands by group.
 std::string help_text();
-/// One command with its modifiers.
+/// The help of one command with its modifiers.
 std::string help_text(const Command& row);
 /// The whole registry as "man" (troff), "bash" or "zsh" (completion), "json"; a CommandError for
 /// any other format.

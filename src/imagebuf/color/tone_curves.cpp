@@ -1,7 +1,7 @@
 // The registry of tone curves as the public header shows it.
 #include "imagebuf/color/curve_plan.h"
 #include "imagebuf/pixels/guard.h"
-#include "kernels/curve_twin.h"
+#include "kernels/curve_reference.h"
 #include "tonemap/curves.h"
 #include "tonetool/tonemap.h"
 
@@ -53,7 +53,7 @@ bool tone_curve_response(std::vector<double>& response, const CurveOptions& curv
             return false;
         response.clear();
         for (double x : values)
-            response.push_back(kernels::curve_twin(plan.numbers, x));
+            response.push_back(kernels::curve_reference(plan.numbers, x));
         return true;
     });
 }

@@ -7,8 +7,8 @@
 #include "flip/filters.h"
 #include "imagebuf/compare/flip_plan.h"
 #include "imagebuf/compare/quantities.h"
+#include "kernels/curve_reference.h"
 #include "kernels/curve_rows.h"
-#include "kernels/curve_twin.h"
 #include "tonemap/rational.h"
 
 namespace tonetool {
@@ -67,15 +67,15 @@ void show_through(const CurvePlan& curve, FlipPlan& plan) {
     flip::Evaluation& evaluation = plan.evaluation;
     const auto coeffs = curve.coeffs();
     if (coeffs.empty()) {
-        plan.bright = flip::bright_point([&](const std::vector<double>& values) {
+        plan.bright = flip::exposure_anchor([&](const std::vector<double>& values) {
             std::vector<double> shown;
             for (double x : values)
-                shown.push_back(kernels::curve_twin(curve.numbers, x));
+                shown.push_back(kernels::curve_reference(curve.numbers, x));
             return shown;
         });
     } else {
         evaluation.curve = {kernels::ToneKind::Rational, scaled(coeffs)};
-        plan.bright = flip::bright_point(evaluation.curve.k);
+        plan.bright = flip::exposure_anchor(evaluation.curve.k);
     }
     if (is_reinhard(curve))
         evaluation.curve.kind = kernels::ToneKind::ReinhardLuminance;
@@ -93,7 +93,7 @@ bool show_through_view(const HdrFlipOptions& options, FlipPlan& plan, std::strin
     plan.common.pixels.context = options.view->context;
     plan.tonemapper = plan.light.name();
     plan.evaluation.rows = options.exact ? plan.light.exact() : plan.light.baked();
-    plan.bright = flip::bright_point(
+    plan.bright = flip::exposure_anchor(
         [&](const std::vector<double>& values) { return plan.light.greys(values); });
     return true;
 }

@@ -40,7 +40,7 @@ public:
         : m_plan(plan),
           m_image(reference),
           m_nthreads(nthreads),
-          m_reach(plan.pixel_error ? 0 : flip::reach(plan.evaluation.taps)) {}
+          m_reach(plan.pixel_error ? 0 : flip::filter_radius(plan.evaluation.taps)) {}
 
     /// `held`: bytes that earlier groups have made.
     bool run(const FittedTest* fitted, const std::vector<ImageBuf*>& dst, const ROI& roi,

@@ -6,7 +6,7 @@
 
 #include "imagebuf/pixels/names.h"
 #include "kernels/curve_constants.h"
-#include "kernels/curve_twin.h"
+#include "kernels/curve_reference.h"
 
 namespace tonetool {
 namespace {
@@ -95,8 +95,8 @@ void LutSource::exact(float* rgb, ptrdiff_t count) const {
         return;
     }
     for (ptrdiff_t i = 0; i < count; ++i, rgb += 3) {
-        const auto light = kernels::curve_twin(m_curve.numbers, m_curve.use,
-                                               {double(rgb[0]), double(rgb[1]), double(rgb[2])});
+        const auto light = kernels::curve_reference(
+            m_curve.numbers, m_curve.use, {double(rgb[0]), double(rgb[1]), double(rgb[2])});
         for (size_t c = 0; c < 3; ++c)
             rgb[c] = m_encoding(float(light[c]));
     }
@@ -108,7 +108,7 @@ double LutSource::inner(double x) const {
         return agx_sigmoid(x);
     if (numbers.kind == CurveKind::AcesHill)
         numbers.kind = CurveKind::Rational;
-    return kernels::curve_twin(numbers, x);
+    return kernels::curve_reference(numbers, x);
 }
 
 double LutSource::encoded(double light) const {

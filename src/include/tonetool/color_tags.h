@@ -1,4 +1,4 @@
-// What the headers of files say about their colour, and keeping it true.
+// The colour tags of file headers: reading them, and keeping them true after a conversion.
 #pragma once
 
 #include <OpenImageIO/imageio.h>
@@ -14,7 +14,8 @@ namespace tonetool {
 /// `oiio:ColorSpace` says what the values are.
 TONETOOL_API double stated_gamma(const OIIO::ImageSpec& spec);
 
-/// What the values of a Radiance file were multiplied by (`hdr:exposure`), 1 where it does not say.
+/// The factor that the values of a Radiance file were multiplied by (`hdr:exposure`), 1 where the
+/// header does not say.
 TONETOOL_API double stated_exposure(const OIIO::ImageSpec& spec);
 
 /// OpenImageIO keeps the last EXPOSURE line of a Radiance file: where it has one, this makes
@@ -25,10 +26,12 @@ TONETOOL_API void take_whole_exposure(OIIO::ImageSpec& spec, const std::string& 
 /// profile says: any but one of sRGB's primaries and curve. Nothing if there is none.
 TONETOOL_API std::optional<std::string> unapplied_profile(const OIIO::ImageSpec& spec);
 
-/// Values of a new encoding: what the header says of the old one goes (profile, gamma, exposure,
-/// chromaticities unless the primaries are still the same), `tag` is what `oiio:ColorSpace` says.
+/// Tags values that have a new encoding: removes the attributes of the old one (profile, gamma,
+/// exposure, and chromaticities unless the primaries are still the same) and sets `oiio:ColorSpace`
+/// to `tag`.
 TONETOOL_API void retag(OIIO::ImageSpec& spec, const std::string& tag, bool same_primaries = false);
-/// Of these, what belongs to encoded values and not to light: the ICC profile and the gamma.
+/// Removes those of these attributes that belong to encoded values and not to light: the ICC
+/// profile and the gamma.
 TONETOOL_API void drop_profile(OIIO::ImageSpec& spec);
 
 /// Sets the `chromaticities` to those of the linear space that `oiio:ColorSpace` names, and removes

@@ -1,4 +1,4 @@
-// Making maps visible.
+// Maps as images for a screen.
 #pragma once
 
 #include <OpenImageIO/imagebuf.h>

@@ -1,4 +1,4 @@
-// Errors of an image, pixel by pixel, by the measures that rendering papers report.
+// Error maps by the metrics that rendering papers report.
 #pragma once
 
 #include <OpenImageIO/imagebuf.h>
@@ -11,8 +11,8 @@
 
 namespace tonetool {
 
-/// Which error. With r a component (R, G, B) of the reference's pixel and t of the test's, both
-/// linear Rec.709 >= 0, a pixel's error is the mean over its three components of
+/// The metric and its parameters. With r a component (R, G, B) of the reference's pixel and t of
+/// the test's, both linear Rec.709 >= 0, a pixel's error is the mean over its three components of
 ///
 ///   mae     |t - r|
 ///   mse     (t - r)^2
@@ -27,9 +27,9 @@ namespace tonetool {
 ///           Munkberg, Clarberg, Hasselgren, Akenine-Moller, "High Dynamic Range Texture
 ///           Compression for Graphics Hardware", 2006
 ///
-/// and the measure of the images is the mean of the map, but for psnr 10 log10(peak^2 / mean) and
-/// for mpsnr 10 log10(1 / mean), in dB: infinite for equal images, higher is better. Munkberg et
-/// al. choose the exposures by hand; here they are those of hdr_flip with the same reference.
+/// and the value for the whole image is the mean of the map; for psnr it is 10 log10(peak^2 / mean)
+/// and for mpsnr 10 log10(1 / mean), in dB: infinite for equal images, higher is better. Munkberg
+/// et al. choose the exposures by hand; here they are those of hdr_flip with the same reference.
 struct ErrorOptions : PairOptions {
     std::string metric;                   ///< one of error_metrics()
     double eps = 0.01;                    ///< of rmae, relmse, smape: 1e-12 to 1e12
@@ -41,12 +41,13 @@ struct ErrorOptions : PairOptions {
 
 struct ErrorSummary : PairSummary {
     std::string metric;
-    double value = 0;              ///< the measure
+    double value = 0;              ///< the metric's value for the whole image
     bool decibels = false;         ///< it is in dB, higher is better; else 0 is best
     double eps = 0;                ///< 0 where the metric has none
     double peak = 0;               ///< 0 where the metric has none
     std::vector<double> exposures; ///< of mpsnr: stops, ascending
-    double max_luminance = 0, median_luminance = 0; ///< that gave the exposures, 0 if not used
+    /// Luminances that gave the exposures, 0 if not used.
+    double max_luminance = 0, median_luminance = 0;
     bool median_of_lit = false; ///< more than half the reference is black: median of the rest
 };
 
@@ -57,16 +58,14 @@ namespace ToneAlgo {
 /// the largest float).
 ///
 /// Shapes, ROI, colour, alpha, memory: as ldr_flip in flip.h, except that no pixel depends on its
-/// neighbours and that nothing is clamped but negative components, which become 0 and are counted.
-/// A compared alpha joins the map as |difference|.
-/// NaN, Inf: a pixel that is non-finite in one image counts as the largest error: 1 for smape and
-///   mpsnr; for the others the largest error of the map's other pixels, or 1 if that is less. In
-///   both: 0 where they are alike, as in flip.h, else the largest. Counted and warned about; if no
-///   finite pixel is left the call fails.
-/// Identical images give exactly 0; the result does not depend on nthreads to the bit: sums are in
-/// double and in a fixed order.
-/// `summary`, when given, receives what was measured; it also lands in dst as `Error:*`.
-/// Returns false, with the reason in dst.geterror(), and then never leaves a map in dst.
+/// neighbours, and that only negative components are clamped: they become 0 and are counted. A
+/// compared alpha joins the map as |difference|. NaN, Inf: a pixel that is non-finite in one image
+/// counts as the largest error: 1 for smape and mpsnr; for the others the largest error of the
+/// map's other pixels, or 1 if that is less. In both: 0 where they are alike, as in flip.h, else
+/// the largest. Counted and warned about; if no finite pixel is left the call fails. Identical
+/// images give exactly 0; the result does not depend on nthreads to the bit: sums are in double and
+/// in a fixed order. `summary`, when given, receives what was measured; it also lands in dst as
+/// `Error:*`. Returns false, with the reason in dst.geterror(), and then never leaves a map in dst.
 TONETOOL_API bool error_map(OIIO::ImageBuf& dst, const OIIO::ImageBuf& reference,
                             const OIIO::ImageBuf& test, const ErrorOptions& options,
                             ErrorSummary* summary = nullptr, OIIO::ROI roi = {}, int nthreads = 0);

@@ -14,14 +14,14 @@ namespace tonetool {
 struct LutOptions {
     CurveOptions curve;
     std::optional<ViewOptions> view; ///< instead of the curve
-    /// Colour space of the configuration that a view starts from; empty: linear Rec.709, that of
-    /// curves.
+    /// Colour space of the configuration that a view starts from; empty: linear Rec.709, where
+    /// curves always start.
     std::string from;
-    std::string encode = "srgb"; ///< of the result of a curve, see display_encodings()
-    /// What .cube, .spi1d and .spi3d expect their input to be, scene light x as 0 to 1, and what
-    /// .clf and .ctf do themselves:
-    /// "log2": (log2(x + 2^min) - min) / (log2(2^max + 2^min) - min), which keeps 0 at 0;
-    /// "acescct": the curve of S-2016-001 up to 1, x = 222.86; "linear": x, up to 1.
+    std::string encode = "srgb"; ///< encoding of a curve's result, see display_encodings()
+    /// The shaper that brings scene light x to 0 to 1. Programs must apply it before .cube, .spi1d
+    /// and .spi3d; .clf and .ctf contain it. "log2": (log2(x + 2^min) - min) / (log2(2^max + 2^min)
+    /// - min), which keeps 0 at 0; "acescct": the curve of S-2016-001 up to 1, x = 222.86;
+    /// "linear": x, up to 1.
     std::string shaper = "log2";
     double min = -12, max = 10; ///< stops, of log2; -24 to 0 and 1 to 16
     /// Entries, or nodes along an edge of a cube; 0: 4096 or 33. 2 to 65536, 2 to 129.
@@ -32,12 +32,12 @@ struct LutOptions {
 struct LutSummary {
     std::string format;       ///< "cube", "spi1d", "spi3d", "clf", "ctf"
     std::string structure;    ///< "1D 4096", "3D 33"; of clf and ctf also what is around it
-    std::string input;        ///< what the file expects: space and shaper
+    std::string input;        ///< the input that the file expects: space and shaper
     double low = 0, high = 0; ///< the scene light that the table covers and was measured over
     /// Largest and mean difference of the table's results, read with linear (cubes: the worse of
     /// trilinear and tetrahedral) interpolation by OpenColorIO. Code values.
     double max_error = 0, mean_error = 0;
-    double grey_max_error = 0; ///< the same of greys alone
+    double grey_max_error = 0; ///< the same for greys alone
     int64_t samples = 0;
 };
 
@@ -51,7 +51,7 @@ namespace ToneAlgo {
 /// .cube holds one table per channel where the curve is one per channel, else a cube; .spi1d can
 ///   only be the former. .clf and .ctf take scene light itself: per channel a shaper and a table;
 ///   curves that mix channels by matrices keep these; .ctf, which only OpenColorIO reads, keeps the
-///   structure of curves on luminance too. All else is a shaper and a cube.
+///   structure of curves on luminance too. Everything else is written as a shaper and a cube.
 /// Written beside the target and renamed. Errors: unknown names, values out of range, a format that
 /// cannot hold the curve; `error` says what would be valid.
 TONETOOL_API bool export_lut(const std::string& filename, const LutOptions& options,

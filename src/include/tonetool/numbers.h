@@ -1,4 +1,4 @@
-// What measurements return: plain numbers, no images.
+// The results of measurements: plain numbers, no images.
 #pragma once
 
 #include <array>
@@ -16,11 +16,11 @@ struct FlipPool {
     /// Nearest-rank percentiles of the pixels.
     double p50 = 0, p95 = 0, p99 = 0, p999 = 0;
     double min = 0, max = 0;
-    int min_x = 0, min_y = 0, max_x = 0, max_y = 0; ///< first in scan-line order
+    int min_x = 0, min_y = 0, max_x = 0, max_y = 0; ///< the first one in scanline order
     /// 100 equal buckets over [0, 1]; the last one holds 1 as well.
     std::array<int64_t, 100> histogram{};
     int64_t pixels = 0;
-    /// What PairOptions::quantities asked for beside these, by name: "p99.95", "above0.2".
+    /// The quantities that PairOptions::quantities asked for, by name: "p99.95", "above0.2".
     std::map<std::string, double> further;
 };
 
@@ -46,7 +46,7 @@ struct TmqiScore {
     double s = 0;                   ///< structural fidelity
     double n = 0;                   ///< statistical naturalness
     std::array<double, 5> scales{}; ///< fidelity at each scale, the finest first
-    double mean = 0, deviation = 0; ///< of the display picture, 0 to 255, that n follows from
+    double mean = 0, deviation = 0; ///< of the tone-mapped image, 0 to 255; n follows from them
 };
 
 } // namespace tonetool

@@ -1,4 +1,4 @@
-// Which part (subimage) of a file is looked at.
+// Which subimage of a file a function works on.
 #pragma once
 
 #include <OpenImageIO/imageio.h>
@@ -10,22 +10,22 @@
 
 namespace tonetool {
 
-/// What `find_part` chose.
+/// The choice of `find_part`.
 struct PartChoice {
     int part = 0;        ///< its index
-    std::string picture; ///< as layer= names it; empty where the layer was named
-    /// Pictures of other parts, and of other views, that nobody looks at then; empty where the
+    std::string picture; ///< its beauty, as layer= names it; empty where the layer was named
+    /// Beauties of other subimages and other views, which this choice leaves out; empty where the
     /// layer was named.
     std::vector<std::string> left_out;
 };
 
 namespace ToneAlgo {
 
-/// Chooses the part of a file by the headers of all of them: the one that has or is the layer, or
-/// the view, of this name; without a name the beauty, as find_color() does, of the first view; else
-/// the first part with colour that its name does not call data. Returns false and explains in
-/// `error` where none has the layer or several could be meant. find_color() then finds the same
-/// layer in the header of the part.
+/// Chooses a subimage by the headers of all subimages of the file: the one that has the layer of
+/// this name, or is called so itself or by its view. Without a name: the beauty of the first view,
+/// as find_color() finds it, else the first subimage with colour whose name does not say data.
+/// Returns false and explains in `error` where no subimage has the layer or several could be meant.
+/// find_color() then finds the same layer in the header of the chosen subimage.
 TONETOOL_API bool find_part(const std::vector<OIIO::ImageSpec>& parts, const PixelOptions& options,
                             PartChoice& choice, std::string& error);
 

@@ -1,4 +1,4 @@
-// Which pixels of an image a function looks at: layer, colour space, geometry, alpha.
+// Which pixels of an image a function reads: layer, colour space, geometry, alpha.
 #pragma once
 
 #include <OpenImageIO/imagebuf.h>
@@ -17,18 +17,19 @@ enum class SizePolicy {
     Crop,   ///< only the intersection of the display windows is compared
 };
 
-/// What a comparison does with alpha.
+/// The role of alpha in a comparison.
 enum class AlphaPolicy {
-    Ignore, ///< alpha is not looked at; RGB is used as stored (associated)
+    Ignore, ///< alpha is not compared; RGB is used as stored (associated)
     Error,  ///< |alpha difference| joins the map (the larger of the two wins) and the summary
 };
 
 /// How to find the linear Rec.709 colour in an image.
 struct PixelOptions {
-    /// Layer whose R, G, B are used ("ViewLayer.Combined"; the part before ".R"), or whose one
-    /// channel is, as grey. Empty: plain R,G,B; else the one obvious beauty layer; else the one
-    /// channel of a picture without colours; else an error that lists the layers. Layers and parts
-    /// that hold data by their names (normals, albedo, positions, depth) must be asked for.
+    /// The layer whose R, G, B are used ("ViewLayer.Combined": the channel names before ".R"), or
+    /// whose single channel is used as grey. Empty: plain R,G,B; else the one obvious beauty layer;
+    /// else the single channel of an image without colours; else an error that lists the layers.
+    /// Layers and subimages whose names say that they hold data (normals, albedo, positions, depth)
+    /// are used only if they are named here.
     std::string layer;
     /// Colour space of the stored values, one of color_spaces(): rec709, acescg, aces2065-1,
     /// rec2020, p3-d65 (all linear, with their usual aliases) or srgb (display-encoded, decoded
@@ -43,12 +44,12 @@ struct PixelOptions {
     std::vector<std::pair<std::string, std::string>> context{};
 };
 
-/// What `find_color` chose.
+/// The choice of `find_color`.
 struct ColorChoice {
-    int r = -1, g = -1, b = -1;   ///< channel indices; all the same for a picture of one channel
+    int r = -1, g = -1, b = -1;   ///< channel indices; all the same for an image of one channel
     int a = -1;                   ///< index of the layer's alpha, -1 if it has none
     std::string layer;            ///< "" for plain R,G,B or one plain channel
-    std::string space;            ///< name of the colour space the values are read in
+    std::string space;            ///< name of the colour space that the values are read in
     bool display_encoded = false; ///< values are display-encoded and are decoded on reading
 
     bool grey() const { return r >= 0 && r == g && r == b; }
@@ -56,9 +57,9 @@ struct ColorChoice {
 
 namespace ToneAlgo {
 
-/// Choose the colour channels and the colour space of an image from its header, as every
-/// function of this library does. Returns false and explains in `error` (with the layers
-/// that are there) when there is no colour, or two candidates for the beauty.
+/// Choose the colour channels and the colour space of an image from its header, as every function
+/// of this library does. Returns false and explains in `error` (listing the layers of the image)
+/// when there is no colour, or two candidates for the beauty.
 TONETOOL_API bool find_color(const OIIO::ImageSpec& spec, const PixelOptions& options,
                              ColorChoice& choice, std::string& error);
 

@@ -1,4 +1,4 @@
-// What a dailies check must know of a picture: facts of its header and its pixels, small enough to
+// The facts that a dailies check needs of an image: from its header and its pixels, small enough to
 // keep for every frame of a shot.
 #pragma once
 
@@ -16,19 +16,21 @@
 namespace tonetool {
 
 struct QcOptions {
-    PixelOptions pixels; ///< the picture among the layers
-    /// Light groups that are to add up to it, by name or by layer; empty: those that are found.
+    PixelOptions pixels; ///< the beauty among the layers
+    /// Light groups that must add up to the beauty, by name or by layer; empty: those that are
+    /// found.
     std::vector<std::string> groups;
 };
 
-/// A pixel, and what it has.
+/// A pixel with a fault.
 struct QcSpot {
     int x = 0, y = 0;
-    double value = 0;  ///< of what is counted where it is finite, else 0
-    double around = 0; ///< of a spike: the largest value on the square 3 pixels away
+    double value = 0; ///< its value where that is finite, else 0
+    /// For a firefly: the neighbourhood maximum, the largest value at a distance of 3 pixels.
+    double around = 0;
 };
 
-/// How many pixels have something, and the first of them.
+/// How many pixels have a fault, and the first of them.
 struct QcCount {
     int64_t pixels = 0;
     std::vector<QcSpot> first; ///< by row, then column; at most kMost
@@ -37,12 +39,13 @@ struct QcCount {
 
 struct QcLayer {
     std::string name; ///< "" for plain R,G,B
-    /// "picture"; "light": a light group of it; "color"; "depth", which may be infinite; "data"
+    /// "picture": the beauty; "light": a light group of it; "color"; "depth", which may be
+    /// infinite; "data"
     std::string kind;
     bool constant = false; ///< each channel but alpha has one value
     int64_t lit = 0;       ///< pixels that are finite and not 0
     double min = 0, max = 0;
-    double mean = 0; ///< of the luminance of a colour, else of all its values
+    double mean = 0; ///< of the luminance if the layer is a colour, else of all its values
     QcCount nan, inf, negative;
 };
 
@@ -50,33 +53,35 @@ struct QcPart {
     std::string name;
     std::array<int, 4> data{}, display{}; ///< x, y, width, height
     std::string compression;
-    /// Everything in the header that is not above; values of more than 120 characters by their
-    /// hash.
+    /// All other attributes of the header; values of more than 120 characters as their hash.
     std::map<std::string, std::string> metadata;
 };
 
-/// The colour that a viewer looks at. A file of data (depth, normals, numbers of objects) has none:
-/// no layer is of the kind "picture", and the thumbnail is dark.
+/// Statistics of the beauty. A file of data (depth, normals, object IDs) has no beauty: no layer is
+/// of the kind "picture", and the thumbnail is dark.
 struct QcPicture {
     std::string layer, space;
     /// Means of luminance over the display window, kWide x kHigh from the top, in 1/1000 stop, at
-    /// least kDark: thumbnails are compared, and must be the same when read back.
+    /// least kDark: whole numbers, since thumbnails are compared and must be the same when they are
+    /// read back.
     std::vector<int> thumbnail;
     static constexpr int kWide = 32, kHigh = 18, kDark = -30000;
     std::vector<int> peaks; ///< the largest components in the same cells, in the same units
-    std::string hash;       ///< of the values of its pixels
+    std::string hash;       ///< hash of its pixel values
     QcCount alpha_low;      ///< below 0 by more than kAlphaSlack, or NaN
     QcCount alpha_high;     ///< above 1 by as much
-    static constexpr double kAlphaSlack = 1e-3; ///< of sums of filter weights in half
-    int64_t lit = 0;                            ///< pixels with light, where there is an alpha
-    QcCount unseen;                             ///< those of them whose alpha is 0
-    int64_t spike_count = 0;    ///< pixels 8 times as large as all that are 3 pixels away
-    std::vector<QcSpot> spikes; ///< the largest of them, by value; at most kSpikes
+    /// Rounding of filter weights that are added up in half float.
+    static constexpr double kAlphaSlack = 1e-3;
+    int64_t lit = 0; ///< non-black pixels, counted only where there is an alpha
+    QcCount unseen;  ///< non-black pixels whose alpha is 0
+    /// Fireflies: pixels 8 times as large as all at a distance of 3 pixels.
+    int64_t spike_count = 0;
+    std::vector<QcSpot> spikes; ///< the largest fireflies, by value; at most kSpikes
     static constexpr size_t kSpikes = 32;
     int groups = 0;              ///< light groups
-    double group_sum = 0;        ///< light of all groups over that of the picture
-    double group_difference = 0; ///< sum of the pixels' differences, over the same
-    QcSpot group_worst;          ///< the pixel that is off most, by how much
+    double group_sum = 0;        ///< light of all groups divided by that of the beauty
+    double group_difference = 0; ///< sum of the pixels' differences, divided by the same
+    QcSpot group_worst;          ///< the pixel with the largest difference, and that difference
 };
 
 struct QcFacts {
@@ -88,11 +93,12 @@ struct QcFacts {
 
 namespace ToneAlgo {
 
-/// Measure a picture and what comes with it: all parts (subimages) of one file, whose channels are
-/// told apart by the names of the parts. One pass over the pixels, in bands of rows: images that
-/// were not read are read from their file. False with the reason in `error`: several pictures among
-/// the layers, or not the one that was named, deep, unreadable. The pixels at the largest component
-/// of the picture, which may be clamped, do not count for its light groups.
+/// Measure the beauty and all other layers in all subimages of one file; the names of subimages
+/// tell their channels apart. It takes one pass over the pixels, in scanline blocks: images that
+/// were not read are read from their file. Returns false with the reason in `error` where several
+/// layers could be the beauty, the named one is not there, or an image is deep or unreadable.
+/// Pixels at the largest component of the beauty, which may be clamped, do not count in the check
+/// of its light groups.
 TONETOOL_API bool qc_facts(QcFacts& facts, const std::vector<const OIIO::ImageBuf*>& parts,
                            std::string& error, const QcOptions& options = {}, int nthreads = 0);
 

@@ -1,4 +1,4 @@
-// Writing textures so that a failed or interrupted run never harms what was there.
+// Writing textures so that a failed or interrupted run never harms the file that was there.
 #pragma once
 
 #include <OpenImageIO/imagebufalgo.h>

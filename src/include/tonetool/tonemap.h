@@ -24,18 +24,18 @@ struct CurveOptions {
     std::map<std::string, double> parameters;
     /// y = (k0 x^2 + k1 x + k2) / (k3 x^2 + k4 x + k5) (HDR-FLIP paper, Eq. 1) instead of the name.
     std::vector<double> coeffs;
-    /// "rgb": on each channel; "luminance": T(L) (C/L)^saturation; empty: as the curve is meant.
-    /// Curves that mix the channels (agx, neutral, aces-hill) have no choice.
+    /// "rgb": apply the curve to each channel; "luminance": T(L) (C/L)^saturation; empty: as the
+    /// curve was published. Curves that mix the channels (agx, neutral, aces-hill) have no choice.
     std::string on;
-    double saturation = 1; ///< of curves on luminance, 0 to 4
+    double saturation = 1; ///< for curves on luminance, 0 to 4
 };
 
-/// A display and view of an OpenColorIO configuration.
+/// A display and a view of an OpenColorIO configuration.
 struct ViewOptions {
     std::string config;  ///< file of the configuration; empty: the environment variable OCIO
     std::string display; ///< empty: the configuration's default
     std::string view;    ///< empty: the display's default
-    std::string looks;   ///< instead of the view's own; empty: the view's own
+    std::string looks;   ///< OCIO looks that replace the view's own; empty: the view's own
     /// Context variables and their values, in place of the environment's.
     std::vector<std::pair<std::string, std::string>> context;
 };
@@ -44,33 +44,33 @@ struct ViewOptions {
 enum class CalibrationMethod {
     Manual,  ///< 2^stops
     Mean,    ///< key / geometric mean of the luminance, times 2^stops
-    AutoKey, ///< the same, the key from the mean (Krawczyk et al. 2005): 1.03 - 2 / (2 + log10(1 +
-             ///< mean))
+    AutoKey, ///< as Mean, but the key follows from the mean (Krawczyk et al. 2005): 1.03 - 2 / (2 +
+             ///< log10(1 + mean))
 };
 
 struct CalibrationOptions {
     CalibrationMethod method = CalibrationMethod::Manual;
     double stops = 0;  ///< -126 to 126
-    double key = 0.18; ///< what the mean becomes, with Mean; 1e-4 to 100
+    double key = 0.18; ///< the value that the mean is brought to, with Mean; 1e-4 to 100
     /// Local means: 2^level x 2^level cells over the image, interpolated bilinearly between their
-    /// middles (the article's MIP levels, counted from the top). 0: one mean for the image. Not
-    /// beyond the level at which a cell would be narrower than a pixel.
+    /// middles (the article's MIP levels, counted from the top). 0: one mean for the image. The
+    /// largest valid level is the last one whose cells are at least a pixel wide.
     int level = 0;
     double epsilon = 1e-6;         ///< added to each luminance before its logarithm, > 0
-    bool skip_black = false;       ///< pixels of luminance 0 are not in the statistics
-    bool skip_transparent = false; ///< pixels of alpha 0 are not in the statistics
-    /// The curve's parameter `white` from this percentile of the calibrated luminance; 100 is the
-    /// maximum. Above 0 up to 100.
+    bool skip_black = false;       ///< leave pixels of luminance 0 out of the statistics
+    bool skip_transparent = false; ///< leave pixels of alpha 0 out of the statistics
+    /// Set the curve's parameter `white` to this percentile of the calibrated luminance: above 0 to
+    /// 100, which is the maximum.
     std::optional<double> white_percentile;
 };
 
 /// What was measured and chosen.
 struct CalibrationSummary {
     double mean = 0;     ///< geometric mean of the luminance; 0 where none was needed
-    double key = 0;      ///< that was used; 0 where none was
-    double exposure = 0; ///< stops that brought it there: of the whole image
-    double white = 0;    ///< 0 where none was asked for
-    int64_t pixels = 0;  ///< that the statistics are of
+    double key = 0;      ///< the key that was used; 0 where none was
+    double exposure = 0; ///< stops that brought the mean of the whole image to the key
+    double white = 0;    ///< the measured white; 0 where it was not asked for
+    int64_t pixels = 0;  ///< pixels in the statistics
 };
 
 struct TonemapOptions {
@@ -78,12 +78,12 @@ struct TonemapOptions {
     CurveOptions curve;
     std::optional<ViewOptions> view; ///< instead of the curve
     CalibrationOptions calibration;
-    /// Primaries that a curve works in and that the result has: "rec709" or "image", those of the
-    /// image, whose luminance weights are then used. Views take the image's own.
+    /// The primaries that a curve works in and that the result has: "rec709", or "image" for the
+    /// image's own, whose luminance weights are then used. Views always start from the image's own.
     std::string primaries = "rec709";
-    /// Of the result of a curve: none (linear), srgb, gamma2.2, rec1886 (2.4), gamma2.6.
+    /// Encoding of a curve's result: none (linear), srgb, gamma2.2, rec1886 (2.4), gamma2.6.
     std::string encode = "srgb";
-    bool clamp = true;      ///< the result of a curve to [0,1]
+    bool clamp = true;      ///< clamp the result of a curve to [0,1]
     bool unpremult = false; ///< divide colour by alpha before and multiply after
 };
 
@@ -98,11 +98,11 @@ struct TonemapSummary {
     std::vector<std::string> warnings;
 };
 
-/// A row of the registry, for people and for programs that show a menu.
+/// A tone curve of the registry, for people and for programs that show a menu.
 struct ToneCurveParameter {
     std::string name, help;
     double value = 0, low = 0, high = 0;
-    double flip_value = 0; ///< its default in HDR-FLIP
+    double flip_value = 0; ///< the default in HDR-FLIP
 };
 struct ToneCurveInfo {
     std::string name, title, source, formula, note;
@@ -119,14 +119,14 @@ namespace ToneAlgo {
 /// Colour: R, G, B of the layer that options choose; every other channel is carried unchanged. For
 ///   a curve they are brought to linear light in `primaries`, multiplied by the calibrated
 ///   exposure, mapped, clamped and encoded; negative components become 0 and are counted. For a
-///   view the configuration does it all, from the colour space options.pixels.from names there
-///   (else from the image's own) to the display's encoding; nothing is clamped.
-/// NaN and -Inf become 0, +Inf the largest value; they are counted and warned about.
-/// Alpha: associated colour is mapped as it is stored, as OpenColorIO's tools do; with unpremult
-///   it is divided by alpha first where alpha is not 0.
-/// Statistics skip non-finite pixels, and are of the whole data window whatever the ROI.
-/// The result is float and tagged with its colour space. Errors: no colour, deep images, unknown
-/// names and values out of range, each with what would be valid.
+///   view the configuration does everything, from the colour space that options.pixels.from names
+///   (else the image's own) to the display's encoding; nothing is clamped.
+/// NaN and -Inf become 0, +Inf the largest value; they are counted and warned about. Alpha:
+/// associated colour is mapped as it is stored, as OpenColorIO's tools do; with unpremult it is
+/// divided by alpha first where alpha is not 0. Statistics skip non-finite pixels, and cover the
+/// whole data window whatever the ROI. The result is float and tagged with its colour space.
+/// Errors: no colour, deep images, unknown names and values out of range, each with what would be
+/// valid.
 TONETOOL_API bool tonemap(OIIO::ImageBuf& dst, const OIIO::ImageBuf& src,
                           const TonemapOptions& options = {}, TonemapSummary* summary = nullptr,
                           OIIO::ROI roi = {}, int nthreads = 0);
@@ -134,8 +134,8 @@ TONETOOL_API OIIO::ImageBuf tonemap(const OIIO::ImageBuf& src, const TonemapOpti
                                     TonemapSummary* summary = nullptr, OIIO::ROI roi = {},
                                     int nthreads = 0);
 
-/// Only the calibration: multiply the colour by the exposure that is found. The image must be
-/// linear. Non-finite pixels stay as they are.
+/// Calibration alone: multiply the colour by the exposure that is found. The image must be linear.
+/// Non-finite pixels stay as they are.
 TONETOOL_API bool calibrate(OIIO::ImageBuf& dst, const OIIO::ImageBuf& src,
                             const CalibrationOptions& calibration = {},
                             const PixelOptions& options = {}, CalibrationSummary* summary = nullptr,
@@ -152,13 +152,14 @@ TONETOOL_API bool tone_curve_response(std::vector<double>& response, const Curve
 /// Encodings of `TonemapOptions::encode`.
 TONETOOL_API std::vector<std::string> display_encodings();
 
-/// The files that an OpenColorIO configuration refers to (LUTs, CDLs): what its results depend on
-/// beside its own text. Where a name depends on a context variable, which commands may set, all
-/// files of the search path. False with a reason in `error` where the configuration cannot be read.
+/// The files that an OpenColorIO configuration refers to (LUTs, CDLs), on which its results depend.
+/// Where a file name contains a context variable, which commands may set, these are all files of
+/// the search path. Returns false with a reason in `error` where the configuration cannot be read.
 TONETOOL_API bool color_config_files(const std::string& config, std::vector<std::string>& files,
                                      std::string& error);
 
-/// The files that a LUT refers to: those of the references of a CTF or CLF file, and of theirs.
+/// The files that a LUT refers to: the references of a CTF or CLF file, and the references of those
+/// in turn.
 TONETOOL_API std::vector<std::string> lut_references(const std::string& file);
 
 } // namespace ToneAlgo

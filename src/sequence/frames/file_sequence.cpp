@@ -56,10 +56,10 @@ struct Found {
 // The files of one view in the folder that the pattern names.
 void look_into_folder(const std::string& printf_style, const std::string& view, bool negative,
                       std::vector<Found>& found, Files& listing) {
-    const size_t begin = printf_style.rfind('/') + 1; // 0 without a folder
+    const size_t begin = printf_style.rfind('/') + 1; // 0 if there is no folder
     const NamePattern folder(begin == 0 ? "./" : printf_style.substr(0, begin));
     const NamePattern name(printf_style.substr(begin));
-    if (folder.has_number()) // only views have folders of their own
+    if (folder.has_number()) // only views may have folders of their own
         return;
     const std::string place = folder.filled({0, view});
     std::error_code problem;
@@ -77,7 +77,7 @@ void look_into_folder(const std::string& printf_style, const std::string& view, 
             listing.beyond.push_back(place + file);
         found.push_back({{number->value, view}, place + file});
     }
-    // Half a folder would be checked for the whole of it.
+    // Else half of a folder would be checked and reported as the whole.
     const bool absent =
         problem == std::errc::no_such_file_or_directory || problem == std::errc::not_a_directory;
     if (problem && !absent) {
@@ -118,7 +118,7 @@ void check_each_once(const std::string& pattern, const Files& files) {
     }
 }
 
-// Of the files on the disk those whose numbers are `meant`.
+// The files on the disk whose numbers are in `meant`.
 Files with_numbers_of(const std::vector<Item>& meant, const Files& found) {
     std::set<Key> keys;
     for (const Item& item : meant)

@@ -10,10 +10,12 @@
 namespace tonetool::sequence {
 
 struct PatternOptions {
-    std::string frames; ///< for patterns without numbers of their own; empty: what is on the disk
-    int padding = 0;    ///< digits instead of the pattern's; 0: the pattern's
+    /// Frame range for patterns without their own; empty: the files on the disk.
+    std::string frames;
+    int padding = 0; ///< digits of frame numbers; 0: as the pattern says
     std::vector<std::string> views{"left", "right"};
-    bool lenient = false; ///< as oiiotool: ranges, and no negative numbers on the disk
+    /// As oiiotool: tolerant of malformed ranges, and without negative numbers on the disk.
+    bool lenient = false;
 };
 
 /// Whether the word has #, @, %d, %04d, %V or %v.
@@ -28,20 +30,20 @@ bool has_range(const std::string& word);
 
 struct Files {
     std::vector<Item> items{};
-    std::vector<std::string> names{}; ///< one each
-    bool from_disk = false;           ///< and not from a range
-    bool own_range = false;           ///< which the pattern has itself
-    /// Of the disk: names with numbers of fewer digits than the pattern's, which are not listed,
-    /// and such with numbers beyond an int.
+    std::vector<std::string> names{}; ///< one for each item
+    bool from_disk = false;           ///< the files were found on the disk, not listed by a range
+    bool own_range = false;           ///< the range is the pattern's own
+    /// If the files come from the disk: names whose numbers have fewer digits than the pattern asks
+    /// for, which are not listed, and names whose numbers exceed an int.
     std::vector<std::string> narrow{}, beyond{};
 };
 
-/// The files of a pattern, by its own numbers, by options.frames or by what is on the disk.
+/// The files of a pattern: by its own frame range, by options.frames, or by the files on the disk.
 Files list_files(const std::string& pattern, const PatternOptions& options);
 
-/// A runtime_error where it is not certain which file has which number: two have one number, a
-/// number is beyond an int, or there are files of the same name with fewer digits. For the files of
-/// a range the disk is looked at for others that have one of its numbers.
+/// Throws a runtime_error where it is not certain which file has which number: two files have the
+/// same number, a number exceeds an int, or there are files of the same name with fewer digits. For
+/// the files of a range the disk is looked at for others that have one of its numbers.
 void check_numbers(const std::string& pattern, const Files& files,
                    const PatternOptions& options = {});
 
@@ -49,7 +51,7 @@ void check_numbers(const std::string& pattern, const Files& files,
 std::vector<std::string> file_names(const std::string& pattern, const PatternOptions& options,
                                     const std::vector<Item>& items);
 
-/// The same of files to be read: one with a negative number is looked for in both forms that
+/// The same for files to be read: a file with a negative number is looked for in both forms that
 /// programs give it, "a.-002.exr" and "a.-0002.exr".
 std::vector<std::string> input_names(const std::string& pattern, const PatternOptions& options,
                                      const std::vector<Item>& items);

@@ -15,7 +15,7 @@ int64_t nanoseconds(const timespec& time) {
     return int64_t(time.tv_sec) * 1000000000 + time.tv_nsec;
 }
 
-// File systems tell times of a tick of the kernel's clock, up to 10 ms.
+// File systems record times in ticks of the kernel's clock, which last up to 10 ms.
 constexpr int64_t kTick = 20000000;
 
 struct Behind {
@@ -65,7 +65,7 @@ void FileLog::note(const std::string& file) {
     if (std::any_of(m_stamps.begin(), m_stamps.end(), same))
         return;
     m_stamps.push_back(stamp_of(file));
-    // "file?name=value" opens the file, unless there is one of the whole name.
+    // "file?name=value" opens the file, unless a file has that whole name.
     const size_t question = file.find('?');
     if (m_stamps.back().inode == 0 && question != std::string::npos)
         note(file.substr(0, question));

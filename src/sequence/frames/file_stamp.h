@@ -1,4 +1,4 @@
-// Whether files are still what they were when something was made of them.
+// Whether files have changed since a result was computed from them.
 #pragma once
 
 #include <cstdint>
@@ -7,11 +7,11 @@
 
 namespace tonetool::sequence {
 
-/// A file as it was; a file that is not there has a stamp, too.
+/// The state of a file at some time; a missing file has a stamp, too.
 struct Stamp {
     std::string file;
     uint64_t device = 0, inode = 0, size = 0;
-    int64_t written = 0, changed = 0; ///< nanoseconds since 1970: its content, its inode
+    int64_t written = 0, changed = 0; ///< nanoseconds since 1970, of its content and of its inode
 
     bool operator==(const Stamp& o) const {
         return file == o.file && device == o.device && inode == o.inode && size == o.size &&
@@ -25,7 +25,7 @@ Stamp stamp_of(const std::string& file);
 bool is_current(const Stamps& stamps);
 
 int64_t now_in_nanoseconds();
-/// Whether no file was changed after that time, or so shortly before it that another change could
+/// Whether no file was changed after that time, nor so shortly before it that another change could
 /// leave the same stamp.
 bool are_older(const Stamps& stamps, int64_t time);
 
@@ -44,8 +44,9 @@ private:
     Stamps m_stamps;
 };
 
-/// What a file stands for: a recipe that reads others says so here, for all who look at the stamp
-/// of the recipe. Names that were noted for it before stay. Safe to call from several threads.
+/// Notes the files that another file depends on: a recipe reports here which files it reads, so
+/// that a check of the recipe's stamp includes theirs. Names that were noted before stay. Safe to
+/// call from several threads.
 void note_files_behind(const std::string& file, const std::vector<std::string>& names);
 std::vector<std::string> files_behind(const std::string& file);
 

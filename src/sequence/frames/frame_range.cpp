@@ -61,7 +61,7 @@ private:
     }
     Range one() {
         Range range = numbers();
-        if (m_lenient) // oiiotool takes no notice of the rest
+        if (m_lenient) // oiiotool ignores the rest
             m_at = std::min(m_text.find(',', m_at), m_text.size());
         return range;
     }

@@ -6,12 +6,12 @@
 
 namespace tonetool::sequence {
 
-/// So many frames are the most that a range or a pair of sequences may have.
+/// The most frames that a range or a pair of sequences may have.
 inline constexpr long long kMostFrames = 1000000;
 
-/// "1-10", "1,3,5-9", "10-1", "-3-2", "1-10x2" (every second), "1-10y3" (all but every third). A
-/// runtime_error for anything else, and for what is left behind a range; if `lenient`, what is not
-/// understood is ignored, as oiiotool does.
+/// "1-10", "1,3,5-9", "10-1", "-3-2", "1-10x2" (every second), "1-10y3" (all but every third).
+/// Throws a runtime_error for anything else, also for text behind a range; if `lenient`, such text
+/// is ignored, as oiiotool does.
 std::vector<int> parse_frames(const std::string& range, bool lenient = false);
 
 /// The shortest range of these numbers, which ascend: "1-4,9".

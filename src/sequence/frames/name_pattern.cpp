@@ -67,7 +67,7 @@ std::string NamePattern::filled(const Item& item, bool more_digits) const {
     return name;
 }
 
-// `digits` are those of the first number: all others are the same.
+// `digits` are those of the first number: all other placeholders repeat it.
 bool NamePattern::fits(const std::string& name, const std::string& view, size_t piece, size_t at,
                        std::string& digits) const {
     if (piece == m_pieces.size())

@@ -1,4 +1,5 @@
-// A file name with places for numbers and views: text is text, and nothing in it is an expression.
+// A file name with placeholders for numbers and views. All other text stands for itself: it is no
+// regular expression.
 #pragma once
 
 #include <optional>
@@ -25,13 +26,14 @@ public:
     /// `more_digits` one more.
     std::string filled(const Item& item, bool more_digits = false) const;
 
-    /// What is in the place of a number.
+    /// The number that a name has in the placeholder.
     struct Number {
         int value = 0;
-        bool beyond = false;  ///< an int, and the value is its limit
-        bool of_width = true; ///< it has the digits that the pattern asks for
+        bool beyond = false;  ///< the number exceeds an int, and `value` is the limit
+        bool of_width = true; ///< it has as many digits as the pattern asks for
     };
-    /// The number of a name that the pattern fits with this view; 0 where it has no number.
+    /// The number in a name that matches the pattern with this view; 0 if the pattern has no
+    /// number.
     std::optional<Number> number_of(const std::string& name, const std::string& view) const;
 
 private:

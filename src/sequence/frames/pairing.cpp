@@ -32,7 +32,7 @@ void fill_holes(std::set<Key>& keys) {
         step = std::gcd(step, number - before);
         before = number;
     }
-    step = numbers.size() == 2 ? 1 : step; // two alone are no evidence of a step
+    step = numbers.size() == 2 ? 1 : step; // two numbers alone do not tell a step
     const long long first = *numbers.begin(), last = *numbers.rbegin();
     if (step > 0 && (last - first) / step >= kMostFrames) {
         throw std::runtime_error("frames " + std::to_string(first) + " to " + std::to_string(last) +
@@ -69,7 +69,7 @@ std::string by_position_text(const Side& a, const Side& b) {
            with_range(a) + " " + with_range(b) + ")";
 }
 
-// Of the sides that a range lists, the first: the others are held against it.
+// The first of the sides with a range: the others are compared with it.
 const Side* first_range(const std::vector<Side>& sides) {
     const auto found = std::find_if(sides.begin(), sides.end(),
                                     [](const Side& side) { return !side.files.from_disk; });
@@ -177,7 +177,7 @@ void check_same_numbers(const std::vector<Side>& sides) {
 
 std::vector<std::string> names_of(const Side& side, const PatternOptions& options,
                                   const std::vector<Item>& items) {
-    // What is found on the disk begins with "./" though the pattern does not.
+    // Names found on the disk begin with "./" even where the pattern does not.
     const bool dotted = side.pattern.compare(0, 2, "./") == 0;
     std::map<Key, std::string> known;
     for (size_t i = 0; side.files.from_disk && i < side.files.items.size(); ++i) {

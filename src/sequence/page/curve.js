@@ -1,4 +1,4 @@
-// The curve of the error over the frames.
+// The plot of the error over the frames.
 
 const POINTS = { passed: "circle", measured: "circle", warning: "triangle", failed: "rectRot" };
 const curve = { chart: null, place: mainPlace, quantity: null };

@@ -1,9 +1,9 @@
-// What the build puts into the program: the parts of the report's page.
+// The parts of the report's page, which the build embeds in the program.
 #pragma once
 
 namespace tonetool::sequence::page {
 
-extern const char* const html;  ///< with {{names}} of what is filled in
+extern const char* const html;  ///< template with {{names}}
 extern const char* const style; ///< CSS
 extern const char* const script;
 extern const char* const chart; ///< Chart.js

@@ -59,7 +59,7 @@ function mainValue(frame) {
   return value === null ? "" : number(value);
 }
 
-/** What is not said by the value and its threshold. */
+/** The part of a message that the value and its threshold do not say. */
 function otherMessage(frame) {
   const measured = measurementOf(frame, mainPlace);
   return measured && frame.message.startsWith(`${measured.command}: ${mainQuantity} `) ? "" : frame.message;
@@ -85,7 +85,7 @@ const thumbnailWatcher = new IntersectionObserver((seen) => {
   }
 }, { rootMargin: "200px" });
 
-/** The next rows; what is left is for when the browser has nothing else to do. */
+/** Adds the next rows; the rest follows when the browser is idle. */
 function addRows(most) {
   const body = document.querySelector("#all tbody");
   const begin = body.children.length;

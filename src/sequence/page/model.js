@@ -1,5 +1,5 @@
 "use strict";
-// What is in this file, and the words for it. Texts become nodes, never markup.
+// The data of this page and the words for it. Texts become nodes, never markup.
 
 function read(id) {
   const node = document.getElementById(id);
@@ -12,7 +12,7 @@ function withPosition(fault) {
 }
 
 const data = read("result");
-// What is empty is left out of the file.
+// Empty values are left out of the data.
 const frames = data.shot.frames.map((frame) => ({ ...frame, view: frame.view || "",
   message: frame.message || "", reference: frame.reference || "", test: frame.test || "",
   faults: (frame.faults || []).map(withPosition),
@@ -20,7 +20,7 @@ const frames = data.shot.frames.map((frame) => ({ ...frame, view: frame.view || 
     worst: one.worst ? { x: one.worst[0], y: one.worst[1] } : null })) }));
 const pictures = new Map();
 
-/** The pictures of a frame: "full" or "small"; null where none were kept. */
+/** The images of a frame: "full" or "small"; null where none were kept. */
 function picturesOf(index, size) {
   const id = `${size}-${index}`;
   if (!pictures.has(id)) {
@@ -124,7 +124,7 @@ function decidingOf(measurement) {
   return all.find((one) => exceeds(one, one.fail)) || all.find((one) => exceeds(one, one.warn)) || all[0] || null;
 }
 
-/** Of the measurement that gave the frame its status, else of the first. */
+/** The first threshold of the command at that place of the command line, in any frame. */
 function thresholdOf(place) {
   for (const frame of frames) {
     const measurement = place >= 0 && measurementOf(frame, place);

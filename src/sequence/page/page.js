@@ -1,4 +1,4 @@
-// Keys and the first look.
+// The keyboard, and the first frame to show.
 
 function step(by) {
   select(Math.min(frames.length - 1, Math.max(0, viewer.index + by)));

@@ -1,6 +1,6 @@
-// One frame: its pictures, its numbers.
+// One frame: its images, its numbers.
 
-// `stops` is the exposure that was asked for; `exposure` the place of the nearest that there is.
+// `stops` is the requested exposure; `exposure` the index of the nearest one that was drawn.
 const viewer = { index: 0, exposure: 0, stops: null, show: "compare", split: 50 };
 const SHOWS = [["compare", "Comparison"], ["error", "Error map"], ["stops", "Exposure map"]];
 
@@ -58,7 +58,7 @@ function slider(full) {
   return box;
 }
 
-/** The large picture, what stands under it and, for the comparison, its slider. */
+/** The large image, its caption and, for the comparison, its slider. */
 function stageOf(frame, full, small) {
   if (!full) {
     if (!small) return [make("p", { className: "none" }, "No pictures of this frame."), "", null];
@@ -132,7 +132,7 @@ function chooseShow(show) {
   refresh();
 }
 
-/** New pictures; the keyboard stays where it was. */
+/** Shows other images; the keyboard focus stays where it was. */
 function refresh() {
   const focus = document.activeElement;
   const group = focus && focus.name;

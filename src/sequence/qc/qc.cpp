@@ -11,7 +11,7 @@ namespace tonetool::sequence {
 
 namespace {
 
-// By severity, then as the rules are listed.
+// Sorts faults by severity, then in the order of the rules.
 void sort_faults(std::vector<Fault>& faults) {
     const auto key = [](const Fault& fault) {
         return std::make_tuple(-int(fault.severity), qc_rank(fault.code));

@@ -1,7 +1,7 @@
-// Faults of the pictures of a shot, without a reference: what --qc finds.
+// The faults that --qc finds in the images of a shot, without a reference.
 //
-// They are drawn from the facts of the frames alone (FrameResult::qc), all anew, so that it does
-// not matter in which order or on how many machines the frames were measured.
+// They are computed from the facts of the frames alone (FrameResult::qc) and always for the whole
+// shot, so it does not matter in which order or on how many machines the frames were measured.
 #pragma once
 
 #include <vector>
@@ -11,12 +11,12 @@
 
 namespace tonetool::sequence {
 
-/// The faults of one picture by itself, the worst first.
+/// The faults of a single image, the worst first.
 std::vector<Fault> picture_faults(const QcRecord& record);
 
-/// Finds the faults of all frames that --qc has measured, and judges these frames. A frame whose
-/// number is missing altogether is a fault of the next one. The frames come back sorted by number,
-/// then view. A runtime_error where a record cannot be read.
+/// Finds the faults of all frames that --qc has measured, and sets the status of these frames.
+/// Where a frame number is missing altogether, the fault is reported at the next frame. The frames
+/// are sorted by number, then view. Throws a runtime_error where a record cannot be read.
 void judge_qc(std::vector<FrameResult>& frames);
 
 /// A line for each fault, in the order of the frames: "qc: frame 5: error blacklayer: ...".

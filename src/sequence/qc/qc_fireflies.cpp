@@ -1,4 +1,4 @@
-// Lone bright pixels that neither their surroundings nor other frames have.
+// Fireflies: lone bright pixels that are neither in their neighbourhood nor in other frames.
 #include <OpenImageIO/strutil.h>
 #include <algorithm>
 #include <cmath>
@@ -9,21 +9,21 @@ namespace tonetool::sequence {
 
 namespace {
 
-// Surroundings below this share of the picture's mean luminance count as having so much.
+// The neighbourhood counts as at least this share of the image's mean luminance.
 constexpr double kFloor = 0.05;
-// Of more spikes than these in a frame the next gives the level of its noise.
+// In a frame with more candidates than these, the next largest is the level of its noise.
 constexpr size_t kFew = 9;
-// How far noise alone may go beyond that level, or beyond the usual largest spike of a shot.
+// The factor by which noise alone may exceed that level, or the usual largest candidate of a shot.
 constexpr double kNoise = 4;
-// How the light of a small lamp may change as it moves over the pixels.
+// The factor by which a small lamp may change as it moves over the pixels.
 constexpr double kSameLight = 4;
-// How far, in cells of the thumbnail, it may move in a frame: 6 % of the width.
+// The distance, in cells of the thumbnail, that a lamp may move in a frame: 6 % of the width.
 constexpr int kMoves = 2;
 
-// A spike that no neighbouring frame has.
+// A candidate that no neighbouring frame has.
 struct Lone {
     const QcSpot* spot;
-    double ratio; ///< to its surroundings
+    double ratio; ///< to its neighbourhood
 };
 
 struct Spikes {
@@ -80,10 +80,11 @@ bool is_seen_in(const QcFacts& other, const QcSpot& spike) {
     return most * kSameLight >= spike.value;
 }
 
-// Before and after, where that is the same picture.
+// The frames before and after, as far as they belong to the same take.
 using Neighbours = std::vector<const QcFrame*>;
 
-// Where a frame is missing on one side, a lamp at the border may just have come or be about to go.
+// Where there is no neighbour on one side, a lamp at the border of the image may just have entered
+// or be about to leave.
 Spikes spikes_of(QcFrame& frame, const Neighbours& neighbours, double usual_mean) {
     Spikes spikes{&frame, {}};
     for (const QcSpot& spot : frame.facts.picture.spikes) {
@@ -127,7 +128,7 @@ void judge_frame(QcShot& shot, const std::vector<Spikes>& all, size_t i) {
 
 } // namespace
 
-// A picture alone cannot tell: a lamp is a lone bright pixel, too.
+// A single image cannot tell fireflies: a lamp is a lone bright pixel, too.
 void find_fireflies(QcShot& shot) {
     const std::vector<QcFrame*> frames = shot.pictures();
     const std::vector<Thumbnail> thumbnails = thumbnails_of(frames);

@@ -14,7 +14,7 @@ namespace {
 
 using OIIO::Strutil::fmt::format;
 
-// Frames in a row that have the same value, which is not the usual one.
+// Consecutive frames that have the same unusual value.
 struct OddRun {
     size_t first, last;
     std::string value, usual;
@@ -23,7 +23,7 @@ struct OddRun {
 
 using ValueOf = std::function<std::string(const QcFacts&)>;
 
-// The value most frames have; of equally frequent ones that which comes first.
+// The value that most frames have; among equally frequent ones the first.
 std::string usual_value(const std::vector<std::string>& values, size_t& frames) {
     std::map<std::string, size_t> count;
     for (const std::string& value : values)
@@ -39,8 +39,8 @@ std::string usual_value(const std::vector<std::string>& values, size_t& frames) 
     return usual;
 }
 
-// What changes often does so by its nature: bounding boxes, times, cameras. Seldom is up to twice
-// there and back, or in a tenth of the frames.
+// An attribute that changes often does so by its nature: bounding boxes, times, cameras. A change
+// is rare if it happens at most twice there and back, or in a tenth of the frames.
 bool changes_often(const std::vector<std::string>& values) {
     size_t changes = 0;
     for (size_t i = 1; i < values.size(); ++i)
@@ -69,7 +69,7 @@ std::vector<OddRun> odd_runs(const std::vector<QcFrame*>& frames, const ValueOf&
     return runs;
 }
 
-// "frames 3 to 5: " where it is more than one.
+// "frames 3 to 5: " if there are several.
 std::string run_text(const std::vector<QcFrame*>& frames, const OddRun& run) {
     return run.first == run.last
                ? ""
@@ -122,7 +122,7 @@ Types types_of(const QcFacts& facts) {
     return {facts.channels.begin(), facts.channels.end()};
 }
 
-// Names that `usual` has and `facts` has not with a minus, and the other way round with a plus.
+// The names that only `usual` has with a minus, and those that only `facts` has with a plus.
 std::vector<std::string> channel_difference(const QcFacts& facts, const QcFacts& usual) {
     const Types here = types_of(facts), there = types_of(usual);
     std::vector<std::string> names;
@@ -142,7 +142,7 @@ std::string channel_names(const QcFacts& facts) {
     return names;
 }
 
-// Whether the channel is one of a layer that `facts` has not.
+// Whether the channel belongs to a layer that `facts` lacks.
 bool is_of_lost_layer(const std::string& channel, const QcFacts& facts, const QcFacts& usual) {
     return std::any_of(usual.layers.begin(), usual.layers.end(), [&](const QcLayer& layer) {
         const std::string& name = layer.name;
@@ -195,7 +195,7 @@ void find_odd_channels(QcShot& shot) {
     }
 }
 
-// Only of channels that all frames have.
+// Compares only channels that all frames have.
 void find_odd_types(QcShot& shot) {
     const std::vector<QcFrame*> frames = shot.measured();
     std::map<std::string, size_t> count;
@@ -223,7 +223,8 @@ void find_odd_types(QcShot& shot) {
     }
 }
 
-// What is different in every frame of a shot by its meaning, in lower case without punctuation.
+// Attributes that differ in every frame of a shot by their meaning, in lower case without
+// punctuation.
 bool varies_by_nature(const std::string& name) {
     std::string word;
     for (char c : lower_case(name))

@@ -49,7 +49,7 @@ std::vector<QcSpot> spots_of(const ordered_json& from) {
     return spots;
 }
 
-// Nothing is the usual finding.
+// Usually there is none, and the key is left out.
 void put(ordered_json& to, const char* key, const QcCount& count) {
     if (count.pixels > 0)
         to[key] = {{"pixels", count.pixels}, {"first", json_of(count.first)}};

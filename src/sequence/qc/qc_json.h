@@ -1,4 +1,5 @@
-// What --qc measured of a frame, and what was asked, as the text of FrameResult::qc.
+// The facts that --qc measured of a frame and the limits it was given, as the text of
+// FrameResult::qc.
 #pragma once
 
 #include <string>
@@ -13,9 +14,9 @@ struct QcRecord {
     QcLimits limits;
 };
 
-/// One line of JSON. What it says comes back to the bit; bytes that are no UTF-8 become U+FFFD.
+/// One line of JSON. Numbers are read back to the bit; invalid UTF-8 becomes U+FFFD.
 std::string to_json(const QcRecord& record);
-/// A runtime_error for text that is no such record.
+/// Throws a runtime_error for text that is not such a record.
 QcRecord qc_from_json(const std::string& text);
 
 } // namespace tonetool::sequence

@@ -1,4 +1,4 @@
-// Layers that go black or missing, and light groups that do not add up to the picture.
+// Layers that turn black or are missing, and light groups that do not add up to the beauty.
 #include <OpenImageIO/strutil.h>
 #include <algorithm>
 #include <set>
@@ -11,8 +11,8 @@ namespace {
 
 using OIIO::Strutil::fmt::format;
 
-// A layer with fewer pixels may be black in the next frame by chance or motion; and one that fades
-// is at less than this share of its usual light before it is black.
+// A layer with fewer non-black pixels may be black in the next frame by chance or motion; a layer
+// that fades is below this share of its usual light before it is black.
 constexpr int64_t kEnoughPixels = 25;
 constexpr double kNotFaded = 0.4;
 
@@ -30,7 +30,7 @@ double light_of(const QcLayer& layer) {
     return std::abs(layer.mean);
 }
 
-// Whether the layer could not have been black a frame later, or earlier.
+// Whether the layer is so bright that it could not fade to black within one frame.
 bool is_steady(const LayerFrame& at, double usual) {
     return at.layer->lit >= kEnoughPixels && light_of(*at.layer) >= kNotFaded * usual;
 }
@@ -75,7 +75,8 @@ void find_missing(QcShot& shot, const std::string& name, const QcLayer& like) {
     size_t there = 0;
     for (const QcFrame* frame : frames)
         there += find_layer(frame->facts, name) != nullptr;
-    // A layer that only a few frames have is theirs too many: their channels differ.
+    // If only a few frames have the layer, it is not missing in the others: "channels" reports the
+    // few.
     if (2 * there < frames.size())
         return;
     for (size_t first = 0; first < frames.size(); ++first) {
@@ -111,7 +112,7 @@ void add_group_fault(QcShot& shot, QcFrame& frame, const std::string& more) {
 } // namespace
 
 void find_lost_layers(QcShot& shot) {
-    // A copy: the first frame's layer tells what the others' is called in sentences.
+    // A copy of the first frame's layer: messages call the layer so in all frames.
     std::map<std::string, QcLayer> layers;
     for (const QcFrame* frame : shot.measured())
         for (const QcLayer& layer : frame->facts.layers)
@@ -126,8 +127,8 @@ void find_lost_layers(QcShot& shot) {
     }
 }
 
-// Above the threshold, or ten times as far off as the other frames are, which have rounding alone.
-// Groups that never add up are told of once; frames that lack one, as such.
+// The difference is above the threshold, or ten times that of the other frames, which is rounding.
+// Groups that never add up are reported once; frames that lack a group are reported as such.
 void find_group_faults(QcShot& shot) {
     constexpr double times = 10, rounding = 0.002;
     int groups = 1;

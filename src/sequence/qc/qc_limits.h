@@ -1,4 +1,4 @@
-// What --qc looks for, how bad each of it is and from where on.
+// The faults that --qc looks for, each with its severity and threshold.
 #pragma once
 
 #include <map>
@@ -10,27 +10,27 @@
 
 namespace tonetool::sequence {
 
-/// A kind of fault. In this order they are listed where they are equally severe.
+/// A kind of fault. Faults of equal severity are listed in the order of these rules.
 struct QcRule {
     std::string code;
     Severity severity;
-    std::optional<double> threshold; ///< none: there is nothing to measure
-    std::string measures;            ///< what the threshold bounds: "stops"; or empty
-    std::string help;                ///< what is looked for
+    std::optional<double> threshold; ///< none: the rule measures nothing
+    std::string measures;            ///< the unit of the threshold: "stops"; or empty
+    std::string help;                ///< what the rule looks for
 };
 const std::vector<QcRule>& qc_rules();
-/// Place in that list.
+/// The position of a rule in that list.
 size_t qc_rank(const std::string& code);
 
-/// What was asked of the rules.
+/// The severities and thresholds that the user has set.
 class QcLimits {
 public:
-    /// `text`: "off", "info", "warning", "error", a threshold, or both with a comma. A
-    /// runtime_error for anything else, or an unknown code.
+    /// `text`: "off", "info", "warning", "error", a threshold, or both separated by a comma. Throws
+    /// a runtime_error for anything else, or an unknown code.
     void set(const std::string& code, const std::string& text);
     std::optional<Severity> severity(const std::string& code) const; ///< none: off
     double threshold(const std::string& code) const;
-    /// What was set, by code.
+    /// The texts that were set, by code.
     const std::map<std::string, std::string>& texts() const { return m_texts; }
 
 private:

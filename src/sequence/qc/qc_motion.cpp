@@ -1,4 +1,4 @@
-// Frames beside each other: gaps, duplicates, flicker, jumps.
+// Consecutive frames: gaps, duplicates, flicker, jumps.
 #include <OpenImageIO/strutil.h>
 #include <algorithm>
 #include <cmath>
@@ -13,10 +13,11 @@ namespace {
 
 using OIIO::Strutil::fmt::format;
 
-// How many times the usual makes an unusual change.
+// A change is unusual if it is this many times the usual one.
 constexpr double kUnusual = 5;
 
-// The step most numbers are apart, the smallest of the most frequent; 0 without a rule.
+// The most frequent step between frame numbers (the smallest if several are equally frequent); 0 if
+// there is none.
 int usual_step(const std::vector<QcFrame>& frames) {
     std::map<int, size_t> count;
     for (size_t i = 1; i < frames.size(); ++i)
@@ -32,7 +33,7 @@ int usual_step(const std::vector<QcFrame>& frames) {
     return 2 * most >= frames.size() - 1 ? step : 0;
 }
 
-// Pixels of a still, or of animation on twos or threes, are those of the frame before by intent.
+// In a still, or in animation on twos or threes, frames repeat the one before by intent.
 bool is_held(const std::vector<QcFrame*>& frames) {
     size_t same = 0;
     for (size_t i = 1; i < frames.size(); ++i)
@@ -53,15 +54,15 @@ void find_identical(QcShot& shot, const std::vector<QcFrame*>& frames) {
     }
 }
 
-// A pair whose change is a small part of the change before it and after it: what moves stands
-// still for a frame. A hold that lasts to the end is none.
+// A frozen frame: the change to it is a small part of the changes before and after it. A hold that
+// lasts to the end of the shot is no fault.
 void find_stalls(QcShot& shot, const std::vector<QcFrame*>& frames,
                  const std::vector<Thumbnail>& thumbnails) {
     constexpr double visible = 0.005; // stops; less is no motion
     std::vector<double> change{0};
     for (size_t i = 1; i < frames.size(); ++i)
         change.push_back(distance(thumbnails[i - 1], thumbnails[i]));
-    // Beside a flash all motion is small: what is usual counts, too.
+    // Beside a flash all motion is small, so the usual change of the shot counts, too.
     const double usual = usual_step_of(thumbnails);
     for (size_t i = 2; i + 1 < frames.size(); ++i) {
         const double around = std::min({change[i - 1], change[i + 1], 2 * usual});
@@ -111,13 +112,13 @@ private:
     QcShot& m_shot;
     std::vector<QcFrame*> m_frames;
     std::vector<Thumbnail> m_thumbnails;
-    std::vector<double> m_gains;   ///< of each frame over the one before
-    std::vector<bool> m_explained; ///< that step
-    double m_usual_step = 0;       ///< stops from a thumbnail to the next
+    std::vector<double> m_gains;   ///< stops by which each frame is brighter than the one before
+    std::vector<bool> m_explained; ///< whether a fault already explains that step
+    double m_usual_step = 0;       ///< usual distance of consecutive thumbnails in stops
     double m_unusual = 0;          ///< detours up to this are usual
 };
 
-// Of all steps but one.
+// The median change of brightness over all steps but one.
 double Flicker::usual_gain(size_t but) const {
     std::vector<double> others;
     for (size_t i = 1; i < m_gains.size(); ++i)
@@ -126,15 +127,15 @@ double Flicker::usual_gain(size_t but) const {
     return median(std::move(others));
 }
 
-// How far, in stops, frames [first, last] are off the way from the frame before to that after;
-// 0 unless both steps are large: at a cut one is.
+// The distance, in stops, of frames [first, last] from the path between the frame before and the
+// frame after; 0 unless the steps at both ends are large: at a cut only one is.
 double Flicker::detour(size_t first, size_t last) const {
     const double there = apart(first - 1, first), back = apart(last, last + 1);
     const double off = (there + back - apart(first - 1, last + 1)) / 2;
     return std::min(there, back) > std::max(off / 2, 2 * m_usual_step) ? off : 0;
 }
 
-// The smaller of the steps of brightness to these frames and from them, if these cancel out.
+// The smaller of the changes of brightness before and after these frames, if the two cancel out.
 double Flicker::there_and_back(size_t first, size_t last) const {
     const double there = m_gains[first], back = m_gains[last + 1];
     const double step = std::min(std::abs(there), std::abs(back));
@@ -142,7 +143,7 @@ double Flicker::there_and_back(size_t first, size_t last) const {
     return there * back < 0 && cancel && step > kUnusual * usual_gain(first) ? step : 0;
 }
 
-// Several times what is usual in the shot: noise and fire flicker by nature.
+// A detour must be several times the usual one of the shot, since noise and fire flicker by nature.
 void Flicker::find_runs(size_t length) {
     std::vector<double> detours;
     for (size_t i = 1; i + length < m_frames.size(); ++i)
@@ -168,7 +169,7 @@ void Flicker::find_runs(size_t length) {
     }
 }
 
-// Brighter, darker, brighter, ...: unusual is what the neighbours are.
+// Brighter, darker, brighter, ...: here the neighbours are as unusual as the frame itself.
 void Flicker::find_alternation() {
     constexpr size_t enough = 6;
     const double limit = m_shot.threshold("flicker");
@@ -190,8 +191,8 @@ void Flicker::find_alternation() {
     }
 }
 
-// Much more than usual, and than the steps beside it, which a fade has alike. A cut changes more
-// than the brightness.
+// A jump is much larger than the usual change, and than the steps beside it, which are alike in a
+// fade. A cut changes more than the brightness.
 bool Flicker::is_jump(size_t i) const {
     constexpr double alone = 3, alike = 0.9;
     const double step = std::abs(m_gains[i]);

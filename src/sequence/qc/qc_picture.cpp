@@ -1,4 +1,4 @@
-// What one picture shows by itself: black, constant, NaN, Inf, negative, alpha.
+// The faults that a single image shows: black, constant, NaN, Inf, negative, alpha.
 #include <OpenImageIO/strutil.h>
 
 #include "sequence/qc/qc_shot.h"
@@ -71,7 +71,7 @@ bool has_picture(const QcFacts& facts) {
     return &picture_layer(facts) != &no_layer();
 }
 
-// Of pixels that are not finite nothing is known, so that they are neither.
+// Non-finite pixels have no known value, so an image that has some is neither black nor constant.
 bool is_blank(const QcFacts& facts, const QcLimits& limits) {
     if (!has_picture(facts))
         return false;

@@ -1,4 +1,4 @@
-// The frames of one view while their faults are sought, and the searches.
+// The frames of one view while their faults are searched for, and the searches.
 #pragma once
 
 #include <map>
@@ -14,12 +14,12 @@ struct QcFrame {
     int number = 0;
     FrameResult* result = nullptr;
     QcFacts facts;
-    bool measured = false; ///< there are facts
-    bool blank = false;    ///< black or of one colour: compared with no other frame
+    bool measured = false; ///< --qc has measured the frame
+    bool blank = false;    ///< black or one colour all over: not compared with other frames
     bool changed = false;  ///< a fault of windows or layers begins here, or has ended
 };
 
-/// What a fault is about, where there is more than its code and sentence.
+/// The layer, pixel and value of a fault, where it has them.
 struct QcDetail {
     std::string layer{};
     std::optional<Position> position{};
@@ -30,7 +30,7 @@ class QcShot {
 public:
     explicit QcShot(QcLimits limits) : m_limits(std::move(limits)) {}
 
-    std::vector<QcFrame> frames; ///< by number
+    std::vector<QcFrame> frames; ///< sorted by number
 
     bool wants(const std::string& code) const { return m_limits.severity(code).has_value(); }
     double threshold(const std::string& code) const { return m_limits.threshold(code); }
@@ -38,11 +38,11 @@ public:
     void add(QcFrame& frame, const std::string& code, const std::string& sentence,
              const QcDetail& detail = {}) const;
 
-    /// Those whose pictures can be compared with each other, in order.
+    /// The frames whose images can be compared with each other, in order.
     std::vector<QcFrame*> pictures();
-    /// Those whose layers can be, with a picture or without.
+    /// The frames whose layers can be compared, whether or not they have a beauty.
     std::vector<QcFrame*> filled();
-    /// Those that were measured.
+    /// The frames that were measured.
     std::vector<QcFrame*> measured();
 
 private:
@@ -50,13 +50,13 @@ private:
 };
 
 const QcLayer* find_layer(const QcFacts& facts, const std::string& name);
-/// The layer that is the picture; no_layer() of a file of data.
+/// The layer that is the beauty; no_layer() if the file holds only data.
 const QcLayer& picture_layer(const QcFacts& facts);
 const QcLayer& no_layer();
 bool has_picture(const QcFacts& facts);
 bool is_blank(const QcFacts& facts, const QcLimits& limits);
-/// Frames in a row that have the fault: a step of the light to the first of them, or from the last,
-/// needs no other explanation.
+/// Marks consecutive frames that have a fault: it explains a change of brightness at the first of
+/// them and after the last.
 void mark_change(const std::vector<QcFrame*>& frames, size_t first, size_t last);
 /// "frame 7", "frames 7 to 9".
 std::string frames_text(int first, int last);
@@ -64,7 +64,7 @@ std::string frames_text(int first, int last);
 std::string layer_text(const QcLayer& layer);
 double median(std::vector<double> values);
 
-// The searches; what each adds is in their files.
+// The searches. Their files say which faults each adds.
 void find_picture_faults(const QcShot& shot, QcFrame& frame);
 void find_gaps(QcShot& shot);
 void find_odd_headers(QcShot& shot);

@@ -8,9 +8,9 @@ namespace tonetool::sequence {
 
 namespace {
 
-// How far below the median of a shot a cell is as good as black: noise has the last word there.
+// Cells that are this many stops below the median of the shot count as black: noise dominates them.
 constexpr double kFloorStops = 8;
-// A picture with less variation has no structure to compare.
+// An image with less variation has no structure to compare.
 constexpr double kFlat = 1e-3;
 
 double mean(const Thumbnail& values) {

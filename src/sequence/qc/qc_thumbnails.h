@@ -1,4 +1,4 @@
-// Pictures compared by their thumbnails.
+// Compares images by their thumbnails.
 #pragma once
 
 #include <vector>
@@ -7,19 +7,20 @@
 
 namespace tonetool::sequence {
 
-/// Luminances of the cells in stops, of all frames of a shot above the same floor.
+/// The luminances of the cells in stops, limited to a floor that is the same for all frames of a
+/// shot.
 using Thumbnail = std::vector<double>;
 
 std::vector<Thumbnail> thumbnails_of(const std::vector<QcFrame*>& frames);
-/// Mean absolute difference in stops.
+/// The mean absolute difference in stops.
 double distance(const Thumbnail& a, const Thumbnail& b);
-/// By how many stops b is brighter: the median over the cells that are above the floor in both.
+/// The stops by which b is brighter: the median over the cells that are above the floor in both.
 double gain(const Thumbnail& a, const Thumbnail& b);
-/// The median distance of each to the next.
+/// The median distance between consecutive thumbnails.
 double usual_step_of(const std::vector<Thumbnail>& thumbnails);
-/// Whether two that follow each other are different pictures.
+/// Whether there is a cut between two consecutive thumbnails.
 bool is_cut(const Thumbnail& a, const Thumbnail& b, double usual_step);
-/// How alike they are but for brightness and contrast, -1 to 1.
+/// Their correlation, which ignores brightness and contrast, -1 to 1.
 double correlation(const Thumbnail& a, const Thumbnail& b);
 
 } // namespace tonetool::sequence

@@ -58,7 +58,7 @@ ImageBuf picture(const ImageBuf& like, const std::vector<uint8_t>& bytes) {
     return image;
 }
 
-// The nearest of evenly spaced steps over [0,1].
+// The index of the nearest of evenly spaced steps over [0,1].
 size_t step(float value, int steps) {
     return size_t(
         std::lround(std::clamp(std::isnan(value) ? 0.0f : value, 0.0f, 1.0f) * float(steps - 1)));

@@ -1,4 +1,4 @@
-// Pictures of 8 bits, by tables that the library's own functions fill.
+// 8-bit images, by look-up tables that the library's own functions fill.
 #pragma once
 
 #include <OpenImageIO/imagebuf.h>
@@ -6,10 +6,10 @@
 
 namespace tonetool::sequence {
 
-/// Display-linear light in [0,1], three channels, sRGB-encoded.
+/// Encodes display-linear values in [0,1] of three channels to sRGB.
 OIIO::ImageBuf srgb_bytes(const OIIO::ImageBuf& linear);
 
-/// One channel between `low` and `high` in 256 colours of a map of ToneAlgo::color_maps().
+/// One channel from `low` to `high` in 256 colours of a colour map of ToneAlgo::color_maps().
 OIIO::ImageBuf colored_bytes(const OIIO::ImageBuf& map, const std::string& colors, double low = 0,
                              double high = 1);
 

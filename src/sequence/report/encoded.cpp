@@ -11,7 +11,7 @@ namespace {
 
 using Bytes = std::vector<unsigned char>;
 
-// A header of its own: what the picture's file says of itself is not for the page.
+// The header is new: the attributes of the image's file do not belong into the page.
 OIIO::ImageSpec spec_of(const OIIO::ImageBuf& picture, Encoding encoding, int quality) {
     const bool full_color = encoding == Encoding::JpegMap;
     const OIIO::ROI roi = picture.roi();
@@ -55,7 +55,7 @@ int sextet(char c) {
     return at == std::string::npos ? -1 : int(at);
 }
 
-// Up to the first character that is none of base64: its padding.
+// Stops at the first character outside the base64 alphabet: the padding.
 Bytes decoded(const std::string& text, size_t begin) {
     Bytes bytes;
     unsigned int held = 0;

@@ -1,4 +1,4 @@
-// A picture as text, to stand in a page.
+// An image as the text of a data URI, to be embedded in a page.
 #pragma once
 
 #include <OpenImageIO/imagebuf.h>
@@ -11,10 +11,10 @@ namespace tonetool::sequence {
 enum class Encoding { Jpeg, JpegMap, Png };
 
 /// "data:image/jpeg;base64,...": the first three channels, display-encoded, 0 to 1. `quality` is
-/// JPEG's, 1 to 100. A runtime_error if it cannot be encoded.
+/// JPEG's, 1 to 100. Throws a runtime_error if it cannot be encoded.
 std::string data_uri(const OIIO::ImageBuf& picture, Encoding encoding, int quality = 85);
 
-/// The picture of such a text, as 8-bit R, G, B; nullopt if it is none.
+/// The image of such a text, as 8-bit R, G, B; nullopt if the text is not an image.
 std::optional<OIIO::ImageBuf> picture_of(const std::string& data_uri);
 
 } // namespace tonetool::sequence

@@ -23,8 +23,8 @@ ColorChoice color_of(const ImageBuf& image, const PixelOptions& options) {
     return choice;
 }
 
-// A header that says the space as find_color() reads it of floats: Rec.709 by saying nothing, and a
-// space that only a configuration knows, too.
+// A header from which find_color() reads the space of floats: no tag means Rec.709; a space that
+// only a configuration knows has no tag, either.
 OIIO::ImageSpec tagged(const OIIO::ImageSpec& from, const std::string& space,
                        const PixelOptions& options) {
     OIIO::ImageSpec spec(1, 1, 3, OIIO::TypeFloat);
@@ -42,7 +42,7 @@ OIIO::ImageSpec tagged(const OIIO::ImageSpec& from, const std::string& space,
     return spec;
 }
 
-// Rows of a region of an image, one at a time: of `count` channels from `channel`.
+// Reads `count` channels from `channel` on of a region, row by row.
 class Rows {
 public:
     Rows(const ImageBuf& image, ROI region, int channel, int count)
@@ -68,7 +68,7 @@ private:
     std::vector<float> m_values;
 };
 
-// Which pixel of a reduced side one of a region's falls on.
+// The pixel of a reduced side that a pixel of the region falls on.
 int target(int at, int from, int to) {
     return int(int64_t(at) * to / from);
 }
@@ -137,7 +137,7 @@ ImageBuf resized(const ImageBuf& image, const PixelSize& side) {
 
 ImageBuf reduced_color(const ImageBuf& image, const PixelOptions& options, const ROI& region,
                        const PixelSize& wanted) {
-    // A smaller image, compared resized, is enlarged as its last step.
+    // An image that is smaller than this (it was compared resized) is enlarged in the last step.
     const PixelSize side{std::min(wanted.width, region.width()),
                          std::min(wanted.height, region.height())};
     const ColorChoice choice = color_of(image, options);

@@ -1,4 +1,4 @@
-// Images made small for a page.
+// Images reduced in size for a page.
 #pragma once
 
 #include <OpenImageIO/imagebuf.h>
@@ -14,29 +14,31 @@ struct PixelSize {
 /// The size of a region whose longer side is at most `longest`; never larger than the region.
 PixelSize fitted(const OIIO::ROI& region, int longest);
 
-/// The part of `to` that lies in it as `part` lies in `from`.
+/// The region of `to` that corresponds to the region `part` of `from`.
 OIIO::ROI scaled(const OIIO::ROI& part, const OIIO::ROI& from, const OIIO::ROI& to);
 
-/// Whether a colour space is one of a configuration that no header can name, so that who looks at a
+/// Whether `from` names a colour space of a configuration that no header can name: readers of a
 /// reduced image must pass it again.
 bool says_space_again(const PixelOptions& options);
 
-/// R, G, B of a region at the origin, reduced by the mean of the finite pixels beneath each, in
-/// the colour space they are stored in, which the result names. What the image does not cover is
-/// black. A runtime_error without colour.
+/// R, G, B of a region, moved to the origin. Each pixel is the mean of the finite pixels beneath
+/// it, in the colour space that they are stored in, which the result's header names. Pixels outside
+/// the data window are black. Throws a runtime_error if the image has no colour.
 OIIO::ImageBuf reduced_color(const OIIO::ImageBuf& image, const PixelOptions& options,
                              const OIIO::ROI& region, const PixelSize& side);
 
 OIIO::ImageBuf resized(const OIIO::ImageBuf& image, const PixelSize& side);
 
-/// An error map of which each pixel is the largest error beneath it, and the exposure of that.
+/// A reduced error map, whose pixels are the largest errors beneath them, and the exposures of
+/// those.
 struct ReducedMaps {
     OIIO::ImageBuf error, stops;
 };
 ReducedMaps reduced_maps(const OIIO::ImageBuf& error, const OIIO::ImageBuf* stops,
                          const PixelSize& side);
 
-/// Magenta where a pixel of the image's region is not finite. `shown` lies at the origin.
+/// Paints `shown`, which lies at the origin, magenta where a pixel of the image's region is not
+/// finite.
 void mark_nonfinite(OIIO::ImageBuf& shown, const OIIO::ImageBuf& image, const PixelOptions& options,
                     const OIIO::ROI& region);
 

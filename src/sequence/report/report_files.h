@@ -9,8 +9,8 @@
 
 namespace tonetool::sequence {
 
-/// "report" and "contactsheet", each whole or not at all; `errors` gets why one could not be
-/// written. What a person must know of them otherwise is returned.
+/// Writes "report" and "contactsheet", each whole or not at all; `errors` receives the reasons why
+/// a file could not be written. Returns warnings about their content.
 std::vector<std::string> write_reports(const ShotResult& shot, const PictureStore& pictures,
                                        const CheckFiles& files, std::vector<std::string>& errors);
 

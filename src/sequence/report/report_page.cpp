@@ -40,7 +40,7 @@ std::vector<size_t> by_rank(const ShotResult& shot) {
 }
 
 struct Kept {
-    std::string blocks; ///< elements of the page
+    std::string blocks; ///< HTML elements with their data
     std::set<size_t> full;
     size_t small = 0;
 };
@@ -52,8 +52,8 @@ bool is_found(const Position& at, const FrameResult& frame) {
                        [&](const Measurement& one) { return one.worst == at; });
 }
 
-// Without spots that turned out to be no fault. Empty where the text is not what a store wrote:
-// that would be a page that does not work.
+// The images without those of spots that turned out to be no fault. Empty where the text is not one
+// that a store wrote: it would break the page.
 std::string trimmed(const std::string& text, const FrameResult& frame) {
     ordered_json pictures = parsed_or_null(text);
     if (!pictures.is_object() || !pictures.contains("spots"))
@@ -73,7 +73,7 @@ std::string trimmed(const std::string& text, const FrameResult& frame) {
     return one_line(pictures);
 }
 
-// An element of data, where it fits.
+// Adds an element of data if it fits.
 size_t put_block(std::string& blocks, const std::string& id, const std::string& text, size_t room) {
     if (text.empty() || text.size() > room)
         return 0;
@@ -148,7 +148,7 @@ ordered_json captions() {
             {"thumbnails", "Of this frame only thumbnails were kept: it is not among the worst."}};
 }
 
-// Without what --qc measured, and without what would weigh too much where there are many frames.
+// Leaves out the facts of --qc, and in long shots the histograms, which would be too large.
 void trim(ordered_json& result, const Kept& kept, const PageLimits& limits) {
     const bool many = result["frames"].size() > limits.detailed_frames;
     size_t index = 0;
@@ -165,7 +165,7 @@ void trim(ordered_json& result, const Kept& kept, const PageLimits& limits) {
 
 std::string data_of(const ShotResult& shot, const Kept& kept, const PageLimits& limits) {
     ordered_json result = parse_json<ordered_json>(to_json(shot));
-    result["worst"] = shot.worst; // indices here
+    result["worst"] = shot.worst; // here they are indices
     trim(result, kept, limits);
     const ordered_json page{
         {"shot", result},
@@ -175,7 +175,7 @@ std::string data_of(const ShotResult& shot, const Kept& kept, const PageLimits& 
     return one_line(page);
 }
 
-// ---- what is there without a script
+// ---- the page without JavaScript
 
 std::string counts_html(const ShotResult& shot) {
     std::map<Status, size_t> counts;
@@ -198,7 +198,7 @@ std::string list_html(const ShotResult& shot) {
     return html + "</table>";
 }
 
-// What was compared, for the head of the page.
+// The names of the compared sequences, for the head of the page.
 std::string shot_name(const ShotResult& shot) {
     std::string name;
     for (const FrameResult& frame : shot.frames)

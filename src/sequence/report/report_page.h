@@ -9,15 +9,15 @@
 
 namespace tonetool::sequence {
 
-/// What the page may weigh: thumbnails first, then full pictures, each of the worst frames first,
-/// as long as they fit. The page says how many there are.
+/// Bounds of the page's size: thumbnails are included first, then full images, both from the worst
+/// frame on, as long as they fit. The page says how many it holds.
 struct PageLimits {
-    size_t small_bytes = size_t(20) << 20; ///< of all thumbnails
-    size_t bytes = size_t(50) << 20;       ///< of all pictures
-    size_t detailed_frames = 2000; ///< beyond, frames without full pictures have no histogram
+    size_t small_bytes = size_t(20) << 20; ///< size of all thumbnails
+    size_t bytes = size_t(50) << 20;       ///< size of all images
+    size_t detailed_frames = 2000; ///< in larger shots frames without full images have no histogram
 };
 
-/// The text of the page. The same shot and pictures give the same bytes.
+/// The text of the page. The same shot and images give the same bytes.
 std::string report_page(const ShotResult& shot, const PictureStore& pictures,
                         const PageLimits& limits = {});
 

@@ -26,7 +26,7 @@ struct Shown {
     ImageBuf reference, test; ///< 8 bits, sRGB-encoded
 };
 
-// Both ends and what lies evenly between them.
+// Chooses both ends and evenly spaced exposures between them.
 std::vector<double> chosen(const std::vector<double>& exposures) {
     const size_t n = exposures.size(), count = std::min(n, kMostExposures);
     std::vector<double> result;
@@ -84,7 +84,8 @@ private:
         return linear;
     }
 
-    // Where the sizes differ and the test was resized, all of it stands beside all of the other.
+    // Where the test was resized for the comparison, the whole test corresponds to the whole
+    // reference.
     ROI region_of(const ImageBuf& image, const ROI& region) const {
         return m_request.look.size == SizePolicy::Resize && &image == m_request.test
                    ? scaled(region, m_whole, image.roi_full())
@@ -105,7 +106,7 @@ private:
         return found ? chosen(result.summary.exposures) : std::vector<double>{0};
     }
 
-    // The pair as it is compared at an exposure.
+    // The pair as it is compared at one exposure.
     Shown show(const Linear& linear, double stops) const {
         const ImageBuf& reference = m_request.reference ? linear.reference : linear.test;
         if (!m_request.hdr)
@@ -179,8 +180,8 @@ private:
 
     void draw_spots(FramePictures& pictures, double stops) const {
         for (const Position& at : m_request.spots) {
-            const ROI near = OIIO::roi_intersection(ROI(at.x - kSpotReach, at.x + kSpotReach + 1,
-                                                        at.y - kSpotReach, at.y + kSpotReach + 1,
+            const ROI near = OIIO::roi_intersection(ROI(at.x - kSpotRadius, at.x + kSpotRadius + 1,
+                                                        at.y - kSpotRadius, at.y + kSpotRadius + 1,
                                                         m_whole.zbegin, m_whole.zend, 0, 1),
                                                     m_whole);
             const bool inside = near.width() > 0 && near.height() > 0;
@@ -189,7 +190,7 @@ private:
         }
     }
 
-    // The exposure at which the error is largest there.
+    // The exposure of the largest error at this pixel.
     double stops_at(const Position& at, double otherwise) const {
         return m_request.stops ? double(m_request.stops->getchannel(at.x, at.y, 0, 0)) : otherwise;
     }
@@ -217,7 +218,7 @@ private:
     int m_nthreads;
     HdrFlipOptions m_look;
     ROI m_whole;
-    int m_orientation; ///< of both pictures
+    int m_orientation; ///< orientation of both images
 };
 
 ordered_json json_of(const std::vector<SpotPictures>& spots) {

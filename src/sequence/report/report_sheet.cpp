@@ -25,7 +25,7 @@ constexpr int kMargin = 10, kEdge = 4, kTextSize = 13, kLabel = 22;
 constexpr std::array<float, 3> kBackground{0.13f, 0.13f, 0.13f}, kInk{0.92f, 0.92f, 0.92f},
     kEmpty{0.05f, 0.05f, 0.05f};
 
-// Told apart also by who confuses red and green; the label has the word.
+// Colours that are safe for colour-blind readers; the label has the word as well.
 std::array<float, 3> color_of(Status status) {
     switch (status) {
     case Status::Passed:

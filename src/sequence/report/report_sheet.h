@@ -11,9 +11,9 @@ namespace tonetool::sequence {
 
 inline constexpr size_t kMostSheetFrames = 400;
 
-/// R, G, B, sRGB-encoded, in the order of the frames. Of more than `most_sheet_frames` the worst
-/// are shown. `warning` says so, or that no font was found for the labels. A runtime_error if
-/// nothing can be drawn.
+/// R, G, B, sRGB-encoded, in the order of the frames. Of more than `most_sheet_frames` frames the
+/// worst are shown. `warning` says so, or that no font was found for the labels. Throws a
+/// runtime_error if nothing can be drawn.
 OIIO::ImageBuf contact_sheet(const ShotResult& shot, const PictureStore& pictures,
                              std::string& warning);
 

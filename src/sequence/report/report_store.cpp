@@ -20,7 +20,8 @@ using OIIO::Strutil::fmt::format;
 
 constexpr char kFullSize[] = "full", kSmallSize[] = "small";
 
-// A view's name is the user's: what could lead out of the folder is written as %2f.
+// The name of a view comes from the user: a / in it is written as %2f, so that it cannot lead out
+// of the folder.
 std::string key_of(int frame, const std::string& view) {
     std::string key = format("{:04}", frame);
     if (!view.empty())
@@ -37,8 +38,8 @@ std::string key_of(const FrameResult& frame) {
     return key_of(frame.frame, frame.view);
 }
 
-// How the text of a frame's pictures begins: with what was measured of it, so that pictures of
-// other files, or of the same before they changed, are not taken for this frame's.
+// The text of a frame's images begins with the frame's measurements, so that images of other files,
+// or of the same files before they changed, are not taken for this frame's.
 std::string beginning(const FrameResult& frame) {
     FrameResult measured;
     measured.reference = frame.reference;
@@ -182,7 +183,7 @@ void FramePainter::take(FramePictures pictures, const PictureRequest& request) {
         std::swap(pictures, drawn ? *drawn : drawn.emplace());
         pair = request.reference != nullptr;
     }
-    // Each pixel once, as it was seen first.
+    // Each pixel appears once, as it was drawn first.
     for (SpotPictures& spot : pictures.spots) {
         const bool there = std::any_of(drawn->spots.begin(), drawn->spots.end(),
                                        [&](const auto& other) { return other.at == spot.at; });

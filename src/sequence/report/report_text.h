@@ -1,4 +1,4 @@
-// Texts in a page: escaped, filled in, allowed.
+// Texts in a page: escaping, the template, and the Content-Security-Policy.
 #pragma once
 
 #include <map>
@@ -8,21 +8,21 @@
 
 namespace tonetool::sequence {
 
-/// For HTML's texts and quoted attributes. Bytes that are no UTF-8 become U+FFFD, control
-/// characters spaces.
+/// Escapes for HTML text and quoted attributes. Invalid UTF-8 becomes U+FFFD, control characters
+/// become spaces.
 std::string escaped(const std::string& text);
 
-/// JSON for a <script> of data: the same value without a character that HTML could see.
+/// JSON for a <script> of data: the same value without characters that end the element.
 std::string script_data(const std::string& json);
 
-/// The template with each {{name}} replaced, once: what is filled in is not looked at again. A
-/// runtime_error names one without a value.
+/// The template with each {{name}} replaced; replaced text is not searched again. Throws a
+/// runtime_error that names a {{name}} without a value.
 std::string filled(const std::string& text, const std::map<std::string, std::string>& values);
 
-/// The page's Content-Security-Policy: its own style and scripts, pictures within it, nothing else.
+/// The page's Content-Security-Policy: its own style and scripts, embedded images, nothing else.
 std::string page_policy();
 
-/// How the page draws a status.
+/// The CSS class and the symbol of a status.
 std::string page_class(Status status);
 std::string page_sign(Status status);
 

@@ -27,7 +27,7 @@ const std::map<std::string, Text>& texts() {
     return all;
 }
 
-// Texts alone go to the standard output, one of them.
+// Only one text file may go to the standard output.
 void check_standard_output(const std::string& start, const std::string& command,
                            const CheckFiles& files) {
     if (texts().count(command) == 0 && command != "statistics") {
@@ -94,7 +94,7 @@ void attempt(std::vector<std::string>& errors, const std::function<void()>& writ
 }
 
 void write_text(const std::string& text, const std::string& file) {
-    if (file == "-") { // whether it could be written is asked at the program's end
+    if (file == "-") { // errors of the standard output are checked at the program's end
         std::cout << text << std::flush;
         return;
     }

@@ -13,19 +13,21 @@ namespace tonetool::sequence {
 /// File names by the command that asks for them: "json", "csv", "junit". Others are not looked at.
 using CheckFiles = std::map<std::string, std::string>;
 
-/// A runtime_error for files that could not be written anyway: before the work and not after it.
+/// Throws a runtime_error for files that could not be written anyway, before the work and not after
+/// it.
 void check_places(const CheckFiles& files);
 
-/// Each is written whole or not at all. Why some could not be, naming them.
+/// Writes each file whole or not at all. Returns why some files could not be written.
 std::vector<std::string> write_results(const ShotResult& shot, const CheckFiles& files);
 
-/// Runs `write`; what it throws is added to the errors.
+/// Runs `write` and adds the exception that it throws to the errors.
 void attempt(std::vector<std::string>& errors, const std::function<void()>& write);
 
-/// Whether one of the files is "-": the standard output is for it alone.
+/// Whether one of the files is "-": nothing else may then go to the standard output.
 bool has_standard_output(const CheckFiles& files);
 
-/// A text as a file, or as what the standard output gets of "-"; a runtime_error says why not.
+/// Writes a text to a file, or to the standard output if the file is "-". Throws a runtime_error
+/// with the reason on failure.
 void write_text(const std::string& text, const std::string& file);
 
 } // namespace tonetool::sequence

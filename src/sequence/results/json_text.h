@@ -1,4 +1,5 @@
-// What all JSON files of checks have in common: their first keys, their errors, their layout.
+// Everything that the JSON files of checks have in common: their first keys, their errors, their
+// layout.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -10,23 +11,24 @@
 
 namespace tonetool::sequence {
 
-/// In one line; bytes that are no UTF-8 become U+FFFD (see valid_utf8). Nothing else makes text of
-/// JSON here: dump() alone throws at such bytes, which names of files and layers may have.
+/// JSON in one line; invalid UTF-8 becomes U+FFFD (see valid_utf8). No other function here turns
+/// JSON into text: plain dump() throws at invalid UTF-8, which names of files and layers may
+/// contain.
 inline std::string one_line(const nlohmann::ordered_json& value) {
     return value.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
 }
 
-/// The same with a line for each value.
+/// The same with each value on its own line.
 inline std::string dumped(const nlohmann::ordered_json& value) {
     return printable_json(
                value.dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace)) +
            "\n";
 }
 
-/// A runtime_error unless the object says that it is of this format and version.
+/// Throws a runtime_error unless the object has this format and version.
 void check_format(const nlohmann::ordered_json& from, const std::string& format, int version);
 
-/// read(the parsed text); whatever is wrong with it is a runtime_error that says what and where.
+/// Calls read(the parsed text); any error in it becomes a runtime_error that says what and where.
 template <class Read>
 auto parsed(const std::string& text, const Read& read) {
     try {
@@ -36,7 +38,7 @@ auto parsed(const std::string& text, const Read& read) {
     }
 }
 
-/// Null where the text is no JSON.
+/// Null if the text is not JSON.
 inline nlohmann::ordered_json parsed_or_null(const std::string& text) {
     try {
         return parse_json<nlohmann::ordered_json>(text);
@@ -45,7 +47,7 @@ inline nlohmann::ordered_json parsed_or_null(const std::string& text) {
     }
 }
 
-/// read(item) for each item of a list or object; an error in it says where, "frames/3: ...".
+/// Calls read(item) for each item of a list or object; an error says where it is: "frames/3: ...".
 template <class Read>
 void each_of(const nlohmann::ordered_json& list, const std::string& key, const Read& read) {
     if (!list.is_array() && !list.is_object())

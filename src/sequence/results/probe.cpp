@@ -40,7 +40,8 @@ struct Size {
     bool operator!=(const Size& o) const { return width != o.width || height != o.height; }
 };
 
-// Of the first subimage; nullopt with the reason where something of the file cannot be read.
+// The display window of the first subimage; nullopt with the reason where the file cannot be read
+// to its end.
 std::optional<Size> readable(const std::string& file, std::string& why) {
     std::error_code ignored;
     if (std::filesystem::is_other(file, ignored)) {

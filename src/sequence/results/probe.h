@@ -1,4 +1,4 @@
-// Why a frame could not be checked: its files, looked at by themselves.
+// Finds why a frame could not be checked, from its files alone.
 #pragma once
 
 #include <string>
@@ -9,18 +9,22 @@
 namespace tonetool::sequence {
 
 struct Probe {
-    Status status = Status::Error; ///< Missing, Unreadable, SizeMismatch, or Error: none of these
-    std::string message;           ///< empty for Error
+    /// Missing, Unreadable, SizeMismatch, or Error if it is none of these.
+    Status status = Status::Error;
+    std::string message; ///< empty for Error
 };
 
-/// The first of the files that does not exist; message empty, status Error where all do.
+/// Reports the first file that does not exist. If all exist, the message is empty and the status
+/// Error.
 Probe missing_of(const std::vector<std::string>& files);
 
-/// Reads every pixel of the files: the worst that is found. Sizes are those of display windows.
+/// Reads every pixel of the files and reports the worst problem. Sizes are those of display
+/// windows.
 Probe probed(const std::vector<std::string>& files);
 
-/// The status and message of a frame whose commands have run, by what they measured and warned of;
-/// `error` is the first thing that went wrong, and `files` are then looked at for the cause.
+/// Sets status and message of a frame whose commands have run, from their measurements and
+/// warnings. `error` is the first error of the run; if there is one, its cause is searched in
+/// `files`.
 void settle(FrameResult& frame, const std::string& error, const std::vector<std::string>& files);
 
 } // namespace tonetool::sequence

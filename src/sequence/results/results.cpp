@@ -48,7 +48,7 @@ struct Found {
     std::string message;
 };
 
-// All of the thresholds must hold; the message names those that do not.
+// All thresholds must hold; the message names those that do not.
 Found of_thresholds(const Measurement& measurement) {
     std::string failed, warned;
     bool tested = false;
@@ -83,7 +83,7 @@ double excess(const Threshold& threshold) {
     const double under = threshold.higher_is_better ? threshold.value : *limit;
     if (std::isnan(threshold.value))
         return kWorstBadness;
-    // Also where both are 0: that holds.
+    // This includes 0 for a limit of 0, which holds.
     return over <= 0 ? 0 : under > 0 ? over / under : kWorstBadness;
 }
 
@@ -103,7 +103,7 @@ std::string name_of(const FrameResult& frame) {
            (frame.test_frame ? " (test " + std::to_string(*frame.test_frame) + ")" : "");
 }
 
-// What is said of a worst frame that is not bad.
+// The description of the worst frame if it is not bad.
 std::string measured_text(const FrameResult& frame) {
     if (!frame.message.empty() || frame.measurements.empty() ||
         frame.measurements.front().quantities.empty())
@@ -195,7 +195,7 @@ void judge(FrameResult& frame) {
         frame.message = kNothingMeasured;
         return;
     }
-    // Passed where --qc found nothing or a threshold held; measurements alone pass nothing.
+    // A frame passes if --qc found nothing or a threshold held; measurements alone do not pass it.
     const bool tested = std::any_of(found.begin(), found.end(),
                                     [](const Found& one) { return one.status == Status::Passed; });
     frame.status = tested || !frame.qc.empty() ? Status::Passed : Status::Measured;

@@ -1,8 +1,8 @@
-// What a check of a sequence found: frame by frame, and its verdict.
+// The results of a check: those of each frame, and the verdict of the shot.
 //
 // In JSON (results_json.h) these are objects whose keys are the names of the fields here; nothing
-// in them depends on time, host, thread or order of execution, so that the same frames give the
-// same bytes however they were split.
+// in them depends on time, host, thread or order of execution, so the same frames give the same
+// bytes however they were split.
 #pragma once
 
 #include <optional>
@@ -12,8 +12,8 @@
 
 namespace tonetool::sequence {
 
-/// What came of a frame or a shot, the better first. Only `Passed` says that a threshold was
-/// looked at and held.
+/// The status of a frame or a shot, the best first. Only `Passed` says that a threshold was tested
+/// and held.
 enum class Status {
     Passed,
     Measured,     ///< no threshold was asked for
@@ -29,7 +29,8 @@ enum class Status {
 /// "crashed".
 std::string status_name(Status status);
 std::optional<Status> status_of_name(const std::string& name);
-/// Of the program: 0, 2 for a warning if `warnings_exit`, 3 for a failure, 1 for all that is worse.
+/// The exit status of the program: 0, 2 for a warning if `warnings_exit`, 3 for a failure, 1 for
+/// everything worse.
 int exit_status(Status status, bool warnings_exit);
 
 enum class Severity { Info, Warning, Error };
@@ -42,38 +43,40 @@ struct Position {
     bool operator==(const Position& o) const { return x == o.x && y == o.y; }
 };
 
-/// A fault of a picture (--qc). An Error fails its frame, a Warning warns of it.
+/// A fault of an image (--qc). The severity Error fails the frame, Warning gives it a warning.
 struct Fault {
     std::string code; ///< "nan", "firefly", "blacklayer", ...
     Severity severity = Severity::Error;
-    std::string sentence; ///< for people
-    std::string layer;    ///< or channel; empty: the whole picture
+    std::string sentence; ///< the message for people
+    std::string layer;    ///< layer or channel; empty: the whole image
     std::optional<Position> position;
-    std::optional<double> value, threshold; ///< what was measured, and what it may be
+    std::optional<double> value, threshold; ///< the measured value and its limit
 };
 
 /// A threshold of one quantity.
 struct Threshold {
     std::string quantity; ///< "p99"
-    double value = 0;     ///< that was measured
+    double value = 0;     ///< the measured value
     bool higher_is_better = false;
     std::optional<double> fail, warn;
 };
 
-/// Names with numbers, in an order that is the same for all frames.
+/// Pairs of names and numbers, in an order that is the same for all frames.
 using Numbers = std::vector<std::pair<std::string, double>>;
 using Texts = std::vector<std::pair<std::string, std::string>>;
 
-/// What one command measured of one pair (or picture).
+/// The measurement of one command on one pair (or image).
 struct Measurement {
     std::string command; ///< "hdrflip", "tmqi", ...
     std::string reference, test;
     Status status = Status::Measured;
-    std::vector<Threshold> thresholds; ///< of different quantities: all must hold
-    Numbers quantities; ///< the pool of the error map (mean, p99, ...), or the command's own
-    std::vector<long long> histogram; ///< of the error map: 100 equal buckets over [0, 1]
-    std::optional<Position> worst;    ///< pixel of the largest error
-    long long pixels = 0;             ///< compared
+    /// Thresholds of different quantities, all of which must hold.
+    std::vector<Threshold> thresholds;
+    /// Pooled values of the error map (mean, p99, ...), or the command's own quantities.
+    Numbers quantities;
+    std::vector<long long> histogram; ///< histogram of the error map: 100 equal buckets over [0, 1]
+    std::optional<Position> worst;    ///< the pixel of the largest error
+    long long pixels = 0;             ///< number of compared pixels
     std::vector<double> exposures;    ///< stops, ascending
     Numbers parameters;               ///< ppd, the curve's, max-luminance, counts of bad pixels...
     Texts settings;                   ///< tonemapper, colour spaces, layers, ...
@@ -84,24 +87,25 @@ struct Measurement {
 struct FrameResult {
     int frame = 0;
     std::string view;
-    std::optional<int> test_frame; ///< of the test, paired by position with another number
+    std::optional<int> test_frame; ///< the test's number, if it is paired by position and differs
     Status status = Status::Error;
-    std::string message;         ///< the first thing that a person must know; empty where passed
-    std::string reference, test; ///< files; reference is empty where there is only one sequence
+    std::string message;         ///< the first problem, for people; empty if the frame passed
+    std::string reference, test; ///< files; `reference` is empty if there is only one sequence
     std::vector<Measurement> measurements; ///< in the order of the command line
     std::vector<Fault> faults;
-    std::vector<std::string> warnings; ///< of the run; a frame with one is not passed
-    std::string qc;                    ///< what --qc measured, a JSON text; empty without it
-    double seconds = 0;                ///< it took; not part of any file
+    /// Warnings of the run; a frame with a warning has not passed.
+    std::vector<std::string> warnings;
+    std::string qc;     ///< the facts that --qc measured, as JSON; empty without --qc
+    double seconds = 0; ///< time of the run; not part of any file
 };
 
-/// The luminance that the exposures of a whole shot follow from.
+/// The luminances that the exposures of a whole shot follow from.
 struct ShotExposures {
     double max_luminance = 0;              ///< the maximum of the frames' maxima
     double median_luminance = 0;           ///< the median of the frames' medians
-    int frames = 0;                        ///< that were measured
-    std::vector<std::string> references{}; ///< the files that were, by frame
-    std::string folder{}; ///< of the file that this was read from; not part of any file
+    int frames = 0;                        ///< number of measured frames
+    std::vector<std::string> references{}; ///< the measured files, by frame
+    std::string folder{}; ///< folder of the file that this was read from; not part of any file
     bool operator==(const ShotExposures& o) const {
         return max_luminance == o.max_luminance && median_luminance == o.median_luminance &&
                frames == o.frames && references == o.references;
@@ -109,37 +113,39 @@ struct ShotExposures {
 };
 
 struct ShotResult {
-    /// The command line, without what says which frames, where to and how many at a time.
+    /// The canonical command line: without the words that only say which frames run, how many at a
+    /// time, and where results go.
     std::vector<std::string> check;
     std::optional<ShotExposures> exposures;
-    std::vector<FrameResult> frames; ///< by number, then view
+    std::vector<FrameResult> frames; ///< sorted by number, then view
 
-    // All of these follow from the frames: see conclude().
+    // conclude() computes all of these from the frames.
     Status verdict = Status::Error;
-    std::string sentence;      ///< the verdict for people
-    std::vector<size_t> worst; ///< indices of the frames that did not pass, the worst first; where
-                               ///< all did, of the frame with the largest error
+    std::string sentence; ///< the verdict for people
+    /// Indices of the frames that did not pass, the worst first; where all did, of the frame with
+    /// the largest error.
+    std::vector<size_t> worst;
 };
 
-/// What is wrong with the frame by its measurements and faults, if `status` says nothing worse
-/// already: sets status and message.
+/// Sets status and message of a frame from its measurements and faults, unless its status is
+/// already worse.
 void judge(FrameResult& frame);
 
-/// Nothing was measured of the frame, and nothing else is wrong with it.
+/// Whether nothing was measured of the frame although nothing is wrong with it.
 bool is_unmeasured(const FrameResult& frame);
 
 /// Sorts the frames, finds the faults of --qc anew and fills verdict, sentence and worst. A shot
-/// without a frame that was measured is an Error, never passed. A runtime_error if a frame is there
+/// without any measured frame is an Error, never Passed. Throws a runtime_error if a frame is there
 /// twice.
 void conclude(ShotResult& shot);
 
-/// Whether more of a quantity of a command is better: of psnr and mpsnr of --errormap, and of all
-/// that --tmqi finds. Of anything else less is.
+/// Whether higher values of a command's quantity are better: psnr and mpsnr of --errormap, and all
+/// quantities of --tmqi. For all others lower is better.
 bool higher_is_better(const std::string& command, const std::string& quantity);
 
-/// How bad a frame is beside another of the same status, more being worse: the measured value in
-/// units of its threshold, or as it is (below 0 where higher is better) where there is none. A
-/// value that is no number is worse than any other.
+/// The rank of a frame among those of the same status, higher being worse: the measured value in
+/// units of its threshold; without a threshold the value itself, negated where higher is better.
+/// NaN is worse than any other value.
 double badness(const FrameResult& frame);
 
 } // namespace tonetool::sequence

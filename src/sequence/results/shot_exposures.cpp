@@ -57,7 +57,7 @@ std::vector<std::string> references_of(ExposureSamples samples) {
     return names;
 }
 
-// A name is looked for beside the file that holds it, and else where the program runs.
+// A name is searched beside the file that contains it, else in the working directory.
 bool is_same_file(const std::string& name, const std::string& measured, const std::string& folder) {
     std::error_code none;
     const fs::path beside = fs::path(folder) / measured;

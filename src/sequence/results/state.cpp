@@ -51,7 +51,7 @@ bool are_current(const ordered_json& stamps) {
     });
 }
 
-// LUTs are read behind the back of the chain, with the configuration that refers to them.
+// LUTs are read by OpenColorIO and not by the chain, with the configuration that refers to them.
 void note_luts(const std::string& config) {
     std::vector<std::string> files;
     std::string why;
@@ -61,7 +61,7 @@ void note_luts(const std::string& config) {
     }
 }
 
-// What was read for the files of a run: recipes and configurations stand for others.
+// All files that were read for the files of a run: recipes and configurations read others.
 Stamps stamps_behind(const Stamps& inputs) {
     Stamps all;
     std::vector<std::string> names;
@@ -92,8 +92,8 @@ std::set<std::string> variables_in(const std::string& config) {
     return names;
 }
 
-// The variables of the environment that configurations among the files name, with their values. A
-// configuration is read once, as long as it stays as it is.
+// The environment variables that configurations among the files name, with their values. A
+// configuration is read again only if it has changed.
 ordered_json variables_of(const Stamps& inputs) {
     static std::mutex mutex;
     static std::map<std::string, std::pair<Stamp, std::set<std::string>>> known;
@@ -178,7 +178,7 @@ std::optional<Kept> State::find(const Item& item, const Origin& origin) const {
             return kept;
         });
     } catch (const std::runtime_error&) {
-        return std::nullopt; // of another version, or damaged: made anew
+        return std::nullopt; // another version, or damaged: the frame is checked anew
     }
 }
 
@@ -188,7 +188,8 @@ void State::keep(const Item& item, const Origin& origin, const FileLog& inputs,
     if (!ocio_variable().empty())
         log.note(ocio_variable());
     const Stamps behind = stamps_behind(log.stamps());
-    // A file that was written while the frame was checked may have been read before or after.
+    // A file that changed while the frame was checked may have been read before or after the
+    // change.
     if (!is_current(log.stamps()) || !are_older(behind, inputs.begun()))
         return;
     Stamps all = log.stamps();

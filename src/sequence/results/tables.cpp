@@ -80,7 +80,7 @@ Row row_of(Columns& columns, const FrameResult& frame) {
 
 // ---- XML
 
-// XML 1.0 has no form at all for most control characters.
+// XML 1.0 cannot represent most control characters.
 std::string escaped(const std::string& text) {
     static const std::map<char, const char*> names = {
         {'<', "&lt;"},   {'>', "&gt;"},  {'&', "&amp;"}, {'"', "&quot;"},

@@ -9,7 +9,7 @@
 #include "flip/evaluate.h"
 #include "flip/filters.h"
 #include "hdr_image.h"
-#include "kernels/flip_twin.h"
+#include "kernels/flip_reference.h"
 #include "oracle.h"
 #include "schedules.h"
 #include "target.h"
@@ -119,12 +119,13 @@ protected:
                    GetParam().curve == std::string("ldr") ? Stops{0.0} : Stops{-2.5, 1.3});
 
     void compare(const HdrImage& reference, const HdrImage& test) const {
-        const auto expected = hdr_flip_twin(reference.view(), test.view(), m_exact, m_what.curve,
-                                            m_what.stops, nullptr);
+        const auto expected = hdr_flip_reference(reference.view(), test.view(), m_exact,
+                                                 m_what.curve, m_what.stops, nullptr);
         std::vector<float> first;
         on_every_target([&] {
             const auto ours = run(m_what, reference, test, Keep::Maximum).error;
-            kernels::expect_close(ours, expected, kernels::kClose, kernels::kCloseBelow, "twin");
+            kernels::expect_close(ours, expected, kernels::kClose, kernels::kCloseBelow,
+                                  "reference implementation");
             if (first.empty())
                 first = ours;
             kernels::expect_close(ours, first, kernels::kAmongTargets, kernels::kCloseBelow,
@@ -137,11 +138,11 @@ protected:
 constexpr int kSizes[][2] = {{1, 1},    {1, 19},   {23, 1},   {7, 5},
                              {4097, 3}, {3, 4097}, {641, 97}, {97, 129}};
 
-TEST_P(EvaluateSpec, MatchesTheTwin) {
+TEST_P(EvaluateSpec, MatchesTheReferenceImplementation) {
     for (size_t i = 0; i < std::size(kSizes); ++i)
         for (size_t j = 0; j < std::size(kContents); ++j) {
             const int width = kSizes[i][0], height = kSizes[i][1];
-            // The twin is slow: large images take one content each, by turns.
+            // The reference implementation is slow: large images take one content each, by turns.
             if (width * height > 1000 &&
                 (i + size_t(GetParam().ppd) + size_t(GetParam().curve[0])) % 3 != j)
                 continue;
@@ -250,7 +251,7 @@ TEST(EvaluateIdentity, MinusZeroIsZero) {
 TEST(EvaluateIdentity, IsExactlyZeroBeyondTheReach) {
     constexpr int width = 330, height = 310;
     const Evaluation what = evaluation("aces", 30, {-1.0, 2.0});
-    const int far = reach(what.taps);
+    const int far = filter_radius(what.taps);
     const HdrImage reference = make_image(Content::Noise, width, height, 33);
     for (const Window& changed :
          {Window{96, 96, 96, 96}, Window{0, 0, 1, 1}, Window{95, 0, 1, height},
@@ -501,8 +502,9 @@ TEST_P(EvaluateRounding, IsHardlyLargerThanThatOfPlainFloat) {
     for (uint32_t seed : {1, 2, 3}) {
         const HardPair pair = make_hard(GetParam(), seed);
         const ConstRgb r = pair.reference.view(), t = pair.test.view();
-        const auto truth = hdr_flip_twin(r, t, taps, what.curve, stops, nullptr);
-        plain.add(hdr_flip_twin(r, t, kernels::rounded(taps), what.curve, stops, nullptr), truth);
+        const auto truth = hdr_flip_reference(r, t, taps, what.curve, stops, nullptr);
+        plain.add(hdr_flip_reference(r, t, kernels::rounded(taps), what.curve, stops, nullptr),
+                  truth);
         on_every_target([&] {
             lanes[kernels::flip_rows().name].add(
                 run(what, pair.reference, pair.test, Keep::Maximum).error, truth);

@@ -7,7 +7,7 @@
 
 #include "flip/filters.h"
 #include "hdr_image.h"
-#include "kernels/flip_twin.h"
+#include "kernels/flip_reference.h"
 #include "schedules.h"
 #include "tonemap/rational.h"
 
@@ -74,9 +74,9 @@ protected:
     const Planes m_whole = whole(m_reference, m_test, evaluation(), in_order(), kStops.size());
 };
 
-TEST_F(Evaluate, MatchesTheTwinAcrossTiles) {
-    const auto expected = hdr_flip_twin(m_reference.view(), m_test.view(), make_taps(67.02),
-                                        *tonemap::rational_curve("aces"), kStops, nullptr);
+TEST_F(Evaluate, MatchesTheReferenceImplementationAcrossTiles) {
+    const auto expected = hdr_flip_reference(m_reference.view(), m_test.view(), make_taps(67.02),
+                                             *tonemap::rational_curve("aces"), kStops, nullptr);
     for (size_t i = 0; i < expected.size(); ++i) // float noise, steep near 0: see flip_tile_test
         ASSERT_NEAR(m_whole.error[i], expected[i], expected[i] >= 0.01 ? 1e-5 : 1e-4) << i;
 }
@@ -130,7 +130,7 @@ kernels::ConstRgb view_of_rows(const HdrImage& band, const HdrImage& whole_image
 }
 
 TEST_F(Evaluate, BandsOfRowsDoNotChangeABit) {
-    const int far = reach(evaluation().taps);
+    const int far = filter_radius(evaluation().taps);
     for (int rows : {1, 30, 64}) {
         SCOPED_TRACE(rows);
         Planes banded(m_reference, kStops.size());
@@ -210,7 +210,7 @@ TEST_F(Evaluate, OnePixelIsFeltWithinTheReachOnly) {
     const int cx = kSeamX, cy = kSeamY - 1; // beside two seams of tiles
     changed.plane[1][size_t(cy * kWidth + cx)] += 4.0f;
     const auto error = whole(m_reference, changed, evaluation(), in_order()).error;
-    const int far = reach(evaluation().taps);
+    const int far = filter_radius(evaluation().taps);
     EXPECT_GT(error[size_t(cy * kWidth + cx)], 0.01f);
     for (int y = 0; y < kHeight; ++y)
         for (int x = 0; x < kWidth; ++x)

@@ -29,21 +29,21 @@ TEST(BrightPoint, IsThatOfThePublishedProgram) {
                  {"aces", 2.11887312, 1.08329725},
                  {"hable", 3.12774992, 1.64512515}};
     for (const auto& c : cases) {
-        const auto x = bright_point(curve(c.name));
+        const auto x = exposure_anchor(curve(c.name));
         ASSERT_TRUE(x.has_value()) << c.name;
         // Solved in float32 there: a few ulps after its square root and differences.
         EXPECT_NEAR(*x, c.x, 1e-6 * c.x) << c.name;
         EXPECT_NEAR(std::log2(*x), c.log2, 1e-6) << c.name;
         const auto k = curve(c.name);
         EXPECT_NEAR((k[0] * *x * *x + k[1] * *x + k[2]) / (k[3] * *x * *x + k[4] * *x + k[5]),
-                    kBright, 1e-14);
+                    kAnchorValue, 1e-14);
     }
 }
 
 TEST(BrightPoint, IsNothingWhereTheCurveStaysBelow) {
-    EXPECT_FALSE(bright_point({0, 0.8, 0, 0, 1, 1}).has_value());
-    EXPECT_FALSE(bright_point({0, 0, 0, 0, 0, 1}).has_value());
-    EXPECT_FALSE(bright_point({0.8, 0, 0, 1, 0, 1}).has_value());
+    EXPECT_FALSE(exposure_anchor({0, 0.8, 0, 0, 1, 1}).has_value());
+    EXPECT_FALSE(exposure_anchor({0, 0, 0, 0, 0, 1}).has_value());
+    EXPECT_FALSE(exposure_anchor({0.8, 0, 0, 1, 0, 1}).has_value());
 }
 
 double rational(const std::array<double, 6>& k, double x) {
@@ -51,7 +51,7 @@ double rational(const std::array<double, 6>& k, double x) {
 }
 
 std::optional<double> solved(const std::function<double(double)>& shown) {
-    return bright_point([&](const std::vector<double>& values) {
+    return exposure_anchor([&](const std::vector<double>& values) {
         std::vector<double> out;
         for (double x : values)
             out.push_back(shown(x));
@@ -65,15 +65,15 @@ TEST(BrightPoint, IsTheSameSolvedNumerically) {
         const auto x = solved([&](double v) { return rational(k, v); });
         ASSERT_TRUE(x.has_value()) << name;
         // A step of 1e-14 stops, less what the curve's own rounding hides.
-        EXPECT_NEAR(*x, *bright_point(k), 1e-12 * *x) << name;
+        EXPECT_NEAR(*x, *exposure_anchor(k), 1e-12 * *x) << name;
     }
 }
 
 TEST(BrightPoint, IsTheLargestSolution) {
-    // Rises through kBright at 1, falls through it at 4, rises for good at 16.
+    // Rises through kAnchorValue at 1, falls through it at 4, rises for good at 16.
     const auto x = solved([](double v) {
         const double s = std::log2(v);
-        return kBright + 0.01 * s * (s - 2) * (s - 4);
+        return kAnchorValue + 0.01 * s * (s - 2) * (s - 4);
     });
     ASSERT_TRUE(x.has_value());
     EXPECT_NEAR(*x, 16, 1e-10);
@@ -96,12 +96,12 @@ ExposureRequest request(std::optional<double> start, std::optional<double> stop,
 std::vector<double> exposures(const ExposureRequest& r) {
     std::vector<double> stops;
     std::string error;
-    EXPECT_TRUE(make_exposures(bright_point(curve("aces")), r, stops, error)) << error;
+    EXPECT_TRUE(make_exposures(exposure_anchor(curve("aces")), r, stops, error)) << error;
     return stops;
 }
 
 TEST(MakeExposures, FollowTheLuminances) {
-    const double x = *bright_point(curve("aces"));
+    const double x = *exposure_anchor(curve("aces"));
     const auto stops = exposures(request({}, {}, {}, 16.0, 0.125));
     ASSERT_EQ(stops.size(), 7u);
     // Logarithms of double.
@@ -121,7 +121,7 @@ TEST(MakeExposures, NumberIsTheRangeRoundedUpButTwoAtLeast) {
 }
 
 TEST(MakeExposures, TakeWhatIsGiven) {
-    const double x = *bright_point(curve("aces"));
+    const double x = *exposure_anchor(curve("aces"));
     EXPECT_THAT(exposures(request(-2, 4, 4)), ElementsAre(-2, 0, 2, 4));
     EXPECT_THAT(exposures(request(1.5, 1.5, {})), ElementsAre(1.5, 1.5));
     EXPECT_THAT(exposures(request(1.5, 1.5, 3)), ElementsAre(1.5, 1.5, 1.5));
@@ -164,7 +164,7 @@ TEST(MakeExposures, SayWhatIsWrong) {
     for (const auto& c : cases) {
         std::vector<double> stops;
         std::string error;
-        EXPECT_FALSE(make_exposures(bright_point(curve("aces")), c.asked, stops, error));
+        EXPECT_FALSE(make_exposures(exposure_anchor(curve("aces")), c.asked, stops, error));
         for (const char* word : c.words)
             EXPECT_THAT(error, HasSubstr(word));
     }
@@ -174,9 +174,9 @@ TEST(MakeExposures, ACurveThatStaysDarkNeedsThemGiven) {
     const std::array<double, 6> dark = {0, 0.8, 0, 0, 1, 1};
     std::vector<double> stops;
     std::string error;
-    EXPECT_FALSE(make_exposures(bright_point(dark), request({}, {}, {}, 1, 1), stops, error));
+    EXPECT_FALSE(make_exposures(exposure_anchor(dark), request({}, {}, {}, 1, 1), stops, error));
     EXPECT_THAT(error, HasSubstr("never reaches 0.85"));
-    EXPECT_TRUE(make_exposures(bright_point(dark), request(0, 1, {}), stops, error));
+    EXPECT_TRUE(make_exposures(exposure_anchor(dark), request(0, 1, {}), stops, error));
 }
 
 } // namespace

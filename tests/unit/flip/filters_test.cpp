@@ -83,7 +83,7 @@ TEST(MakeTaps, HaveThePublishedRadii) {
             EXPECT_EQ(t->size(), c.contrast + 1) << c.ppd;
         for (const Taps* t : {&taps.g, &taps.d1, &taps.d2})
             EXPECT_EQ(t->size(), c.feature + 1) << c.ppd;
-        EXPECT_EQ(reach(lane_taps(taps)), int(std::max(c.contrast, c.feature)));
+        EXPECT_EQ(filter_radius(lane_taps(taps)), int(std::max(c.contrast, c.feature)));
     }
 }
 

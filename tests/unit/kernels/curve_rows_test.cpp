@@ -7,7 +7,7 @@
 #include <limits>
 
 #include "curve_cases.h"
-#include "kernels/curve_twin.h"
+#include "kernels/curve_reference.h"
 #include "kernels/tone_curve.h"
 #include "target.h"
 
@@ -54,10 +54,11 @@ std::string name_of(const CurveUse& use) {
 
 using Exact = std::vector<std::array<double, 3>>;
 
-Exact twin_of(const CurveNumbers& curve, const CurveUse& use, const Planes& in) {
+Exact reference_of(const CurveNumbers& curve, const CurveUse& use, const Planes& in) {
     Exact out(in[0].size());
     for (size_t i = 0; i < out.size(); ++i)
-        out[i] = curve_twin(curve, use, {double(in[0][i]), double(in[1][i]), double(in[2][i])});
+        out[i] =
+            curve_reference(curve, use, {double(in[0][i]), double(in[1][i]), double(in[2][i])});
     return out;
 }
 
@@ -87,7 +88,7 @@ Worst worst_of(const Planes& ours, const Exact& exact) {
 // The worst over all targets.
 double expect_close(const CurveCase& one, const CurveUse& use, const Planes& in) {
     double worst = 0;
-    const Exact exact = twin_of(one.numbers, use, in);
+    const Exact exact = reference_of(one.numbers, use, in);
     on_every_target([&] {
         const Worst here = worst_of(rows_of(one.numbers, use, in), exact);
         EXPECT_LE(here.off, kClose)
@@ -109,11 +110,11 @@ double worst_of_all(const tonemap::Curve& curve, bool clamp) {
 
 class CurveRows : public testing::TestWithParam<const tonemap::Curve*> {};
 
-TEST_P(CurveRows, AreCloseToTheTwin) {
+TEST_P(CurveRows, AreCloseToTheReferenceImplementation) {
     std::printf("  worst %.3g\n", worst_of_all(*GetParam(), true));
 }
 
-TEST_P(CurveRows, AreCloseToTheTwinUnclamped) {
+TEST_P(CurveRows, AreCloseToTheReferenceImplementationUnclamped) {
     std::printf("  worst %.3g\n", worst_of_all(*GetParam(), false));
 }
 

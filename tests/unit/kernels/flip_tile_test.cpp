@@ -1,4 +1,5 @@
-// Lanes on every instruction set of this machine against the double twin.
+// Lanes on every instruction set of this machine against the double-precision reference
+// implementation.
 #include "kernels/flip_tile.h"
 
 #include <gtest/gtest.h>
@@ -10,7 +11,7 @@
 
 #include "flip/filters.h"
 #include "hdr_image.h"
-#include "kernels/flip_twin.h"
+#include "kernels/flip_reference.h"
 #include "oracle.h"
 #include "target.h"
 #include "tonemap/rational.h"
@@ -29,7 +30,8 @@ Maps run_lanes(const HdrImage& reference, const HdrImage& test, const FlipTaps<d
         window = {0, 0, reference.width, reference.height};
     const FlipRows& functions = flip_rows();
     const LaneTaps lane_taps = flip::lane_taps(taps);
-    const TileShape shape(functions.lanes, window.width, window.height, flip::reach(lane_taps));
+    const TileShape shape(functions.lanes, window.width, window.height,
+                          flip::filter_radius(lane_taps));
     FlipTile tile(functions, shape, lane_taps, 1, false);
     const ConstRgb r = reference.view(), t = test.view();
     tile.load(window, r, {&t});
@@ -50,14 +52,15 @@ protected:
                                             ? std::vector<double>{0.0}
                                             : std::vector<double>{-4.5, -1.25, 0.3, 3.0};
 
-    // One pair of images on every target: against the twin, and against the first target.
+    // One pair of images on every target: against the reference implementation, and against the
+    // first target.
     void compare(const HdrImage& reference, const HdrImage& test) const {
         const auto expected =
-            hdr_flip_twin(reference.view(), test.view(), m_exact, m_curve, m_stops, nullptr);
+            hdr_flip_reference(reference.view(), test.view(), m_exact, m_curve, m_stops, nullptr);
         std::vector<float> first;
         on_every_target([&] {
             const auto ours = run_lanes(reference, test, m_exact, m_curve, m_stops).error;
-            expect_close(ours, expected, kClose, kCloseBelow, "twin");
+            expect_close(ours, expected, kClose, kCloseBelow, "reference implementation");
             if (first.empty())
                 first = ours;
             expect_close(ours, first, kAmongTargets, kCloseBelow, "first target");
@@ -68,7 +71,7 @@ protected:
 // Beside the lengths of vectors (4, 8, 16 lanes), and thinner than any filter.
 constexpr int kSizes[][2] = {{1, 1}, {1, 19}, {23, 1}, {7, 5}, {33, 17}, {65, 40}};
 
-TEST_P(Lanes, MatchTheTwin) {
+TEST_P(Lanes, MatchTheReferenceImplementation) {
     for (const auto& size : kSizes)
         for (Content content : {Content::Noise, Content::Gradient, Content::Patches}) {
             SCOPED_TRACE(testing::Message() << content << " " << size[0] << "x" << size[1]);
@@ -77,7 +80,7 @@ TEST_P(Lanes, MatchTheTwin) {
         }
 }
 
-TEST_P(Lanes, MatchTheTwinOnSlightDifferences) {
+TEST_P(Lanes, MatchTheReferenceImplementationOnSlightDifferences) {
     for (double amount : {1e-2, 1e-4, 1e-6}) {
         SCOPED_TRACE(amount);
         const HdrImage reference = make_image(Content::Noise, 33, 17, 21);
@@ -85,7 +88,7 @@ TEST_P(Lanes, MatchTheTwinOnSlightDifferences) {
     }
 }
 
-TEST_P(Lanes, MatchTheTwinOnUnrelatedImages) {
+TEST_P(Lanes, MatchTheReferenceImplementationOnUnrelatedImages) {
     for (Content content : {Content::Noise, Content::Gradient, Content::Patches}) {
         SCOPED_TRACE(content);
         compare(make_image(content, 33, 17, 31), make_image(Content::Noise, 33, 17, 32));
@@ -94,7 +97,7 @@ TEST_P(Lanes, MatchTheTwinOnUnrelatedImages) {
 
 // No edge and no point in a flat image: what the detectors find there is rounding alone, and its
 // root multiplies into the error.
-TEST_P(Lanes, MatchTheTwinOnFlatImages) {
+TEST_P(Lanes, MatchTheReferenceImplementationOnFlatImages) {
     const double colors[][3] = {{0.18, 0.18, 0.18}, {0.3, 0.6, 0.1}, {0.9, 0.05, 0.4}, {2, 1, 4}};
     for (const auto& color : colors) {
         SCOPED_TRACE(testing::PrintToString(color));
@@ -156,7 +159,7 @@ TEST(FlipTile, ForgetsTheTileBefore) {
     const HdrImage same = make_image(Content::Patches, 30, 20, 55);
     const LaneTaps taps = flip::lane_taps(flip::make_taps(30));
     const ToneCurve aces = curve_of("aces");
-    const TileShape shape(flip_rows().lanes, 30, 20, flip::reach(taps));
+    const TileShape shape(flip_rows().lanes, 30, 20, flip::filter_radius(taps));
     FlipTile tile(flip_rows(), shape, taps, 2, true);
     const ConstRgb ra = a.view(), rb = b.view(), rs = same.view();
     const auto planes = [&tile](size_t test, FlipTile::ResultPlane plane) {
@@ -211,13 +214,13 @@ TEST(Transpose, TransposesOnEveryTarget) {
     });
 }
 
-TEST(ToneMapPixels, MatchTheTwinForEveryCount) {
+TEST(ToneMapPixels, MatchTheReferenceImplementationForEveryCount) {
     const HdrImage image = make_image(Content::Noise, 40, 1, 61);
     on_every_target([&] {
         for (const char* name : {"ldr", "aces", "hable", "reinhard"}) {
             SCOPED_TRACE(name);
             const ToneCurve curve = curve_of(name);
-            const TwinImage expected = tone_map_twin(image.view(), curve, 1.25);
+            const PlaneImage expected = tone_map_reference(image.view(), curve, 1.25);
             for (int count = 1; count <= 40; ++count) {
                 HdrImage out(41, 1);
                 float* to[3] = {out.plane[0].data(), out.plane[1].data(), out.plane[2].data()};
@@ -234,12 +237,12 @@ TEST(ToneMapPixels, MatchTheTwinForEveryCount) {
     });
 }
 
-TEST(ToneMapPixels, MatchTheTwinAtAnyExposure) {
+TEST(ToneMapPixels, MatchTheReferenceImplementationAtAnyExposure) {
     const HdrImage image = make_image(Content::Noise, 32, 1, 63);
     on_every_target([&] {
         for (const char* name : {"aces", "hable", "reinhard"}) {
             const ToneCurve curve = curve_of(name);
-            const TwinImage expected = tone_map_twin(image.view(), curve, 0);
+            const PlaneImage expected = tone_map_reference(image.view(), curve, 0);
             for (int stops : {-90, -31, -29, -10, 10, 29, 31, 90}) {
                 SCOPED_TRACE(testing::Message() << name << " at " << stops << " stops");
                 HdrImage far = image, out(32, 1);

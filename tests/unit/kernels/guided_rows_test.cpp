@@ -7,8 +7,8 @@
 #include <cstring>
 
 #include "guided_scene.h"
+#include "kernels/guided_reference.h"
 #include "kernels/guided_tile.h"
-#include "kernels/guided_twin.h"
 #include "target.h"
 #include "tonemap/poisson.h"
 
@@ -86,14 +86,14 @@ double worst_of(const GuidePlanes& image, const GuidedTerms& terms, const TapSet
     for (int y = 0; y < image.height; ++y)
         for (int x = 0; x < image.width; ++x) {
             const double here =
-                off(ours[size_t(y * image.width + x)], guided_twin(image, terms, taps, x, y));
+                off(ours[size_t(y * image.width + x)], guided_reference(image, terms, taps, x, y));
             EXPECT_LE(here, close) << x << " " << y;
             worst = std::max(worst, here);
         }
     return worst;
 }
 
-TEST(GuidedRows, AreCloseToTheTwinForEveryChoiceOfTerms) {
+TEST(GuidedRows, AreCloseToTheReferenceImplementationForEveryChoiceOfTerms) {
     const GuidedScene plain(37, 23, 1), hard = hard_scene(37, 23, 2);
     double worst = 0;
     for (int choice = 0; choice < kChoices; ++choice)
@@ -106,7 +106,7 @@ TEST(GuidedRows, AreCloseToTheTwinForEveryChoiceOfTerms) {
     std::printf("  worst %.3g\n", worst);
 }
 
-TEST(GuidedRows, AreCloseToTheTwinOnEveryTarget) {
+TEST(GuidedRows, AreCloseToTheReferenceImplementationOnEveryTarget) {
     const GuidedScene plain(90, 47, 3), hard = hard_scene(90, 47, 4);
     for (int choice : {kP | kN | kA, kP | kN | kA | kL, kP | kN | kA | kL | kOwnRange | kAngles})
         on_every_target([&] {
@@ -120,7 +120,7 @@ TEST(GuidedRows, AreCloseToTheTwinOnEveryTarget) {
 
 // Half a step of 1 / 8191 in each of two numbers moves an exponent of up to 8, which is where
 // weights count, by less than 0.006, to both sides.
-TEST(GuidedRows, InStepsAreCloseToTheTwinOnEveryTarget) {
+TEST(GuidedRows, InStepsAreCloseToTheReferenceImplementationOnEveryTarget) {
     constexpr double kCloseInSteps = 1e-3;
     const GuidedScene scene(90, 47, 3);
     GuidedTerms terms;
@@ -279,7 +279,7 @@ TEST(GuidedRows, OneFootprintForAllIsAPlaneOfIt) {
     EXPECT_EQ(filtered(image, terms, some()), with);
 }
 
-// Each is within kCloseIfHard of the twin.
+// Each is within kCloseIfHard of the reference implementation.
 TEST(GuidedRows, AreCloseAmongTargets) {
     const GuidedScene scene = hard_scene(130, 40, 15);
     const auto image = chosen(scene.view(), kP | kN | kA | kL);

@@ -43,12 +43,12 @@ Pixels run(const LocalCurve& curve, Pixels p) {
     return p;
 }
 
-void expect_twin(const LocalCurve& curve, const Pixels& in) {
+void expect_reference(const LocalCurve& curve, const Pixels& in) {
     const Pixels out = run(curve, in);
     for (size_t i = 0; i < in.base.size(); ++i) {
-        const auto exact =
-            local_twin(curve, double(in.base[i]),
-                       {double(in.plane[0][i]), double(in.plane[1][i]), double(in.plane[2][i])});
+        const auto exact = local_reference(
+            curve, double(in.base[i]),
+            {double(in.plane[0][i]), double(in.plane[1][i]), double(in.plane[2][i])});
         for (size_t c = 0; c < 3; ++c)
             ASSERT_NEAR(double(out.plane[c][i]), exact[c], kClose * std::abs(exact[c]) + 1e-37)
                 << i << ": " << in.base[i] << ", " << in.plane[0][i] << " " << in.plane[1][i] << " "
@@ -56,7 +56,7 @@ void expect_twin(const LocalCurve& curve, const Pixels& in) {
     }
 }
 
-TEST(LocalRows, AreCloseToTheTwin) {
+TEST(LocalRows, AreCloseToTheReferenceImplementation) {
     const Pixels in = noise(5003);
     for (double bias : {0.7, 0.85, 0.95})
         for (double maximum : {10.0, 1e4})
@@ -67,7 +67,7 @@ TEST(LocalRows, AreCloseToTheTwin) {
                 curve.bias = bias;
                 curve.saturation = saturation;
                 curve.display_maximum = 80;
-                on_every_target([&] { expect_twin(curve, in); });
+                on_every_target([&] { expect_reference(curve, in); });
             }
 }
 
@@ -80,7 +80,7 @@ TEST(LocalRows, TakeABaseOfLogarithms) {
         b = std::log(b);
     curve.log_base = true;
     on_every_target([&] {
-        expect_twin(curve, in);
+        expect_reference(curve, in);
         const Pixels out = run(curve, in);
         for (size_t i = 0; i < in.base.size(); ++i)
             EXPECT_NEAR(double(out.plane[1][i] / linear.plane[1][i]), 1, 1e-5);
@@ -147,7 +147,7 @@ TEST(LocalRows, KeepTheSignOfChannels) {
     in.add(1, 2, 1, -0.5f);
     for (double saturation : {1.0, 0.5}) {
         curve.saturation = saturation;
-        on_every_target([&] { expect_twin(curve, in); });
+        on_every_target([&] { expect_reference(curve, in); });
         EXPECT_LT(run(curve, in).plane[2][0], 0);
     }
 }

@@ -111,7 +111,7 @@ TEST(LutRows, LevelsAreWhereTheirPlacesAre) {
 
 // Lanes against double: the place is a float of up to 80, good to 4e-6 of a cell, and f spans less
 // than 0.2 in one here; beside it stand four roundings of f.
-TEST(LutRows, LanesAgreeWithTheTwin) {
+TEST(LutRows, LanesAgreeWithTheReferenceImplementation) {
     for (bool steep : {false, true}) {
         const LightCube cube = make_cube(shape_of(33, steep), film);
         const Planes3 in = colors(4099);
@@ -121,7 +121,7 @@ TEST(LutRows, LanesAgreeWithTheTwin) {
                 double rgb[3], light[3];
                 for (size_t c = 0; c < 3; ++c)
                     rgb[c] = double(std::min(in[c][i] * 0.5f, 1e15f));
-                light_cube_twin(cube, rgb, light);
+                light_cube_reference(cube, rgb, light);
                 for (size_t c = 0; c < 3; ++c)
                     ASSERT_NEAR(out[c][i], light[c], 3e-6) << i;
             }

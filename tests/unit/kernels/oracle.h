@@ -1,4 +1,5 @@
-// How close float lanes must come to the double twin, and what they are compared on.
+// How close float lanes must come to the double-precision reference implementation, and what they
+// are compared on.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -16,7 +17,7 @@ namespace tonetool::kernels {
 
 // E ~ h^0.7 has infinite slope at 0: float noise in Lab becomes up to 1e-4 there.
 inline constexpr double kSmallError = 0.01, kClose = 1e-5, kCloseBelow = 1e-4;
-// Two instruction sets, each within kClose of the twin.
+// Two instruction sets, each within kClose of the reference implementation.
 inline constexpr double kAmongTargets = 2e-5;
 
 /// What tests are repeated for.

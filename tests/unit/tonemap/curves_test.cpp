@@ -9,13 +9,13 @@
 #include <set>
 
 #include "curve_cases.h"
-#include "kernels/curve_twin.h"
+#include "kernels/curve_reference.h"
 #include "tonemap/rational.h"
 
 namespace tonetool::tonemap {
 namespace {
 
-using kernels::curve_twin;
+using kernels::curve_reference;
 using testing::ElementsAre;
 using testing::HasSubstr;
 
@@ -102,9 +102,10 @@ TEST(Curves, NeverFall) {
     for (const Curve& row : all_curves()) {
         bool falls = false;
         for (const auto& one : kernels::cases_of(row)) {
-            double before = curve_twin(one.numbers, 0), clamped_before = std::clamp(before, 0., 1.);
+            double before = curve_reference(one.numbers, 0),
+                   clamped_before = std::clamp(before, 0., 1.);
             for (int i = -20 * steps; i <= 20 * steps; ++i) {
-                const double y = curve_twin(one.numbers, std::exp2(double(i) / steps));
+                const double y = curve_reference(one.numbers, std::exp2(double(i) / steps));
                 const double clamped = std::clamp(y, 0.0, 1.0);
                 EXPECT_GE(clamped, clamped_before - 1e-12) << one.what << " at 2^" << i << "/16";
                 falls = falls || (one.defaults && y < before - 1e-12);
@@ -121,7 +122,7 @@ TEST(Curves, KeepBlackBlack) {
         for (const auto& one : kernels::cases_of(row)) {
             const bool lifted = one.numbers.kind == kernels::CurveKind::Uchimura &&
                                 one.numbers.p[5] > 0; // the pedestal
-            const double y = std::max(curve_twin(one.numbers, 0), 0.0);
+            const double y = std::max(curve_reference(one.numbers, 0), 0.0);
             EXPECT_EQ(y, lifted ? one.numbers.p[5] : 0) << one.what;
         }
 }
@@ -136,7 +137,7 @@ TEST(Curves, WhiteBecomesOne) {
                 CurveValues values;
                 std::string error;
                 ASSERT_TRUE(curve_values(row, {{"white", white}}, false, values, error)) << error;
-                EXPECT_NEAR(curve_twin(row.make(values), white), 1, 1e-12) << row.name;
+                EXPECT_NEAR(curve_reference(row.make(values), white), 1, 1e-12) << row.name;
             }
 }
 

@@ -3,13 +3,13 @@
 #include <cmath>
 
 #include "curve_cases.h"
-#include "kernels/curve_twin.h"
+#include "kernels/curve_reference.h"
 #include "tonemap/curves.h"
 
 namespace tonetool::tonemap {
 namespace {
 
-using kernels::curve_twin;
+using kernels::curve_reference;
 using kernels::CurveNumbers;
 
 CurveNumbers curve(const char* name) {
@@ -24,9 +24,9 @@ TEST(Inverse, FindsWhatTheCurveWasAt) {
         for (const auto& one : kernels::cases_of(row)) {
             size_t invertible = 0;
             for (int i = -80; i <= 80; ++i) {
-                const double x = std::exp2(i / 4.0 + 0.01), y = curve_twin(one.numbers, x);
-                const double below = curve_twin(one.numbers, x * (1 - close));
-                const double above = curve_twin(one.numbers, x * (1 + close));
+                const double x = std::exp2(i / 4.0 + 0.01), y = curve_reference(one.numbers, x);
+                const double below = curve_reference(one.numbers, x * (1 - close));
+                const double above = curve_reference(one.numbers, x * (1 + close));
                 if (!(below > 0 && above < 1 && y - below > noise && above - y > noise))
                     continue;
                 ++invertible;
@@ -52,7 +52,7 @@ TEST(Inverse, IsTheLargestSolution) {
     EXPECT_NEAR(inverse(curve("steve-b"), 1).value_or(0), 5.0 / 3, 1e-12);
     const double falling = inverse(curve("steve-b"), 1.06).value_or(0);
     EXPECT_GT(falling, 3.7);
-    EXPECT_NEAR(curve_twin(curve("steve-b"), falling), 1.06, 1e-12);
+    EXPECT_NEAR(curve_reference(curve("steve-b"), falling), 1.06, 1e-12);
     EXPECT_FALSE(inverse(curve("steve-b"), 1.07).has_value());
     EXPECT_NEAR(inverse(curve("filmic-alu"), 0).value_or(0), 0.004, 1e-12);
 }
@@ -72,7 +72,7 @@ TEST(Inverse, OfBlackIsWhereItEnds) {
 }
 
 TEST(Inverse, OfAPlateauIsItsStart) {
-    EXPECT_NEAR(inverse(curve("agx"), curve_twin(curve("agx"), 1e6)).value_or(0),
+    EXPECT_NEAR(inverse(curve("agx"), curve_reference(curve("agx"), 1e6)).value_or(0),
                 std::exp2(4.026069), 1e-2);
     EXPECT_NEAR(inverse(curve("drago"), 1).value_or(0), 5, 1e-9);
 }

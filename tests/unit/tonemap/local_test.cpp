@@ -6,8 +6,8 @@
 #include <limits>
 
 #include "guided_scene.h"
-#include "kernels/curve_twin.h"
-#include "kernels/guided_twin.h"
+#include "kernels/curve_reference.h"
+#include "kernels/guided_reference.h"
 #include "schedules.h"
 #include "target.h"
 #include "tonemap/poisson.h"
@@ -91,7 +91,7 @@ TEST(LocalOperator, OfAConstantIsTheGlobalCurve) {
         for (auto& plane : image.plane)
             std::fill(plane.begin(), plane.end(), light);
         for (const LocalOperator& what : operators()) {
-            const double expected = kernels::curve_twin(
+            const double expected = kernels::curve_reference(
                 {kernels::CurveKind::Drago, {what.curve.maximum / what.curve.adaptation, 0.85}},
                 double(light) / what.curve.adaptation);
             for (float y : run(what, image, guides_of(scene)).plane[1])
@@ -112,8 +112,8 @@ TEST(LocalOperator, BrightestFlatPartIsTheDisplaysMaximum) {
         }
 }
 
-// Base by the twin, curve by the twin.
-TEST(LocalOperator, IsCloseToTheTwins) {
+// Base and curve by the reference implementations.
+TEST(LocalOperator, IsCloseToTheReferenceImplementations) {
     const GuidedScene scene(61, 40, 2);
     const HdrImage image = make_image(kernels::Content::Noise, 61, 40, 3);
     for (const LocalOperator& what : operators()) {
@@ -136,11 +136,11 @@ TEST(LocalOperator, IsCloseToTheTwins) {
         for (int y = 0; y < 40; y += 3)
             for (int x = 0; x < 61; x += 2) {
                 const size_t i = exact.at(x, y);
-                const double base = kernels::guided_twin(view, terms, taps(), x, y);
+                const double base = kernels::guided_reference(view, terms, taps(), x, y);
                 const auto pixel =
-                    kernels::local_twin(curve, base,
-                                        {double(image.plane[0][i]), double(image.plane[1][i]),
-                                         double(image.plane[2][i])});
+                    kernels::local_reference(curve, base,
+                                             {double(image.plane[0][i]), double(image.plane[1][i]),
+                                              double(image.plane[2][i])});
                 for (size_t c = 0; c < 3; ++c)
                     ASSERT_NEAR(double(ours.plane[c][i]) / pixel[c], 1, 2e-5);
             }

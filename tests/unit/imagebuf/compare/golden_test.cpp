@@ -2,9 +2,9 @@
 // the goldens). Every line of a results.jsonl is one comparison.
 //
 // That program computes in float and is itself up to 1.6e-5 away from the double-precision value.
-// Where a map of ours is farther than the bound from a golden, the double twin decides: ours must
-// be within the bound of the twin. The lines where this happens, and to how many pixels at most,
-// are listed; a pixel more is a failure.
+// Where a map of ours is farther than the bound from a golden, the reference implementation in
+// double precision decides: ours must be within the bound of it. The lines where this happens, and
+// to how many pixels at most, are listed; a pixel more is a failure.
 #include <gtest/gtest.h>
 
 #include <OpenImageIO/imagebuf.h>
@@ -19,7 +19,7 @@
 #include <sstream>
 
 #include "flip/filters.h"
-#include "kernels/flip_twin.h"
+#include "kernels/flip_reference.h"
 #include "tonemap/rational.h"
 #include "tonetool/flip.h"
 
@@ -70,9 +70,9 @@ tonetool::HdrFlipOptions parse(const std::string& options) {
     return out;
 }
 
-// The double twin's map of what a comparison saw.
-std::vector<double> twin_map(const ImageBuf& reference, const ImageBuf& test,
-                             const tonetool::FlipSummary& summary) {
+// The double-precision reference implementation's map of what a comparison saw.
+std::vector<double> map_by_reference(const ImageBuf& reference, const ImageBuf& test,
+                                     const tonetool::FlipSummary& summary) {
     std::vector<float> planes[2][3];
     tonetool::kernels::ConstRgb views[2];
     for (int side = 0; side < 2; ++side) {
@@ -90,14 +90,14 @@ std::vector<double> twin_map(const ImageBuf& reference, const ImageBuf& test,
     tonetool::kernels::ToneCurve curve;
     if (summary.hdr)
         curve = *tonetool::tonemap::rational_curve(summary.tonemapper);
-    return tonetool::kernels::hdr_flip_twin(
+    return tonetool::kernels::hdr_flip_reference(
         views[0], views[1], tonetool::flip::make_taps(summary.ppd), curve,
         summary.hdr ? summary.exposures : std::vector<double>{0.0}, nullptr);
 }
 
 struct Maps {
     std::vector<float> ours, golden;
-    std::function<std::vector<double>()> twin; ///< slow: only made when it must decide
+    std::function<std::vector<double>()> reference; ///< slow: only made when it must decide
 };
 
 void compare_maps(const Maps& maps, const std::string& name) {
@@ -119,9 +119,9 @@ void compare_maps(const Maps& maps, const std::string& name) {
     const auto allowed = kGoldenIsOff.find(name);
     EXPECT_LE(beyond.size(), allowed == kGoldenIsOff.end() ? 0u : size_t(allowed->second))
         << "worst " << worst;
-    const auto twin = beyond.empty() ? std::vector<double>{} : maps.twin();
+    const auto exact = beyond.empty() ? std::vector<double>{} : maps.reference();
     for (size_t i : beyond)
-        EXPECT_LE(std::abs(maps.ours[i] - twin[i]), kClose) << "pixel " << i;
+        EXPECT_LE(std::abs(maps.ours[i] - exact[i]), kClose) << "pixel " << i;
     std::printf("  worst %.3g (below 0.01: %.3g), beyond the bound %zu, mean off by %.3g\n", worst,
                 worst_below, beyond.size(), sum / n - golden_sum / n);
 }
@@ -169,9 +169,9 @@ TEST_P(Goldens, MatchesPublishedProgram) {
                              : tonetool::ToneAlgo::ldr_flip(reference, test, options, &result);
     ASSERT_FALSE(map.has_error()) << map.geterror();
     const auto expected = channel(golden, golden.spec().channelindex("flip"));
-    compare_maps(
-        {channel(map, 0), expected, [&] { return twin_map(reference, test, result.summary); }},
-        line["name"]);
+    compare_maps({channel(map, 0), expected,
+                  [&] { return map_by_reference(reference, test, result.summary); }},
+                 line["name"]);
     compare_summary(result.summary, line);
     if (line["hdr"] == 1)
         compare_exposures(result, golden, expected);

@@ -138,9 +138,9 @@ TEST(Pictures, BothImagesAtFiveExposuresMapsAndTheWorstPixelFromNear) {
     ASSERT_EQ(pictures.spots.size(), 1U);
     const auto near = picture_of(pictures.spots[0].test);
     ASSERT_TRUE(near);
-    EXPECT_EQ(near->spec().width, 2 * kSpotReach + 1);
-    EXPECT_GT(near->getchannel(kSpotReach, kSpotReach, 0, 0),
-              near->getchannel(kSpotReach - 2, kSpotReach, 0, 0) + 0.2f);
+    EXPECT_EQ(near->spec().width, 2 * kSpotRadius + 1);
+    EXPECT_GT(near->getchannel(kSpotRadius, kSpotRadius, 0, 0),
+              near->getchannel(kSpotRadius - 2, kSpotRadius, 0, 0) + 0.2f);
 }
 
 TEST(Pictures, ASingleImageHasNoReferenceAndChoosesItsOwnExposures) {
@@ -174,9 +174,9 @@ TEST(Pictures, APixelThatIsNotFiniteIsMagentaFromNear) {
     const FramePictures pictures = draw_pictures(compared.request());
     const auto near = picture_of(pictures.spots.at(0).test);
     ASSERT_TRUE(near);
-    EXPECT_EQ(near->getchannel(kSpotReach, kSpotReach, 0, 0), 1);
-    EXPECT_EQ(near->getchannel(kSpotReach, kSpotReach, 0, 1), 0);
-    EXPECT_EQ(near->getchannel(kSpotReach, kSpotReach, 0, 2), 1);
+    EXPECT_EQ(near->getchannel(kSpotRadius, kSpotRadius, 0, 0), 1);
+    EXPECT_EQ(near->getchannel(kSpotRadius, kSpotRadius, 0, 1), 0);
+    EXPECT_EQ(near->getchannel(kSpotRadius, kSpotRadius, 0, 2), 1);
     EXPECT_LT(near->getchannel(0, 0, 0, 2), 1);
 }
 

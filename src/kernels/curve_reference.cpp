@@ -1,4 +1,4 @@
-#include "kernels/curve_twin.h"
+#include "kernels/curve_reference.h"
 
 #include <algorithm>
 #include <cmath>
@@ -121,7 +121,7 @@ Color on_luminance(const CurveNumbers& curve, const CurveUse& use, Color v) {
     const double lum = luminance(use.weights, v);
     if (lum < double(kSmallestLuminance))
         return {};
-    const double y = curve_twin(curve, lum);
+    const double y = curve_reference(curve, lum);
     for (double& x : v)
         x = y * std::pow(x / lum, use.saturation);
     return v;
@@ -129,7 +129,7 @@ Color on_luminance(const CurveNumbers& curve, const CurveUse& use, Color v) {
 
 } // namespace
 
-double curve_twin(const CurveNumbers& curve, double x) {
+double curve_reference(const CurveNumbers& curve, double x) {
     switch (curve.kind) {
     case CurveKind::Rational:
         return rational(curve.p, x);
@@ -152,8 +152,8 @@ double curve_twin(const CurveNumbers& curve, double x) {
     }
 }
 
-std::array<double, 3> curve_twin(const CurveNumbers& curve, const CurveUse& use,
-                                 const std::array<double, 3>& rgb) {
+std::array<double, 3> curve_reference(const CurveNumbers& curve, const CurveUse& use,
+                                      const std::array<double, 3>& rgb) {
     Color v = rgb;
     for (double& x : v)
         x = std::min(x, double(kLargestExposed));
@@ -163,7 +163,7 @@ std::array<double, 3> curve_twin(const CurveNumbers& curve, const CurveUse& use,
         v = on_luminance(curve, use, v);
     else
         for (double& x : v)
-            x = curve_twin(curve, x);
+            x = curve_reference(curve, x);
     if (use.clamp)
         for (double& x : v)
             x = std::clamp(x, 0.0, 1.0);

@@ -1,9 +1,9 @@
-// Symmetric filters in lanes, several outputs at a time. Included once per target.
-#if defined(TONETOOL_KERNELS_FOLD_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef TONETOOL_KERNELS_FOLD_INL_H_
-#undef TONETOOL_KERNELS_FOLD_INL_H_
+// Symmetric convolution in SIMD lanes, several outputs at a time. Included once per target.
+#if defined(TONETOOL_KERNELS_SYMMETRIC_FILTER_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef TONETOOL_KERNELS_SYMMETRIC_FILTER_INL_H_
+#undef TONETOOL_KERNELS_SYMMETRIC_FILTER_INL_H_
 #else
-#define TONETOOL_KERNELS_FOLD_INL_H_
+#define TONETOOL_KERNELS_SYMMETRIC_FILTER_INL_H_
 #endif
 
 #include <hwy/highway.h>
@@ -16,7 +16,7 @@ HWY_BEFORE_NAMESPACE();
 namespace tonetool::kernels::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-// Of 16 registers few are left beside eight sums.
+// With 16 registers few are left beside eight sums.
 constexpr bool kManyRegisters = HWY_MAX_BYTES == 64 || HWY_ARCH_ARM_A64;
 
 // Where a vector is a register: not where arrays or single floats stand in for them.
@@ -133,7 +133,7 @@ struct Window {
           above(distance_up),
           below(distance_down),
           up(Outputs::At(source, distance_up)) {}
-    // What lies below the output `j`.
+    // The input below the output `j`.
     template <int j>
     HWY_INLINE V Down() const {
         return in.At(j - below);
@@ -309,7 +309,7 @@ struct TwoFilters {
         ForgetLoads();
     }
 
-    // Where the second one is the longer one, it begins alone.
+    // Where the second filter is longer, its outermost taps are applied alone.
     HWY_INLINE Four Pairs() const {
         return {hn::Add(window.up.v0, window.template Down<0>()),
                 hn::Add(window.up.v1, window.template Down<1>()),

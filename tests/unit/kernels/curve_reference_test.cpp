@@ -1,6 +1,6 @@
-// The twins against numbers worked out from the published formulas by other means, and against
-// values that the sources themselves give.
-#include "kernels/curve_twin.h"
+// The reference implementations against numbers worked out from the published formulas by other
+// means, and against values that the sources themselves give.
+#include "kernels/curve_reference.h"
 
 #include <gtest/gtest.h>
 
@@ -24,10 +24,10 @@ CurveNumbers curve(const char* name, const std::map<std::string, double>& given 
 }
 
 double at(double x, const char* name, const std::map<std::string, double>& given = {}) {
-    return curve_twin(curve(name, given), x);
+    return curve_reference(curve(name, given), x);
 }
 
-TEST(CurveTwin, OldCurves) {
+TEST(CurveReference, OldCurves) {
     EXPECT_EQ(at(0.3, "linear"), 0.3);
     EXPECT_NEAR(at(1, "logarithmic"), 0.386852807235, kExact);
     EXPECT_NEAR(at(5, "logarithmic"), 1, kExact);
@@ -38,7 +38,7 @@ TEST(CurveTwin, OldCurves) {
     EXPECT_NEAR(at(1, "reinhard-extended"), 0.52, kExact);
 }
 
-TEST(CurveTwin, DragoHasItsSampleValues) {
+TEST(CurveReference, DragoHasItsSampleValues) {
     const struct {
         double white, x, y;
     } samples[] = {{10, 0.18, 0.09733},    {10, 1, 0.35096},    {10, 5, 0.79114},
@@ -49,7 +49,7 @@ TEST(CurveTwin, DragoHasItsSampleValues) {
 }
 
 // A product in place of the power, as in a shader in circulation, gives 1.70 at bias 0.85.
-TEST(CurveTwin, DragoMakesWhiteOneForEveryBias) {
+TEST(CurveReference, DragoMakesWhiteOneForEveryBias) {
     for (double white : {1e-3, 0.5, 5.0, 1e4})
         for (double bias : {0.01, 0.5, 0.7, 0.85, 0.95, 1.0}) {
             const std::map<std::string, double> given = {{"white", white}, {"bias", bias}};
@@ -63,7 +63,7 @@ TEST(CurveTwin, DragoMakesWhiteOneForEveryBias) {
     EXPECT_NEAR(at(3, "drago", {{"white", 10}, {"bias", 1}}), std::log(4) / std::log(11), kExact);
 }
 
-TEST(CurveTwin, FilmicCurves) {
+TEST(CurveReference, FilmicCurves) {
     EXPECT_NEAR(at(0.18, "filmic-alu"), 0.225399712683, kExact);
     EXPECT_EQ(at(0.004, "filmic-alu"), 0);
     EXPECT_NEAR(at(0.18, "uncharted2"), 0.0998567837103, kExact);
@@ -79,14 +79,14 @@ const std::map<std::string, double> kHablesOwn = {{"shoulder", 0.15}, {"linear",
                                                   {"angle", 0.1},     {"toe", 0.2},
                                                   {"toenum", 0.02},   {"toeden", 0.3}};
 
-TEST(CurveTwin, HableIsTheGeneralFormulaWithAnExposureOfTwo) {
+TEST(CurveReference, HableIsTheGeneralFormulaWithAnExposureOfTwo) {
     EXPECT_NEAR(at(4, "uncharted2", kHablesOwn), 0.713238010973, kExact);
     // HDR-FLIP's constants are rounded to six digits.
     for (double x : {0.01, 0.18, 1.0, 5.6, 100.0})
         EXPECT_NEAR(at(x, "hable") / at(2 * x, "uncharted2", kHablesOwn), 1, 3e-5);
 }
 
-TEST(CurveTwin, SteveMsCurves) {
+TEST(CurveReference, SteveMsCurves) {
     EXPECT_NEAR(at(5.0 / 3.0, "steve-b"), 1, 1e-15);
     EXPECT_NEAR(at(3.69, "steve-b"), 1.0654, 5e-5);
     EXPECT_GT(at(3.69, "steve-b"), at(3.5, "steve-b"));
@@ -96,13 +96,13 @@ TEST(CurveTwin, SteveMsCurves) {
     EXPECT_LT(at(1e6, "steve-a"), 1);
 }
 
-TEST(CurveTwin, Aces) {
+TEST(CurveReference, Aces) {
     EXPECT_NEAR(at(7.2417, "aces"), 1, 1e-6);
     EXPECT_NEAR(at(1e12, "aces"), 1.0329, 5e-5);
     EXPECT_NEAR(at(2.11887312, "aces", {{"prescale", 0.6}}), 0.85, 1e-7);
 }
 
-TEST(CurveTwin, Lottes) {
+TEST(CurveReference, Lottes) {
     EXPECT_NEAR(at(0.18, "lottes"), 0.267, 1e-14);
     EXPECT_NEAR(at(8, "lottes"), 1, 1e-14);
     EXPECT_EQ(at(0, "lottes"), 0);
@@ -110,7 +110,7 @@ TEST(CurveTwin, Lottes) {
     EXPECT_NEAR(curve("lottes").p[3], 0.1674199, 5e-8);
 }
 
-TEST(CurveTwin, Uchimura) {
+TEST(CurveReference, Uchimura) {
     const struct {
         double x, y;
     } samples[] = {{0, 0},     {0.05, 0.0332064103158}, {0.1, 0.0869875066987}, {0.22, 0.22},
@@ -122,7 +122,7 @@ TEST(CurveTwin, Uchimura) {
                 1.65553950390, kExact);
 }
 
-TEST(CurveTwin, CurvesThatMixChannels) {
+TEST(CurveReference, CurvesThatMixChannels) {
     using Color = std::array<double, 3>;
     const struct {
         const char* name;
@@ -144,38 +144,38 @@ TEST(CurveTwin, CurvesThatMixChannels) {
     use.clamp = false;
     use.on_luminance = true; // ignored
     for (const auto& s : samples) {
-        const Color y = curve_twin(curve(s.name), use, s.x);
+        const Color y = curve_reference(curve(s.name), use, s.x);
         for (size_t c = 0; c < 3; ++c)
             EXPECT_NEAR(y[c], s.y[c], kExact) << s.name << " " << s.x[0] << " " << c;
     }
 }
 
-TEST(CurveTwin, OnLuminanceKeepsRatios) {
+TEST(CurveReference, OnLuminanceKeepsRatios) {
     CurveUse use;
     use.on_luminance = true;
     use.weights = {0.25, 0.5, 0.25};
     // Luminance 1 becomes 1/2.
-    EXPECT_EQ(curve_twin(curve("reinhard"), use, {2, 0.5, 1}),
+    EXPECT_EQ(curve_reference(curve("reinhard"), use, {2, 0.5, 1}),
               (std::array<double, 3>{1, 0.25, 0.5}));
     use.saturation = 2;
-    EXPECT_EQ(curve_twin(curve("reinhard"), use, {1, 0.5, 2}),
+    EXPECT_EQ(curve_reference(curve("reinhard"), use, {1, 0.5, 2}),
               (std::array<double, 3>{0.5, 0.125, 1}))
         << "clamped: 2^2 / 2";
     use.saturation = 0;
-    EXPECT_EQ(curve_twin(curve("reinhard"), use, {0, 1, 2}),
+    EXPECT_EQ(curve_reference(curve("reinhard"), use, {0, 1, 2}),
               (std::array<double, 3>{0.5, 0.5, 0.5}));
-    EXPECT_EQ(curve_twin(curve("reinhard"), use, {0, 0, 0}), (std::array<double, 3>{0, 0, 0}));
+    EXPECT_EQ(curve_reference(curve("reinhard"), use, {0, 0, 0}), (std::array<double, 3>{0, 0, 0}));
 }
 
-TEST(CurveTwin, OfAPixelIsThatOfAGrey) {
+TEST(CurveReference, OfAPixelIsThatOfAGrey) {
     CurveUse use;
     use.clamp = false;
     for (const auto& row : tonemap::all_curves()) {
         const CurveNumbers numbers = curve(row.name);
         for (double x : {0.001, 0.18, 1.0, 30.0}) {
-            const auto rgb = curve_twin(numbers, use, {x, x, x});
+            const auto rgb = curve_reference(numbers, use, {x, x, x});
             const double lum = 0.2126 * rgb[0] + 0.7152 * rgb[1] + 0.0722 * rgb[2];
-            EXPECT_NEAR(lum, curve_twin(numbers, x), 1e-12 * std::max(1.0, lum)) << row.name;
+            EXPECT_NEAR(lum, curve_reference(numbers, x), 1e-12 * std::max(1.0, lum)) << row.name;
         }
     }
 }

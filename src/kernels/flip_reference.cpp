@@ -1,4 +1,4 @@
-#include "kernels/flip_twin.h"
+#include "kernels/flip_reference.h"
 
 #include <algorithm>
 #include <array>
@@ -108,7 +108,7 @@ struct Side {
 };
 
 template <typename T>
-Plane<T> separable(const Plane<T>& in, const TwinImage<T>& image, const std::vector<T>& along_x,
+Plane<T> separable(const Plane<T>& in, const PlaneImage<T>& image, const std::vector<T>& along_x,
                    bool odd_x, const std::vector<T>& along_y, bool odd_y) {
     return filter(filter(in, image.width, image.height, along_x, odd_x, true), image.width,
                   image.height, along_y, odd_y, false);
@@ -123,7 +123,7 @@ Plane<T> magnitude(const Plane<T>& a, const Plane<T>& b) {
 }
 
 template <typename T>
-Side<T> prepare(const TwinImage<T>& image, const FlipTaps<T>& taps) {
+Side<T> prepare(const PlaneImage<T>& image, const FlipTaps<T>& taps) {
     const size_t n = image.plane[0].size();
     Plane<T> c[3] = {Plane<T>(n), Plane<T>(n), Plane<T>(n)};
     Plane<T> luminance(n);
@@ -172,8 +172,8 @@ T flip_error(const Side<T>& r, const Side<T>& t, size_t i) {
 } // namespace
 
 template <typename T>
-TwinImage<T> tone_map_twin(const ConstRgb& image, const ToneCurve& curve, double stops) {
-    TwinImage<T> out{image.width, image.height, {}};
+PlaneImage<T> tone_map_reference(const ConstRgb& image, const ToneCurve& curve, double stops) {
+    PlaneImage<T> out{image.width, image.height, {}};
     const T scale = T(std::exp2(stops));
     for (Plane<T>& p : out.plane)
         p.resize(size_t(image.width) * size_t(image.height));
@@ -192,8 +192,8 @@ TwinImage<T> tone_map_twin(const ConstRgb& image, const ToneCurve& curve, double
 }
 
 template <typename T>
-std::vector<T> ldr_flip_twin(const TwinImage<T>& reference, const TwinImage<T>& test,
-                             const FlipTaps<T>& taps) {
+std::vector<T> ldr_flip_reference(const PlaneImage<T>& reference, const PlaneImage<T>& test,
+                                  const FlipTaps<T>& taps) {
     const Side<T> r = prepare(reference, taps), t = prepare(test, taps);
     std::vector<T> out(r.edge.size());
     for (size_t i = 0; i < out.size(); ++i)
@@ -202,15 +202,15 @@ std::vector<T> ldr_flip_twin(const TwinImage<T>& reference, const TwinImage<T>& 
 }
 
 template <typename T>
-std::vector<T> hdr_flip_twin(const ConstRgb& reference, const ConstRgb& test,
-                             const FlipTaps<T>& taps, const ToneCurve& curve,
-                             const std::vector<double>& stops, std::vector<int>* index) {
+std::vector<T> hdr_flip_reference(const ConstRgb& reference, const ConstRgb& test,
+                                  const FlipTaps<T>& taps, const ToneCurve& curve,
+                                  const std::vector<double>& stops, std::vector<int>* index) {
     std::vector<T> best(size_t(reference.width) * size_t(reference.height), T(0));
     if (index)
         index->assign(best.size(), 0);
     for (size_t n = 0; n < stops.size(); ++n) {
-        const auto error = ldr_flip_twin(tone_map_twin<T>(reference, curve, stops[n]),
-                                         tone_map_twin<T>(test, curve, stops[n]), taps);
+        const auto error = ldr_flip_reference(tone_map_reference<T>(reference, curve, stops[n]),
+                                              tone_map_reference<T>(test, curve, stops[n]), taps);
         for (size_t i = 0; i < best.size(); ++i)
             if (error[i] > best[i]) {
                 best[i] = error[i];
@@ -221,14 +221,14 @@ std::vector<T> hdr_flip_twin(const ConstRgb& reference, const ConstRgb& test,
     return best;
 }
 
-template TwinImage<double> tone_map_twin(const ConstRgb&, const ToneCurve&, double);
-template std::vector<double> ldr_flip_twin(const TwinImage<double>&, const TwinImage<double>&,
-                                           const FlipTaps<double>&);
-template std::vector<double> hdr_flip_twin(const ConstRgb&, const ConstRgb&,
-                                           const FlipTaps<double>&, const ToneCurve&,
-                                           const std::vector<double>&, std::vector<int>*);
-template std::vector<float> hdr_flip_twin(const ConstRgb&, const ConstRgb&, const FlipTaps<float>&,
-                                          const ToneCurve&, const std::vector<double>&,
-                                          std::vector<int>*);
+template PlaneImage<double> tone_map_reference(const ConstRgb&, const ToneCurve&, double);
+template std::vector<double> ldr_flip_reference(const PlaneImage<double>&,
+                                                const PlaneImage<double>&, const FlipTaps<double>&);
+template std::vector<double> hdr_flip_reference(const ConstRgb&, const ConstRgb&,
+                                                const FlipTaps<double>&, const ToneCurve&,
+                                                const std::vector<double>&, std::vector<int>*);
+template std::vector<float> hdr_flip_reference(const ConstRgb&, const ConstRgb&,
+                                               const FlipTaps<float>&, const ToneCurve&,
+                                               const std::vector<double>&, std::vector<int>*);
 
 } // namespace tonetool::kernels

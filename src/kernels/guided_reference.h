@@ -1,5 +1,5 @@
 // The cross bilateral filter in double precision, written straight from the paper's Eqs. 3 and 4:
-// the oracle of the tests.
+// the reference implementation that the tests compare with.
 #pragma once
 
 #include "kernels/guided.h"
@@ -7,7 +7,7 @@
 namespace tonetool::kernels {
 
 /// The filtered value of pixel (x, y).
-double guided_twin(const GuidePlanes& image, const GuidedTerms& terms, const TapSets& taps, int x,
-                   int y);
+double guided_reference(const GuidePlanes& image, const GuidedTerms& terms, const TapSets& taps,
+                        int x, int y);
 
 } // namespace tonetool::kernels

@@ -1,4 +1,4 @@
-#include "chain/images/unlike.h"
+#include "chain/images/nonfinite_mismatch.h"
 
 #include <OpenImageIO/imagebufalgo.h>
 #include <cmath>
@@ -27,22 +27,22 @@ OIIO::ImageBuf one(float value) {
     return pixels;
 }
 
-TEST(Unlike, NumbersAreAlikeHoweverTheyDiffer) {
-    EXPECT_EQ(unlike_values(one(1), one(-1e38F)).pixels, 0U);
-    EXPECT_EQ(unlike_values(one(0), one(0)).pixels, 0U);
+TEST(NonfiniteMismatch, NumbersAreAlikeHoweverTheyDiffer) {
+    EXPECT_EQ(find_nonfinite_mismatch(one(1), one(-1e38F)).pixels, 0U);
+    EXPECT_EQ(find_nonfinite_mismatch(one(0), one(0)).pixels, 0U);
 }
 
-TEST(Unlike, TheSameKindIsAlike) {
+TEST(NonfiniteMismatch, TheSameKindIsAlike) {
     for (const float value : {kNan, kInf, -kInf})
-        EXPECT_EQ(unlike_values(one(value), one(value)).pixels, 0U) << value;
+        EXPECT_EQ(find_nonfinite_mismatch(one(value), one(value)).pixels, 0U) << value;
 }
 
-TEST(Unlike, EveryOtherPairOfKindsIsNot) {
+TEST(NonfiniteMismatch, EveryOtherPairOfKindsIsNot) {
     const float kinds[] = {0, kNan, kInf, -kInf};
     for (const float a : kinds) {
         for (const float b : kinds) {
             const bool same = a == b || (std::isnan(a) && std::isnan(b));
-            const Unlike found = unlike_values(one(a), one(b));
+            const NonfiniteMismatch found = find_nonfinite_mismatch(one(a), one(b));
             EXPECT_EQ(found.pixels, same ? 0U : 1U) << a << " and " << b;
             if (!same) {
                 EXPECT_EQ(found.x, 2);
@@ -53,23 +53,24 @@ TEST(Unlike, EveryOtherPairOfKindsIsNot) {
     }
 }
 
-TEST(Unlike, APixelCountsOnceAndTheFirstOneIsNamed) {
+TEST(NonfiniteMismatch, APixelCountsOnceAndTheFirstOneIsNamed) {
     const OIIO::ImageBuf numbers = image({0, 4, 0, 3, 0, 1, 0, 3});
     OIIO::ImageBuf many = one(kNan);
     set(many, 3, 1, {kNan, kNan, kNan});
     set(many, 0, 2, {0, 0, kInf});
-    const Unlike found = unlike_values(numbers, many);
+    const NonfiniteMismatch found = find_nonfinite_mismatch(numbers, many);
     EXPECT_EQ(found.pixels, 3U);
     EXPECT_EQ(found.x, 2);
     EXPECT_EQ(found.y, 1);
 }
 
-TEST(Unlike, WhereAnImageHasNoPixelsOrChannelsItIsZero) {
+TEST(NonfiniteMismatch, WhereAnImageHasNoPixelsOrChannelsItIsZero) {
     OIIO::ImageBuf wide = image({-2, 6, -1, 5, 0, 1, 0, 5});
     set(wide, -2, -1, {0, 0, 0, 0, kNan});
     set(wide, 5, 4, {kInf, 0, 0, 0, 0});
     const OIIO::ImageBuf small = image({0, 2, 0, 2, 0, 1, 0, 3});
-    for (const Unlike& found : {unlike_values(wide, small), unlike_values(small, wide)}) {
+    for (const NonfiniteMismatch& found :
+         {find_nonfinite_mismatch(wide, small), find_nonfinite_mismatch(small, wide)}) {
         EXPECT_EQ(found.pixels, 2U);
         EXPECT_EQ(found.x, -2);
         EXPECT_EQ(found.y, -1);
@@ -77,25 +78,27 @@ TEST(Unlike, WhereAnImageHasNoPixelsOrChannelsItIsZero) {
     }
 }
 
-TEST(Unlike, ManyRowsAreLookedAtInParts) {
+TEST(NonfiniteMismatch, ManyRowsAreLookedAtInParts) {
     const OIIO::ROI large(0, 1100, 10, 1610, 0, 1, 0, 4); // more values than are held at once
     OIIO::ImageBuf a = image(large), b = image(large);
     set(a, 7, 1609, {0, 0, 0, kNan});
     set(b, 1099, 10, {0, -kInf, 0, 0});
-    const Unlike found = unlike_values(a, b);
+    const NonfiniteMismatch found = find_nonfinite_mismatch(a, b);
     EXPECT_EQ(found.pixels, 2U);
     EXPECT_EQ(found.x, 1099);
     EXPECT_EQ(found.y, 10);
     EXPECT_EQ(found.channel, 1);
 }
 
-TEST(Unlike, HalvesAndIntegers) {
+TEST(NonfiniteMismatch, HalvesAndIntegers) {
     const OIIO::ROI window(0, 4, 0, 3, 0, 1, 0, 3);
     OIIO::ImageBuf half = image(window, OIIO::TypeHalf);
     set(half, 1, 0, {0, kNan, 0});
-    EXPECT_EQ(unlike_values(image(window, OIIO::TypeUInt8), half).pixels, 1U);
-    EXPECT_EQ(unlike_values(image(window, OIIO::TypeUInt8), image(window, OIIO::TypeUInt16)).pixels,
-              0U);
+    EXPECT_EQ(find_nonfinite_mismatch(image(window, OIIO::TypeUInt8), half).pixels, 1U);
+    EXPECT_EQ(
+        find_nonfinite_mismatch(image(window, OIIO::TypeUInt8), image(window, OIIO::TypeUInt16))
+            .pixels,
+        0U);
 }
 
 OIIO::ImageBuf deep(int samples, float last) {
@@ -109,12 +112,13 @@ OIIO::ImageBuf deep(int samples, float last) {
     return pixels;
 }
 
-TEST(Unlike, DeepSamplesAreValuesToo) {
-    EXPECT_EQ(unlike_values(deep(3, kNan), deep(3, kNan)).pixels, 0U);
-    EXPECT_EQ(unlike_values(deep(3, 1), deep(2, 5)).pixels, 0U);
-    for (const Unlike& found :
-         {unlike_values(deep(3, kNan), deep(3, 1)), unlike_values(deep(2, 1), deep(3, kInf)),
-          unlike_values(deep(3, kInf), deep(3, -kInf))}) {
+TEST(NonfiniteMismatch, DeepSamplesAreValuesToo) {
+    EXPECT_EQ(find_nonfinite_mismatch(deep(3, kNan), deep(3, kNan)).pixels, 0U);
+    EXPECT_EQ(find_nonfinite_mismatch(deep(3, 1), deep(2, 5)).pixels, 0U);
+    for (const NonfiniteMismatch& found :
+         {find_nonfinite_mismatch(deep(3, kNan), deep(3, 1)),
+          find_nonfinite_mismatch(deep(2, 1), deep(3, kInf)),
+          find_nonfinite_mismatch(deep(3, kInf), deep(3, -kInf))}) {
         EXPECT_EQ(found.pixels, 1U);
         EXPECT_EQ(found.x, 2);
         EXPECT_EQ(found.y, 1);

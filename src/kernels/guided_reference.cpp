@@ -1,4 +1,4 @@
-#include "kernels/guided_twin.h"
+#include "kernels/guided_reference.h"
 
 #include <algorithm>
 #include <cmath>
@@ -98,8 +98,8 @@ double guide_exponent(const GuidePlanes& image, const GuidedTerms& terms, ptrdif
 
 } // namespace
 
-double guided_twin(const GuidePlanes& image, const GuidedTerms& terms, const TapSets& taps, int x,
-                   int y) {
+double guided_reference(const GuidePlanes& image, const GuidedTerms& terms, const TapSets& taps,
+                        int x, int y) {
     const ptrdiff_t i = (y - image.first_row) * image.stride + x;
     if (!counts(image, terms, i))
         return double(image.value[i]);

@@ -1,4 +1,4 @@
-#include "chain/images/unlike.h"
+#include "chain/images/nonfinite_mismatch.h"
 
 #include <algorithm>
 #include <cmath>
@@ -12,7 +12,7 @@ namespace {
 
 constexpr int64_t kValuesAtOnce = int64_t(1) << 21; // of one image
 
-bool unlike(float a, float b) {
+bool mismatch(float a, float b) {
     return std::isnan(a) != std::isnan(b) || ((std::isinf(a) || std::isinf(b)) && a != b);
 }
 
@@ -48,7 +48,7 @@ private:
     std::vector<float> m_values;
 };
 
-void note(Unlike& found, int x, int y, int z, int channel) {
+void note(NonfiniteMismatch& found, int x, int y, int z, int channel) {
     if (found.pixels++ == 0) {
         found.x = x;
         found.y = y;
@@ -58,14 +58,14 @@ void note(Unlike& found, int x, int y, int z, int channel) {
 }
 
 void look_at_rows(const OIIO::ImageBuf& a, const OIIO::ImageBuf& b, const OIIO::ROI& rows,
-                  Unlike& found) {
+                  NonfiniteMismatch& found) {
     const Rows of_a(a, rows), of_b(b, rows);
     if (of_a.finite() && of_b.finite())
         return;
     const int channels = std::max(a.nchannels(), b.nchannels());
     for (size_t i = 0; i < rows.npixels(); ++i) {
         for (int c = 0; c < channels; ++c) {
-            if (unlike(of_a.at(i, c), of_b.at(i, c))) {
+            if (mismatch(of_a.at(i, c), of_b.at(i, c))) {
                 const int width = rows.width();
                 note(found, rows.xbegin + int(i) % width, rows.ybegin + int(i) / width, rows.zbegin,
                      c);
@@ -75,15 +75,15 @@ void look_at_rows(const OIIO::ImageBuf& a, const OIIO::ImageBuf& b, const OIIO::
     }
 }
 
-// The first channel with unlike samples; -1 if none has.
-int unlike_samples(const OIIO::ImageBuf& a, const OIIO::ImageBuf& b, int x, int y, int z) {
+// The first channel with mismatched samples; -1 if there is none.
+int mismatched_channel(const OIIO::ImageBuf& a, const OIIO::ImageBuf& b, int x, int y, int z) {
     const int of_a = a.deep_samples(x, y, z), of_b = b.deep_samples(x, y, z);
     const int channels = std::max(a.nchannels(), b.nchannels());
     for (int c = 0; c < channels; ++c) {
         for (int s = 0; s < std::max(of_a, of_b); ++s) {
             const float value_a = s < of_a && c < a.nchannels() ? a.deep_value(x, y, z, c, s) : 0;
             const float value_b = s < of_b && c < b.nchannels() ? b.deep_value(x, y, z, c, s) : 0;
-            if (unlike(value_a, value_b))
+            if (mismatch(value_a, value_b))
                 return c;
         }
     }
@@ -91,10 +91,10 @@ int unlike_samples(const OIIO::ImageBuf& a, const OIIO::ImageBuf& b, int x, int 
 }
 
 void look_at_samples(const OIIO::ImageBuf& a, const OIIO::ImageBuf& b, const OIIO::ROI& rows,
-                     Unlike& found) {
+                     NonfiniteMismatch& found) {
     for (int y = rows.ybegin; y < rows.yend; ++y) {
         for (int x = rows.xbegin; x < rows.xend; ++x) {
-            const int channel = unlike_samples(a, b, x, y, rows.zbegin);
+            const int channel = mismatched_channel(a, b, x, y, rows.zbegin);
             if (channel >= 0)
                 note(found, x, y, rows.zbegin, channel);
         }
@@ -103,8 +103,8 @@ void look_at_samples(const OIIO::ImageBuf& a, const OIIO::ImageBuf& b, const OII
 
 } // namespace
 
-Unlike unlike_values(const OIIO::ImageBuf& a, const OIIO::ImageBuf& b) {
-    Unlike found;
+NonfiniteMismatch find_nonfinite_mismatch(const OIIO::ImageBuf& a, const OIIO::ImageBuf& b) {
+    NonfiniteMismatch found;
     const bool deep = a.deep() && b.deep();
     if ((has_numbers_only(a) && has_numbers_only(b)) || (a.deep() != b.deep()))
         return found;
