@@ -14,7 +14,6 @@
 
 namespace tonetool::chain {
 
-
 class Call {
 public:
     /// Checks the keys of the modifiers against the row; if `lenient`, unknown ones are ignored.

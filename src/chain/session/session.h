@@ -25,7 +25,6 @@ struct CheckPart;
 
 namespace tonetool::chain {
 
-
 /// What the frame loop has put in place of wildcards.
 struct Frame {
     int number = 0, padding = 0;
