@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <iterator>
 
+#include "chain/language/line.h"
 #include "chain/session/call.h"
 #include "recipe/nesting.h"
 #include "runs/runs.h"
@@ -20,17 +21,6 @@ bool has(const Strings& names, const std::string& name) {
     return std::find(names.begin(), names.end(), name) != names.end();
 }
 
-// One image in, one of the same windows, channels and kind out.
-const Strings kKeepHeader = {
-    "addc",     "subc",         "mulc",     "divc",     "absdiffc",    "powc",        "maxc",
-    "minc",     "abs",          "clamp",    "exposure", "tonemap",     "calibrate",   "attrib",
-    "sattrib",  "eraseattrib",  "caption",  "keyword",  "label",       "ociodisplay", "ociolook",
-    "ccmatrix", "colorconvert", "saturate", "invert",   "iscolorspace"};
-// A reference and a test in, a float map of one channel on top.
-const Strings kMakeMap = {"hdrflip", "ldrflip"};
-// What they print or set changes no image's header.
-const Strings kSettings = {"colorconfig", "echo", "v", "q", "nosoftwareattrib"};
-
 struct Planned {
     OIIO::ImageSpec header;
     bool read = true; ///< written in the type of the file that was read last
@@ -39,16 +29,13 @@ struct Planned {
 class Plan {
 public:
     Plan(Strings words, std::string folder)
-        : m_words(std::move(words)),
+        : m_line(chain::parse_line(std::move(words))),
           m_folder(std::move(folder)) {}
 
     std::optional<OIIO::ImageSpec> run() {
-        runs::know_all_commands();
-        while (m_next < m_words.size()) {
-            const std::string& word = m_words[m_next++];
-            if (!is_plain(word) || !(word[0] == '-' ? command(word) : file(word)))
+        for (const chain::Word& word : m_line.words)
+            if (!is_plain(word) || !(word.token.is_command ? command(word) : file(word.token.text)))
                 return std::nullopt;
-        }
         if (m_stack.empty())
             return std::nullopt;
         Planned& top = m_stack.back();
@@ -57,9 +44,14 @@ public:
     }
 
 private:
-    // Neither an {expression} nor a wildcard.
-    static bool is_plain(const std::string& word) {
-        return !word.empty() && word.find('{') == std::string::npos && !sequence::is_pattern(word);
+    // Neither an {expression} nor a wildcard in it or its arguments.
+    bool is_plain(const chain::Word& word) const {
+        const auto begin = m_line.texts.begin();
+        return std::all_of(begin + std::ptrdiff_t(word.at), begin + std::ptrdiff_t(word.end()),
+                           [](const std::string& text) {
+                               return !text.empty() && text.find('{') == std::string::npos &&
+                                      !sequence::is_pattern(text);
+                           });
     }
 
     bool file(const std::string& name) {
@@ -76,18 +68,13 @@ private:
         return one;
     }
 
-    bool command(const std::string& word) {
-        const Token token = parse_token(word);
-        const chain::Command* row = chain::find_command(token.name);
-        if (!row || !token.value.empty())
+    bool command(const chain::Word& word) {
+        const Token& token = word.token;
+        if (!word.row || !word.missing.empty() || !token.problem.empty() || !token.value.empty())
             return false;
-        const Call call(*row, token, {});
-        const std::string& name = row->names.front();
-        for (size_t i = 0; i < row->args.size(); ++i, ++m_next)
-            if (m_next >= m_words.size() || !is_plain(m_words[m_next]))
-                return false;
-        const bool keeps = has(kKeepHeader, name) && !m_stack.empty();
-        return keeps || has(kSettings, name) || (has(kMakeMap, name) && map(call));
+        const Call call(*word.row, token, {});
+        const bool keeps = word.row->keeps_header && (word.row->pops == 0 || !m_stack.empty());
+        return keeps || (word.row->makes_map && map(call));
     }
 
     // Thresholds decide whether there is a picture at all.
@@ -113,9 +100,8 @@ private:
                size(test.roi_full()) == size(window);
     }
 
-    Strings m_words;
+    chain::ParsedLine m_line;
     std::string m_folder;
-    size_t m_next = 0;
     std::vector<Planned> m_stack; ///< the top is the last
     OIIO::TypeDesc m_read_type;
 };
@@ -125,6 +111,7 @@ private:
 std::optional<OIIO::ImageSpec> planned_header(const Source& source) {
     try {
         const Nesting nesting(source.file);
+        runs::know_all_commands();
         return Plan(parse(read_text(source.file), source.parameters),
                     std::filesystem::path(source.file).parent_path().string())
             .run();

@@ -52,18 +52,17 @@ std::vector<EndFile> places_of(const CheckPlan& check) {
     return places;
 }
 
-// The names of files that are read, images and others.
-Strings files_read(const CheckPlan& check, const Strings& words) {
-    Strings files = words_at(words, check.inputs);
-    for (const LeadWord& lead : lead_words(words)) {
-        if (!lead.row)
+// The names of files that a run of the line reads, images and others.
+Strings files_read(const FramePlan& plan, const Strings& texts) {
+    Strings files = words_at(texts, plan.check.inputs);
+    for (const chain::Word& word : plan.line.words) {
+        if (!word.row)
             continue;
-        const Token token = parse_token(words[lead.at], true);
-        for (size_t i = 0; i < lead.arguments.size() && !lead.row->writes(); ++i)
-            if (chain::names_file(lead.row->args[token.value.size() + i]))
-                files.push_back(words[lead.arguments[i]]);
-        for (const auto& [key, text] : token.modifiers) {
-            for (const chain::Modifier& modifier : lead.row->modifiers)
+        for (size_t i = 0; i < word.arguments.size() && !word.row->writes(); ++i)
+            if (chain::names_file(word.argument_name(i)))
+                files.push_back(texts[word.arguments[i]]);
+        for (const auto& [key, text] : parse_token(texts[word.at], true).modifiers) {
+            for (const chain::Modifier& modifier : word.row->modifiers)
                 if (modifier.key == key && chain::names_file(modifier.hint))
                     files.push_back(text);
         }
@@ -71,13 +70,13 @@ Strings files_read(const CheckPlan& check, const Strings& words) {
     return files;
 }
 
-void refuse_in_run(const CheckPlan& check, const std::vector<EndFile>& places,
-                   const Strings& words) {
-    const Strings read = files_read(check, words), outputs = words_at(words, check.outputs);
+void refuse_in_run(const FramePlan& plan, const std::vector<EndFile>& places,
+                   const Strings& texts) {
+    const Strings read = files_read(plan, texts), outputs = words_at(texts, plan.check.outputs);
     for (const EndFile& place : places) {
         for (const std::string& file : read) {
             // The JSON of a check has the exposures that were read of it.
-            const bool keeps = place.command == "json" && file == check.exposures;
+            const bool keeps = place.command == "json" && file == plan.check.exposures;
             if (!keeps && place.is(file))
                 place.refuse(file, "is read, and would be written over");
         }
@@ -89,10 +88,14 @@ void refuse_in_run(const CheckPlan& check, const std::vector<EndFile>& places,
 
 } // namespace
 
-void refuse_to_write_over(const CheckPlan& check, const std::vector<FrameRun>& runs) {
-    const std::vector<EndFile> places = places_of(check);
-    for (size_t i = 0; i < runs.size() && !places.empty(); ++i)
-        refuse_in_run(check, places, runs[i].words);
+void refuse_to_write_over(const FramePlan& plan) {
+    const std::vector<EndFile> places = places_of(plan.check);
+    if (places.empty())
+        return;
+    if (plan.check.has("merge"))
+        refuse_in_run(plan, places, plan.line.texts);
+    for (const FrameRun& run : plan.runs)
+        refuse_in_run(plan, places, run.words);
 }
 
 Strings words_at(const Strings& words, const std::vector<size_t>& places) {
@@ -132,26 +135,27 @@ int conclude_check(const sequence::ShotResult& shot, const FramePlan& plan,
     for (const std::string& error : errors)
         err << "tonetool ERROR: " << printable(error) << '\n';
     const int verdict = exit_status(shot.verdict, plan.warnings_exit);
-    const int status = plan.compat && verdict == 3 ? 1 : verdict;
+    const int status = plan.line.compat && verdict == 3 ? 1 : verdict;
     return errors.empty() ? status : 1;
 }
 
-int merge_parts(const Strings& words, const FramePlan& plan, std::ostream& out, std::ostream& err) {
+int merge_parts(const FramePlan& plan, std::ostream& out, std::ostream& err) {
     const CheckPlan& check = plan.check;
-    const Strings parts = words_at(words, check.inputs);
+    const Strings& texts = plan.line.texts;
+    const Strings parts = words_at(texts, check.inputs);
     if (parts != check.essence) {
         throw CommandError("--merge takes results alone (valid: --merge PART.json ... with --json, "
                            "--csv and the like)");
     }
     sequence::check_places(check.words);
-    refuse_to_write_over(check, {{words, {}}});
+    refuse_to_write_over(plan);
     if (check.has("statistics")) {
         write_statistics(check, sequence::merged_exposures(parts));
         return 0;
     }
     Strings complaints;
     const sequence::ShotResult shot = sequence::merged(parts, check.expected, complaints);
-    chain::Session session(out, err, full_command_line(words, plan.compat));
+    chain::Session session(out, err, full_command_line(plan.line, texts, plan.line.compat));
     for (const std::string& complaint : complaints)
         session.error("merge", complaint);
     if (check.has("pictures") && !OIIO::Filesystem::is_directory(check.argument("pictures")))

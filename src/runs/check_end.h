@@ -20,7 +20,7 @@ std::string picture_folder(const CheckPlan& check);
 
 /// A CommandError where a file that is written at the end is one that the line, with the words of
 /// one of its runs, reads or writes itself, by whatever name.
-void refuse_to_write_over(const CheckPlan& check, const std::vector<FrameRun>& runs);
+void refuse_to_write_over(const FramePlan& plan);
 
 /// Prints the verdict of a check, then writes its files, those that can be written: none with
 /// -n. The exit status.
@@ -31,6 +31,6 @@ int conclude_check(const sequence::ShotResult& shot, const FramePlan& plan,
 void write_statistics(const CheckPlan& check, const std::string& text);
 
 /// --merge: the results of parts of a shot as one.
-int merge_parts(const Strings& words, const FramePlan& plan, std::ostream& out, std::ostream& err);
+int merge_parts(const FramePlan& plan, std::ostream& out, std::ostream& err);
 
 } // namespace tonetool::runs

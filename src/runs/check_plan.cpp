@@ -3,55 +3,51 @@
 #include <algorithm>
 #include <set>
 
-#include "chain/language/registry.h"
-#include "runs/frames.h"
 #include "text/error.h"
-#include "text/token.h"
 
 namespace tonetool::runs {
 
 namespace {
 
 using chain::Command;
-using chain::find_command;
 using chain::Group;
+using chain::Word;
 
 class Walk {
 public:
-    Walk(const Strings& words, bool compat) : m_words(words), m_compat(compat) {}
+    explicit Walk(const chain::ParsedLine& line) : m_line(line) {}
 
     CheckPlan plan() {
-        for (const LeadWord& lead : lead_words(m_words))
-            if (lead.row)
-                take_command(lead);
+        for (const Word& word : m_line.words)
+            if (word.row)
+                take_command(word);
             else
-                take_file(lead.at);
+                take_file(word.at);
         check_merge();
         return std::move(m_plan);
     }
 
 private:
-    void keep(size_t at, const std::string& word) {
-        m_plan.essence.push_back(word);
+    const std::string& text(size_t at) const { return m_line.texts[at]; }
+
+    void keep(size_t at, const std::string& text) {
+        m_plan.essence.push_back(text);
         m_plan.essence_at.push_back(at);
     }
 
-    void take_command(const LeadWord& lead) {
-        const Command& row = *lead.row;
-        const size_t at = lead.at;
-        const std::string& name = row.names.front();
-        const bool check = row.group == Group::Check;
-        const bool manner = check || row.manner || name == "n";
-        note_blocks(name);
-        m_plan.dry_run |= name == "n";
-        note_what_is_judged(row, at);
+    void take_command(const Word& word) {
+        const bool check = word.row->group == Group::Check;
+        const bool manner = check || word.row->manner || word.is("n");
+        note_blocks(word.row->names.front());
+        m_plan.dry_run |= word.is("n");
+        note_what_is_judged(word);
         if (!manner)
-            keep(at, with_shot_exposures(m_words[at]));
+            keep(word.at, with_shot_exposures(word.token));
         // What --qc looks for is part of what comes of the line.
-        if (check || name == "qc")
-            take_check(lead);
-        for (const size_t argument : lead.arguments)
-            take_argument(row, manner, argument);
+        if (check || word.is("qc"))
+            take_check(word);
+        for (const size_t argument : word.arguments)
+            take_argument(word, manner, argument);
     }
 
     void note_blocks(const std::string& name) {
@@ -61,77 +57,69 @@ private:
     }
 
     // oiiotool's own commands are as lenient as it is with --compat.
-    void note_what_is_judged(const Command& row, size_t at) {
-        if (m_compat && !row.own)
+    void note_what_is_judged(const Word& word) {
+        const Command& row = *word.row;
+        if (m_line.compat && !row.own)
             return;
-        const std::string& name = row.names.front();
         m_plan.compares |= row.group == Group::Compare && row.pops > 0;
-        m_plan.has_limits |= name == "diff" || name == "pdiff";
-        for (const auto& [key, text] : parse_token(m_words[at], true).modifiers) {
+        m_plan.has_limits |= word.is("diff") || word.is("pdiff");
+        for (const auto& [key, value] : word.token.modifiers) {
             m_plan.has_limits |= key == "fail" || key == "warn";
-            for (const chain::Modifier& modifier : row.modifiers)
-                if (modifier.key == key && modifier.writes() && m_depth == 0)
-                    m_plan.always_written.push_back(at);
+            if (row.writes_to(key) && m_depth == 0)
+                m_plan.always_written.push_back(word.at);
         }
     }
 
-    static bool is_known_command(const std::string& word) {
-        return word.size() > 1 && word[0] == '-' && find_command(parse_token(word, true).name);
-    }
-
-    void take_check(const LeadWord& lead) {
-        const Strings& arguments = lead.row->args;
-        const std::string& name = lead.row->names.front();
-        const std::string argument = lead.arguments.empty() ? "" : m_words[lead.arguments.front()];
-        if (!arguments.empty() && (lead.arguments.empty() || is_known_command(argument)))
-            throw CommandError("--" + name + ": missing argument " + arguments.front());
-        if (!arguments.empty() && argument.empty()) {
-            throw CommandError("--" + name + ": " + arguments.front() +
-                               " is empty (valid: a name, --" + name + " " + arguments.front() +
-                               ")");
+    void take_check(const Word& word) {
+        const std::string name = "--" + word.row->names.front();
+        const std::string argument = word.arguments.empty() ? "" : text(word.arguments.front());
+        if (!word.missing.empty())
+            throw CommandError(name + ": missing argument " + word.missing);
+        if (!word.arguments.empty() && argument.empty()) {
+            const std::string& what = word.argument_name(0);
+            throw CommandError(name + ": " + what + " is empty (valid: a name, " + name + " " +
+                               what + ")");
         }
-        if (!m_plan.words.emplace(name, argument).second)
-            throw CommandError("--" + name + " is given twice");
+        if (!m_plan.words.emplace(word.row->names.front(), argument).second)
+            throw CommandError(name + " is given twice");
     }
 
-    void take_argument(const Command& row, bool manner, size_t at) {
-        const std::string& name = row.names.front();
-        if (name == "frames")
-            for (int frame : sequence::parse_frames(m_words[at], m_compat))
+    void take_argument(const Word& word, bool manner, size_t at) {
+        if (word.is("frames"))
+            for (int frame : sequence::parse_frames(text(at), m_line.compat))
                 m_plan.expected.push_back({frame, ""});
         if (manner)
             return;
-        if (row.group == Group::Write && name[0] == 'o') {
+        if (word.row->group == Group::Write && word.row->names.front()[0] == 'o') {
             m_plan.outputs.push_back(at);
-            if (m_depth == 0 && !m_compat)
+            if (m_depth == 0 && !m_line.compat)
                 m_plan.always_written.push_back(at);
-        } else if (name == "i") {
+        } else if (word.is("i")) {
             m_plan.inputs.push_back(at);
-        } else if (name == "label") {
-            m_labels.insert(m_words[at]);
+        } else if (word.is("label")) {
+            m_labels.insert(text(at));
         }
-        keep(at, sequence::without_range(m_words[at]));
+        keep(at, sequence::without_range(text(at)));
     }
 
     void take_file(size_t at) {
-        const std::string& word = m_words[at];
         if (m_plan.has("merge")) { // parts are names, whatever signs are in them
             m_plan.inputs.push_back(at);
-            keep(at, word);
+            keep(at, text(at));
             return;
         }
-        if (m_labels.count(word) == 0 && word.find('{') == std::string::npos)
+        if (m_labels.count(text(at)) == 0 && text(at).find('{') == std::string::npos)
             m_plan.inputs.push_back(at);
-        keep(at, sequence::without_range(word));
+        keep(at, sequence::without_range(text(at)));
     }
 
     // The range of a shot is the same whether it was measured now or is read from a file.
-    std::string with_shot_exposures(const std::string& word) {
+    std::string with_shot_exposures(const Token& token) {
         std::string value;
-        for (const auto& [key, text] : parse_token(word, true).modifiers)
-            value = key == "exposures" && text != "frame" ? text : value;
+        for (const auto& [key, given] : token.modifiers)
+            value = key == "exposures" && given != "frame" ? given : value;
         if (value.empty())
-            return word;
+            return token.text;
         if (!m_plan.exposures.empty() && m_plan.exposures != value) {
             throw CommandError("exposures=" + m_plan.exposures + " and exposures=" + value +
                                " exclude each other (valid: one range on a command line)");
@@ -142,10 +130,7 @@ private:
                                "exposures=FILE for more)");
         }
         m_plan.exposures = value;
-        const size_t begin = word.find(":exposures=") + 11;
-        const bool quoted = word[begin] == '\'' || word[begin] == '"';
-        const size_t end = quoted ? word.find(word[begin], begin + 1) + 1 : word.find(':', begin);
-        return word.substr(0, begin) + "shot" + (end < word.size() ? word.substr(end) : "");
+        return token.with_value("exposures", "shot");
     }
 
     void check_merge() const {
@@ -157,10 +142,9 @@ private:
         }
     }
 
-    const Strings& m_words;
+    const chain::ParsedLine& m_line;
     CheckPlan m_plan;
     std::set<std::string> m_labels;
-    bool m_compat;
     int m_shot_commands = 0;
     int m_depth = 0; ///< of --if, --while and --for
 };
@@ -179,8 +163,8 @@ bool CheckPlan::is_input(size_t at) const {
     return std::find(inputs.begin(), inputs.end(), at) != inputs.end();
 }
 
-CheckPlan plan_check(const Strings& words, bool compat) {
-    return Walk(words, compat).plan();
+CheckPlan plan_check(const chain::ParsedLine& line) {
+    return Walk(line).plan();
 }
 
 } // namespace tonetool::runs

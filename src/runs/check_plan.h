@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "chain/language/registry.h"
+#include "chain/language/line.h"
 #include "sequence/frames/file_sequence.h"
 #include "text/text.h"
 
@@ -46,6 +46,6 @@ struct CheckPlan {
 };
 
 /// A CommandError where the words of a check are not whole or exclude each other.
-CheckPlan plan_check(const Strings& words, bool compat = false);
+CheckPlan plan_check(const chain::ParsedLine& line);
 
 } // namespace tonetool::runs

@@ -21,7 +21,7 @@ using sequence::State;
 
 class PlanRun {
 public:
-    PlanRun(FramePlan& plan, std::ostream& out, std::ostream& err, bool workers)
+    PlanRun(const FramePlan& plan, std::ostream& out, std::ostream& err, bool workers)
         : m_plan(plan),
           m_out(out),
           m_err(err),
@@ -37,7 +37,7 @@ private:
     void prepare();
     void remove_abandoned() const;
 
-    FramePlan& m_plan;
+    const FramePlan& m_plan;
     std::ostream& m_out;
     std::ostream& m_err;
     Place m_place;
@@ -79,7 +79,7 @@ int PlanRun::check() {
 void PlanRun::prepare() {
     const CheckPlan& check = m_plan.check;
     sequence::check_places(check.words);
-    refuse_to_write_over(check, m_plan.runs);
+    refuse_to_write_over(m_plan);
     if (check.has("state") && !check.dry_run) {
         m_state.emplace(check.argument("state"), "frame");
         m_sample_state.emplace(check.argument("state"), "exposures");
@@ -139,9 +139,8 @@ int PlanRun::find_exposures() {
 
 } // namespace
 
-int run_plan(const Strings& words, FramePlan plan, std::ostream& out, std::ostream& err,
-             bool workers) {
-    return plan.check.has("merge") ? merge_parts(words, plan, out, err)
+int run_plan(const FramePlan& plan, std::ostream& out, std::ostream& err, bool workers) {
+    return plan.check.has("merge") ? merge_parts(plan, out, err)
                                    : PlanRun(plan, out, err, workers).run();
 }
 

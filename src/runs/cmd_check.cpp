@@ -10,8 +10,10 @@ using chain::Session;
 
 std::vector<Command> check_commands() {
     const auto row = [](const char* name, Strings args, const char* help) {
-        return chain::setting(Group::Check, {name}, std::move(args), help,
-                              [](Session&, const Call&) {});
+        Command made = chain::setting(Group::Check, {name}, std::move(args), help,
+                                      [](Session&, const Call&) {});
+        made.whole_line = true;
+        return made;
     };
     return {
         row("json", {"FILE"}, "Write what was found in all frames, at the end, as JSON"),

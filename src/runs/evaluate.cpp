@@ -78,7 +78,7 @@ void take_images(Session& session, Evaluation& result) {
     }
 }
 
-void evaluate_one(Session& session, std::vector<OIIO::ImageBuf>& images, FramePlan plan,
+void evaluate_one(Session& session, std::vector<OIIO::ImageBuf>& images, const FramePlan& plan,
                   Evaluation& result) {
     if (plan.runs.size() != 1) {
         throw CommandError("wildcards fit " + std::to_string(plan.runs.size()) +
@@ -103,15 +103,15 @@ void evaluate_one(Session& session, std::vector<OIIO::ImageBuf>& images, FramePl
 Evaluation evaluate(const Strings& given, std::vector<OIIO::ImageBuf> images,
                     const chain::Policy& policy) {
     know_all_commands();
-    const Strings words = with_values_apart(given);
+    const chain::ParsedLine line = chain::parse_line(given);
     Evaluation result;
     std::ostringstream out, err;
-    Session session(out, err, full_command_line(words, false));
-    session.compat = is_compat(words);
+    Session session(out, err, full_command_line(line, line.texts, false));
+    session.compat = line.compat;
     session.policy = policy;
     session.for_images = true;
     try {
-        evaluate_one(session, images, plan_frames(words, policy.directory, true), result);
+        evaluate_one(session, images, plan_frames(line, policy.directory, true), result);
     } catch (const std::exception& problem) {
         session.error("", problem.what());
     }

@@ -66,8 +66,8 @@ chain::CheckPart FrameContext::part() const {
 
 Session FrameContext::session(size_t index, std::ostream& out, std::ostream& err) const {
     const FrameRun& run = plan.runs[index];
-    Session session(out, err, full_command_line(run.words, plan.compat));
-    session.compat = plan.compat;
+    Session session(out, err, full_command_line(plan.line, run.words, plan.line.compat));
+    session.compat = plan.line.compat;
     session.frame = run.frame;
     session.in_all_frames = [this](size_t at) {
         Strings names;
@@ -295,7 +295,7 @@ Ran CheckedFrames::failed(size_t index, Status status, const std::string& why, s
 }
 
 void CheckedFrames::claim(const Strings& written, FrameResult& result, Ran& ran) const {
-    if (m_context.plan.compat)
+    if (m_context.plan.line.compat)
         return;
     try {
         for (const std::string& file : written)

@@ -7,7 +7,7 @@
 #include <mutex>
 #include <string>
 
-#include "runs/frames.h"
+#include "runs/progress.h"
 #include "sequence/results/results.h"
 
 namespace tonetool::runs {

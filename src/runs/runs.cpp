@@ -37,19 +37,18 @@ bool reader_has_gone() {
 
 int run(const Strings& given, std::ostream& out, std::ostream& err, bool workers) {
     know_all_commands();
-    const Strings words = with_values_apart(given);
-    if (words.empty()) {
+    if (given.empty()) {
         err << chain::usage_text();
         return 1;
     }
     int status = 0;
-    const bool compat = is_compat(words);
-    chain::Session whole(out, err, compat ? "" : full_command_line(words, false));
-    whole.compat = compat;
+    const chain::ParsedLine line = chain::parse_line(given);
+    chain::Session whole(out, err, line.compat ? "" : full_command_line(line, line.texts, false));
+    whole.compat = line.compat;
     try {
-        const FramePlan plan = plan_frames(words);
+        const FramePlan plan = plan_frames(line);
         std::ostream& told = sequence::has_standard_output(plan.check.words) ? err : out;
-        status = run_plan(words, plan, told, err, workers);
+        status = run_plan(plan, told, err, workers);
         if (plan.runs.empty() && !plan.check.has("merge"))
             whole.warning("", chain::kNoOutput);
     } catch (const std::exception& problem) {

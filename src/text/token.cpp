@@ -36,7 +36,7 @@ std::string take_value(const std::string& word, size_t& at) {
     return value;
 }
 
-void take_modifier(Token& token, size_t& at, bool lenient) {
+void take_modifier(Token& token, size_t& at) {
     const std::string& word = token.text;
     size_t colon = std::min(word.find(':', at), word.size());
     const std::string text = word.substr(at, colon - at);
@@ -46,15 +46,17 @@ void take_modifier(Token& token, size_t& at, bool lenient) {
     if (key.size() == text.size() || !is_identifier(key))
         throw CommandError("malformed modifier \"" + text + "\", not key=value");
     at += key.size() + 1;
+    const size_t begin = at;
     std::string value = take_value(word, at);
     if (value.empty())
         throw CommandError("modifier \"" + key + "\" has no value");
     for (auto& [known, given] : token.modifiers) {
-        if (known == key && !lenient)
-            throw CommandError("modifier \"" + key + "\" is given twice");
+        if (known == key && token.problem.empty())
+            token.problem = "modifier \"" + key + "\" is given twice";
         given = known == key ? value : given;
     }
     token.modifiers.emplace_back(key, value);
+    token.values.emplace_back(begin, at);
 }
 
 } // namespace
@@ -75,16 +77,25 @@ Token parse_token(const std::string& word, bool lenient) {
     while (at < word.size()) {
         size_t begins = ++at; // behind the ':'
         try {
-            take_modifier(token, at, lenient);
-        } catch (const CommandError&) {
-            if (!lenient)
-                throw;
+            take_modifier(token, at);
+        } catch (const CommandError& problem) {
+            token.problem = token.problem.empty() ? problem.what() : token.problem;
             at = std::min(word.find(':', begins), word.size());
             if (at > begins)
                 token.dropped.push_back(word.substr(begins, at - begins));
         }
     }
+    if (!lenient && !token.problem.empty())
+        throw CommandError(token.problem);
     return token;
+}
+
+std::string Token::with_value(const std::string& key, const std::string& other) const {
+    std::string word = text;
+    for (size_t i = modifiers.size(); i-- > 0;)
+        if (modifiers[i].first == key)
+            word.replace(values[i].first, values[i].second - values[i].first, other);
+    return word;
 }
 
 } // namespace tonetool

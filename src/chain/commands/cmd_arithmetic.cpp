@@ -79,10 +79,11 @@ const std::vector<OpRow> kImageRows = {
 };
 
 const std::vector<OpRow> kValueRows = {
-    {"abs", 1, "Absolute value", [](Op& op) { return IBA::abs(op.dst, op.a()); }},
-    {"invert", 1, "Subtract the colour from 1", invert,
-     "chbegin=N: first channel (0)\n"
-     "chend=N: one past the last channel (3)"},
+    keeping_header(
+        OpRow{"abs", 1, "Absolute value", [](Op& op) { return IBA::abs(op.dst, op.a()); }}),
+    keeping_header(OpRow{"invert", 1, "Subtract the colour from 1", invert,
+                         "chbegin=N: first channel (0)\n"
+                         "chend=N: one past the last channel (3)"}),
     {"maxchan", 1, "The largest of the channels of each pixel",
      [](Op& op) { return IBA::maxchan(op.dst, op.a()); }},
     {"minchan", 1, "The smallest of the channels of each pixel",
@@ -90,8 +91,8 @@ const std::vector<OpRow> kValueRows = {
     {"chsum", 1, "Sum of the channels",
      [](Op& op) { return IBA::channel_sum(op.dst, op.a(), op.values("weight", 1)); },
      "weight=VALUES: weight of each channel (1)"},
-    named("", {"clamp", 1, "Clamp the values", clamp, kLimits + "clampalpha=0|1: alpha to 0..1",
-               Scope::Levels}),
+    keeping_header(named("", {"clamp", 1, "Clamp the values", clamp,
+                              kLimits + "clampalpha=0|1: alpha to 0..1", Scope::Levels})),
     {"contrast", 1, "Remap black to min and white to max, with a contrast curve", contrast,
      kLimits + "black=VALUES: what becomes min (0)\n"
                "white=VALUES: what becomes max (1)\n"
@@ -99,8 +100,8 @@ const std::vector<OpRow> kValueRows = {
                "scontrast=VALUES: its slope (1: none)\n"
                "gamma=VALUES: has no effect\n"
                "clamp=0|1: clamp to min..max"},
-    {"saturate SCALE", 1, "Scale the saturation (0: grey)",
-     [](Op& op) { return IBA::saturate(op.dst, op.a(), op.number(0)); }},
+    keeping_header(OpRow{"saturate SCALE", 1, "Scale the saturation (0: grey)",
+                         [](Op& op) { return IBA::saturate(op.dst, op.a(), op.number(0)); }}),
     {"rangecompress", 1, "Compress values beyond 1 by a logarithm",
      [](Op& op) { return IBA::rangecompress(op.dst, op.a(), op.flag("luma")); }, kLuma},
     {"rangeexpand", 1, "Undo --rangecompress",
@@ -154,7 +155,7 @@ std::string noise_modifiers() {
 }
 
 std::vector<Command> arithmetic_commands() {
-    std::vector<Command> all = op_rows(Group::Arithmetic, kConstantRows);
+    std::vector<Command> all = keeping_headers(op_rows(Group::Arithmetic, kConstantRows));
     append(all, op_rows(Group::Arithmetic, kImageRows));
     append(all, op_rows(Group::Arithmetic, kValueRows));
     return all;

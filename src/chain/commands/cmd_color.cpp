@@ -33,10 +33,11 @@ std::vector<Command> color_commands() {
         {{"colormap MAPNAME", 1,
           "Show values as colours: " + join(ToneAlgo::color_maps(), ", ") + ", or RGB triples",
           colormap}});
-    all.push_back({{{"colorconfig"}, {"FILE"}, 0, 0, Group::Color},
-                   {},
-                   "OpenColorIO configuration of the commands that follow ($OCIO)",
-                   run_colorconfig});
+    all.push_back(
+        keeping_header(Command{{{"colorconfig"}, {"FILE"}, 0, 0, Group::Color},
+                               {},
+                               "OpenColorIO configuration of the commands that follow ($OCIO)",
+                               run_colorconfig}));
     return all;
 }
 

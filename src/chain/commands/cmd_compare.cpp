@@ -388,6 +388,7 @@ std::vector<Command> compare_commands() {
                      run_tmqi)};
     rows.front().pops_of = hdrflip_pops;
     rows.front().pushes_of = hdrflip_pushes;
+    rows[0].makes_map = rows[1].makes_map = true; // --hdrflip and --ldrflip
     return rows;
 }
 

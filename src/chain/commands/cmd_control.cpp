@@ -110,8 +110,6 @@ void run_set(Session& session, const Call& call) {
     }
 }
 
-void nothing(Session&, const Call&) {}
-
 } // namespace
 
 std::vector<Command> control_commands() {
@@ -124,11 +122,16 @@ std::vector<Command> control_commands() {
     Command set =
         row("set", {"NAME", "VALUE"}, "Set a variable, the {NAME} of expressions", run_set, false);
     set.modifiers = {{"type", "TYPE", "its data type: int, float, string, ... (as it looks)"}};
-    Command parallel =
-        of_manner(row("parallel-frames", {"[N]"},
-                      "Work on N frames at a time, on one per core without N; --memory is for all "
-                      "of them",
-                      nothing, false));
+    const auto whole_line = [](const char* name, Strings args, const char* help) {
+        Command made =
+            setting(Group::Control, {name}, std::move(args), help, [](Session&, const Call&) {});
+        made.whole_line = true;
+        return made;
+    };
+    Command parallel = of_manner(
+        whole_line("parallel-frames", {"[N]"},
+                   "Work on N frames at a time, on one per core without N; --memory is for all "
+                   "of them"));
     parallel.names.push_back("jobs");
     return {
         set,
@@ -149,26 +152,20 @@ std::vector<Command> control_commands() {
         row(
             "evalon", {}, "Replace {expressions} by their values in what follows",
             [](Session& session, const Call&) { session.evaluate = true; }, false),
-        of_manner(row("frames", {"RANGE"},
-                      "Run the command line for each of these frames (1-10, 1,3,5-9, 1-10x2)",
-                      nothing, false)),
-        row("framepadding", {"DIGITS"}, "Digits of frame numbers in file names, 1 to 9", nothing,
-            false),
-        row("views", {"NAMES"}, "Views that %V and %v stand for (left,right)", nothing, false),
-        row("wildcardoff", {}, "What follows has no wildcards for frames and views", nothing,
-            false),
-        row("wildcardon", {}, "What follows has wildcards for frames and views again", nothing,
-            false),
         of_manner(
-            row("skip-bad-frames", {}, "After an error go on with the next frame", nothing, false)),
+            whole_line("frames", {"RANGE"},
+                       "Run the command line for each of these frames (1-10, 1,3,5-9, 1-10x2)")),
+        whole_line("framepadding", {"DIGITS"}, "Digits of frame numbers in file names, 1 to 9"),
+        whole_line("views", {"NAMES"}, "Views that %V and %v stand for (left,right)"),
+        whole_line("wildcardoff", {}, "What follows has no wildcards for frames and views"),
+        whole_line("wildcardon", {}, "What follows has wildcards for frames and views again"),
+        of_manner(whole_line("skip-bad-frames", {}, "After an error go on with the next frame")),
         parallel,
-        of_manner(
-            row("progress", {"=FORMAT"},
-                "Report frames done, rate and time left to the standard error (--progress=json: as "
-                "JSON)",
-                nothing, false)),
-        row("compat", {}, "Be as lenient as oiiotool, with its messages and exit status", nothing,
-            false),
+        of_manner(whole_line(
+            "progress", {"=FORMAT"},
+            "Report frames done, rate and time left to the standard error (--progress=json: as "
+            "JSON)")),
+        whole_line("compat", {}, "Be as lenient as oiiotool, with its messages and exit status"),
     };
 }
 

@@ -60,10 +60,10 @@ void run_luminance(Session& session, const Call& call) {
 } // namespace
 
 std::vector<Command> exposure_commands() {
-    return {{{{"exposure"}, {"STOPS"}, 1, 1, Group::Color},
-             pixel_modifiers(),
-             "Multiply the colour by 2^STOPS",
-             run_exposure},
+    return {keeping_header(Command{{{"exposure"}, {"STOPS"}, 1, 1, Group::Color},
+                                   pixel_modifiers(),
+                                   "Multiply the colour by 2^STOPS",
+                                   run_exposure}),
             {{{"luminancestats"}, {}, 1, 1, Group::Measure},
              pixel_modifiers(),
              "Print the luminance statistics of the current image",

@@ -43,16 +43,17 @@ std::vector<Command> talk_rows() {
                 session.produced = true;
                 session.print(TONETOOL_VERSION);
             }),
-        of_manner(row("v", "Say what is read and written",
-                      [](Session& session, const Call&) {
-                          session.verbose = true;
-                          session.quiet = false;
-                      })),
-        of_manner(row("q", "Quiet: measurements print only warnings, failures and errors",
-                      [](Session& session, const Call&) {
-                          session.quiet = true;
-                          session.verbose = false;
-                      })),
+        keeping_header(of_manner(row("v", "Say what is read and written",
+                                     [](Session& session, const Call&) {
+                                         session.verbose = true;
+                                         session.quiet = false;
+                                     }))),
+        keeping_header(
+            of_manner(row("q", "Quiet: measurements print only warnings, failures and errors",
+                          [](Session& session, const Call&) {
+                              session.quiet = true;
+                              session.verbose = false;
+                          }))),
         of_manner(
             row("debug", "Say what is done",
                 [](Session& session, const Call&) { session.debug = session.verbose = true; })),

@@ -125,8 +125,8 @@ std::vector<Command> inspect_commands() {
             [](Session& session, const Call& call) {
                 session.list.no_metamatch = call.argument(0);
             }),
-        row("echo", {"TEXT"}, "Print a text", run_echo,
-            {{"newline", "N", "line ends after it (1)"}}),
+        keeping_header(row("echo", {"TEXT"}, "Print a text", run_echo,
+                           {{"newline", "N", "line ends after it (1)"}})),
         image_row("printinfo", "Print information about the current image", run_printinfo,
                   {format,
                    {"verbose", "0|1", "with the metadata (1)"},

@@ -138,7 +138,7 @@ const std::vector<HeaderRow> kWindowRows = {
 } // namespace
 
 std::vector<Command> metadata_commands() {
-    std::vector<Command> all = header_rows(Group::Metadata, kAttributeRows);
+    std::vector<Command> all = keeping_headers(header_rows(Group::Metadata, kAttributeRows));
     append(all, header_rows(Group::Metadata, kWindowRows));
     return all;
 }

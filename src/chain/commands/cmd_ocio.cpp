@@ -106,17 +106,18 @@ const std::vector<OpRow> kRows = {
     named("colorconvert",
           {"tocolorspace COLORSPACE", 1, "Convert from the image's colour space to another",
            [](Op& op) { return convert(op, "", op.call.argument(0)); }, kContext + kLenient}),
-    named("colorconvert",
-          {"colorconvert SRC DST", 1, "Convert from one colour space to another",
-           [](Op& op) { return convert(op, op.call.argument(0), op.call.argument(1)); },
-           kContext + kLenient}),
-    {"ociolook LOOK", 1, "Apply a look", look,
-     kContext + "from=COLORSPACE: of the image (the one that it is in)\n"
-                "to=COLORSPACE: of the result (the one that the image is in)\n"
-                "inverse=0|1: undo the look"},
-    {"ociodisplay DISPLAY VIEW", 1, "Show as a view of a display does", display,
-     kContext + "from=COLORSPACE: of the image (the one that it is in)\n"
-                "looks=NAMES: instead of those of the view"},
+    keeping_header(
+        named("colorconvert",
+              {"colorconvert SRC DST", 1, "Convert from one colour space to another",
+               [](Op& op) { return convert(op, op.call.argument(0), op.call.argument(1)); },
+               kContext + kLenient})),
+    keeping_header(OpRow{"ociolook LOOK", 1, "Apply a look", look,
+                         kContext + "from=COLORSPACE: of the image (the one that it is in)\n"
+                                    "to=COLORSPACE: of the result (the one that the image is in)\n"
+                                    "inverse=0|1: undo the look"}),
+    keeping_header(OpRow{"ociodisplay DISPLAY VIEW", 1, "Show as a view of a display does", display,
+                         kContext + "from=COLORSPACE: of the image (the one that it is in)\n"
+                                    "looks=NAMES: instead of those of the view"}),
     {"ociofiletransform FILENAME", 1, "Apply the transform of a file (a LUT)",
      [](Op& op) {
          return converted(op, IBA::ociofiletransform(op.dst, op.a(), op.call.argument(0),
@@ -124,10 +125,11 @@ const std::vector<OpRow> kRows = {
                                                      &color_config(op.session)));
      },
      kAlpha + "inverse=0|1: undo the transform"},
-    {"ccmatrix MATRIXVALS", 1, "Multiply the colour by a matrix of 9 or 16 numbers", matrix,
-     kAlpha + "transpose=0|1: the numbers go down the columns\n"
-              "invert=0|1: by the inverse of the matrix\n"
-              "inverse=0|1: the same"},
+    keeping_header(OpRow{"ccmatrix MATRIXVALS", 1,
+                         "Multiply the colour by a matrix of 9 or 16 numbers", matrix,
+                         kAlpha + "transpose=0|1: the numbers go down the columns\n"
+                                  "invert=0|1: by the inverse of the matrix\n"
+                                  "inverse=0|1: the same"}),
 };
 
 } // namespace

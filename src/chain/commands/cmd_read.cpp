@@ -3,9 +3,9 @@
 #include <OpenImageIO/strutil.h>
 #include <algorithm>
 
+#include "chain/session/execute.h"
 #include "chain/session/io.h"
 #include "chain/session/ops.h"
-#include "chain/session/runner.h"
 #include "text/error.h"
 
 namespace tonetool::chain {

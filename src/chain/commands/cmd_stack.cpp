@@ -30,8 +30,9 @@ std::vector<Command> stack_commands() {
         free_row(Group::Stack, "swap", 2, 2, "Swap the two images on top", swap),
         free_row(Group::Stack, "pop", 1, 0, "Throw away the current image",
                  [](Session&, const Call&) {}),
-        free_row(Group::Stack, "label NAME", 1, 1,
-                 "Label the current image: the bare word NAME pushes it again", label),
+        keeping_header(free_row(Group::Stack, "label NAME", 1, 1,
+                                "Label the current image: the bare word NAME pushes it again",
+                                label)),
     };
     for (Command& row : all)
         row.postponable = false;

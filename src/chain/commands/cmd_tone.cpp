@@ -181,14 +181,15 @@ std::vector<Modifier> tonemap_modifiers() {
 
 std::vector<Command> tone_commands() {
     return {
-        {{{"calibrate"}, {}, 1, 1, Group::Color},
-         concatenated({method_modifier("manual"), calibration_modifiers(), pixel_modifiers()}),
-         "Multiply the colour by an exposure that is measured",
-         run_calibrate},
-        {{{"tonemap"}, {}, 1, 1, Group::Color},
-         tonemap_modifiers(),
-         "HDR to a display, by a tone curve or an OpenColorIO view",
-         run_tonemap},
+        keeping_header(Command{
+            {{"calibrate"}, {}, 1, 1, Group::Color},
+            concatenated({method_modifier("manual"), calibration_modifiers(), pixel_modifiers()}),
+            "Multiply the colour by an exposure that is measured",
+            run_calibrate}),
+        keeping_header(Command{{{"tonemap"}, {}, 1, 1, Group::Color},
+                               tonemap_modifiers(),
+                               "HDR to a display, by a tone curve or an OpenColorIO view",
+                               run_tonemap}),
         {{{"exportlut"}, {"FILE"}, 0, 0, Group::Write},
          exportlut_modifiers(),
          "Write a tone curve or a view as ." + join(ToneAlgo::lut_formats(), ", ."),

@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <map>
 
+#include "chain/session/execute.h"
 #include "chain/session/io.h"
 #include "chain/session/ops.h"
-#include "chain/session/runner.h"
 #include "imagebuf/pixels/oiio_compat.h"
 #include "text/error.h"
 
@@ -266,8 +266,9 @@ std::vector<Command> output_setting_rows() {
             [](Session& session, const Call&) { session.output.autotrim = true; }),
         set("history", "Write the command line into the metadata again",
             [](Session& session, const Call&) { session.output.history = true; }),
-        set("nosoftwareattrib|no-history", "Do not write the command line into the metadata",
-            [](Session& session, const Call&) { session.output.history = false; }),
+        keeping_header(set("nosoftwareattrib|no-history",
+                           "Do not write the command line into the metadata",
+                           [](Session& session, const Call&) { session.output.history = false; })),
         set("sansattrib", "Leave --attrib and --sattrib out of the command line that is written",
             [](Session&, const Call&) {}),
     };

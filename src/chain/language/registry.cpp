@@ -57,14 +57,15 @@ bool names_file(const std::string& hint) {
     return last == "FILE" || last == "FILENAME";
 }
 
-bool is_left_out(const std::string& argument, const Strings& words, size_t at) {
-    return argument.front() == '[' &&
-           (at >= words.size() || (argument == "[N]" && !parse_integer(words[at])));
-}
-
 bool Command::writes() const {
     return group == Group::Check ||
            (group == Group::Write && std::any_of(args.begin(), args.end(), names_file));
+}
+
+bool Command::writes_to(const std::string& key) const {
+    return std::any_of(modifiers.begin(), modifiers.end(), [&](const Modifier& modifier) {
+        return modifier.key == key && modifier.writes();
+    });
 }
 
 Command of_process(Command row) {
@@ -75,6 +76,12 @@ Command of_process(Command row) {
 Command of_manner(Command row) {
     row.manner = true;
     return row;
+}
+
+std::vector<Command> keeping_headers(std::vector<Command> rows) {
+    for (Command& row : rows)
+        row.keeps_header = true;
+    return rows;
 }
 
 std::string Command::label() const {

@@ -74,12 +74,22 @@ struct Command : Shape {
     /// What it sets is the process's and not the chain's.
     bool of_process = false;
     bool manner = false; ///< says how a line runs, not what comes of it
+    /// Read from the whole line before it runs; does nothing when its turn comes. "--frames=1-9" is
+    /// "--frames 1-9".
+    bool whole_line = false;
+    /// Each image leaves it with the windows, the number of channels and the data type that it
+    /// came with, as do images that are read after it.
+    bool keeps_header = false;
+    /// A reference and a test become a map of errors: one channel of floats.
+    bool makes_map = false;
 
     /// As messages call it: "hdrflip", "-o".
     std::string label() const;
 
     /// Its arguments FILE or FILENAME are read, in the groups but Write and Check, or written.
     bool writes() const;
+    /// A modifier of that name says where files go.
+    bool writes_to(const std::string& key) const;
     /// Something of it remains when the chain has ended.
     bool outlives_chain() const { return of_process || writes(); }
 };
@@ -87,13 +97,18 @@ struct Command : Shape {
 /// Whether an argument or modifier of that name or hint is a file, or may be one.
 bool names_file(const std::string& hint);
 
-/// Whether that argument, as a row names it, is left out where words[at] would be: "[X]" at the end
-/// of the words, "[N]" also before anything but a whole number.
-bool is_left_out(const std::string& argument, const Strings& words, size_t at);
-
 /// The row of a command that sets something of the process, or says how a line runs.
 Command of_process(Command row);
 Command of_manner(Command row);
+
+/// The row, here or in a table of the commands, of one that keeps headers.
+template <class Row>
+Row keeping_header(Row row) {
+    row.keeps_header = true;
+    return row;
+}
+/// All of them.
+std::vector<Command> keeping_headers(std::vector<Command> rows);
 
 /// The row of a command that takes and leaves no image.
 Command setting(Group group, Strings names, Strings args, std::string help, Run run,

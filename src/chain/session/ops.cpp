@@ -200,6 +200,7 @@ std::vector<Command> op_rows(Group group, const std::vector<OpRow>& rows) {
         all.push_back({shape_of(row.usage, row.images, 1, group), modifiers_of(row.modifiers, true),
                        row.help, run});
         all.back().operation = row.operation == "-" ? "-" + all.back().label() : row.operation;
+        all.back().keeps_header = row.keeps_header;
     }
     return all;
 }

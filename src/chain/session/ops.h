@@ -69,6 +69,7 @@ struct OpRow {
     std::string modifiers = {};   ///< lines of "key=hint: help"
     Scope scope = Scope::Largest; ///< Levels: with -a MIP levels stay
     std::string operation = "-";  ///< as Call::operation; "-": the name with a dash
+    bool keeps_header = false;    ///< as Command::keeps_header
 };
 /// The same row with another Call::operation, "" if the image keeps its name.
 inline OpRow named(std::string operation, OpRow row) {

@@ -1,8 +1,5 @@
 #include "chain/session/runner.h"
 
-#include <OpenImageIO/filesystem.h>
-#include <OpenImageIO/imagecache.h>
-#include <OpenImageIO/imageio.h>
 #include <OpenImageIO/strutil.h>
 #include <OpenImageIO/sysutil.h>
 #include <algorithm>
@@ -10,72 +7,14 @@
 #include <new>
 #include <ostream>
 
-#include "chain/session/ancestry.h"
+#include "chain/session/execute.h"
 #include "chain/session/expression.h"
 #include "chain/session/io.h"
-#include "chain/session/ops.h"
 #include "text/error.h"
 
 namespace tonetool::chain {
 
 namespace {
-
-// OpenImageIO ends the process where these get depth samples.
-void refuse_deep(const Session& session, const Call& call) {
-    static const Strings flat_only = {"resample",   "transpose", "fft",      "maxchan",
-                                      "minchan",    "chsum",     "colormap", "colorcount",
-                                      "rangecheck", "pdiff"};
-    const std::string& name = call.row().names.front();
-    if (std::find(flat_only.begin(), flat_only.end(), name) == flat_only.end())
-        return;
-    for (const ImagePtr& image : call.images) {
-        const Chosen chosen = chosen_subimages(session, call, *image);
-        for (size_t s = 0; s < chosen.count; ++s) {
-            if (chosen.active[s] && image->part(s).header().deep) {
-                throw CommandError(session.compat ? "deep images not supported"
-                                                  : "\"" + image->name() +
-                                                        "\" is deep, which this command cannot use "
-                                                        "(--flatten makes it flat)");
-            }
-        }
-    }
-}
-
-void execute(Session& session, Call& call) {
-    std::vector<ImagePtr>& stack = session.stack;
-    auto first = stack.end() - call.pops();
-    call.images.assign(first, stack.end());
-    stack.erase(first, stack.end());
-    for (const ImagePtr& image : call.images) {
-        image->used = true;
-        image->worked_on |= call.row().group != Group::Stack && call.row().group != Group::Print;
-        if (call.row().group != Group::Stack)
-            session.note_format(*image);
-    }
-    refuse_deep(session, call);
-    const size_t below = stack.size();
-    const size_t expected = below + static_cast<size_t>(call.pushes());
-    call.row().run(session, call);
-    note_ancestry(session, call, below);
-    if (call.pushes() != kAnyNumber && stack.size() != expected)
-        throw CommandError("internal error: wrong number of images on the stack");
-}
-
-// Files that a command reads are where the policy says.
-void locate_files(Session& session, const Command& row, Token& token, Strings& arguments) {
-    for (size_t i = 0; i < arguments.size() && i < row.args.size() && !row.writes(); ++i)
-        if (names_file(row.args[i]))
-            arguments[i] = session.file(arguments[i]);
-    for (auto& [key, value] : token.modifiers) {
-        for (const Modifier& modifier : row.modifiers) {
-            if (modifier.key == key && names_file(modifier.hint)) {
-                const std::string path = session.file(value);
-                const bool layer = modifier.hint != "FILE" && !OIIO::Filesystem::is_regular(path);
-                value = layer ? value : path;
-            }
-        }
-    }
-}
 
 // What messages call a command.
 std::string name_in_messages(const Call& call, bool compat) {
@@ -83,15 +22,6 @@ std::string name_in_messages(const Call& call, bool compat) {
 }
 
 } // namespace
-
-void run_command(Session& session, const std::string& word, Strings arguments) {
-    Token token = parse_token("--" + word, session.compat);
-    const Command* row = find_command(token.name);
-    if (!row)
-        throw CommandError("internal error: no command " + word);
-    Call call(*row, std::move(token), std::move(arguments), session.compat);
-    execute(session, call);
-}
 
 void Runner::run_all() {
     Flow& flow = m_session.flow;
@@ -138,25 +68,30 @@ void Runner::guarded(void (Runner::*step)()) {
 void Runner::run_word() {
     Flow& flow = m_session.flow;
     count_word();
-    const std::string raw = m_words[flow.next];
+    const std::string& raw = m_words[flow.next];
     flow.command = flow.next++;
     m_where = raw.substr(0, raw.find(':'));
-    const std::string word = flow.running() ? evaluated(flow.command) : raw;
-    Token token = parse_token(word, m_session.compat);
+    const std::string text = flow.running() ? evaluated(flow.command) : raw;
+    Word word = parse_word(m_words, flow.command, text, m_session.compat);
+    flow.next = word.end();
     note_varying(flow.command);
-    if (!token.is_command) {
-        run_file(word);
-        return;
-    }
-    const Command& row = find(token);
-    token = row.own ? parse_token(word) : token;
-    m_where = m_session.compat ? word : row.label();
-    check_policy(Call(row, token, {}, m_session.compat));
-    Strings arguments = take_arguments(row, token);
-    locate_files(m_session, row, token, arguments);
-    note_varying(flow.command);
-    if (flow.running() || row.control) {
-        Call call(row, std::move(token), std::move(arguments), m_session.compat);
+    if (word.token.is_command)
+        run_command_word(std::move(word));
+    else
+        run_file(text);
+}
+
+void Runner::run_command_word(Word word) {
+    const bool strict = !m_session.compat || (word.row && word.row->own);
+    if (strict && !word.token.problem.empty())
+        throw CommandError(word.token.problem);
+    const Command& row = known(word);
+    m_where = m_session.compat ? word.token.text : row.label();
+    check_policy(Call(row, word.token, {}, m_session.compat));
+    Strings arguments = arguments_of(word);
+    locate_files(m_session, row, word.token, arguments);
+    if (m_session.flow.running() || row.control) {
+        Call call(row, std::move(word.token), std::move(arguments), m_session.compat);
         for (const std::string& modifier : call.dropped()) {
             m_session.warning(m_where, "\"" + modifier +
                                            "\" is no modifier of this command, it has "
@@ -205,8 +140,9 @@ void Runner::run_file(const std::string& word) {
     }
 }
 
-const Command& Runner::find(const Token& token) {
-    const Command* row = find_command(token.name);
+const Command& Runner::known(const Word& word) {
+    const Command* row = word.row;
+    const Token& token = word.token;
     // "--hdrflip=fail=1": a check that looks at no threshold would pass.
     const bool takes_value = row && !row->args.empty() && std::strchr("=[", row->args[0].front());
     if (row && !token.value.empty() && !takes_value && !m_session.compat) {
@@ -226,37 +162,29 @@ const Command& Runner::find(const Token& token) {
     return *row;
 }
 
-// An argument that is itself a command was forgotten, not meant.
-Strings Runner::take_arguments(const Command& row, const Token& token) {
-    Strings arguments = token.value;
-    size_t& next = m_session.flow.next;
-    for (size_t i = arguments.size(); i < row.args.size(); ++i) {
-        const std::string& name = row.args[i];
-        bool optional = name.front() == '[';
-        const bool other = m_session.compat && next < m_words.size() && m_words[next][0] == '-';
-        if (name.front() == '=' || is_left_out(name, m_words, next) || (optional && other))
-            break;
-        if (next >= m_words.size()) {
-            if (m_session.compat) {
-                throw UsageError("Missing parameter " + std::to_string(i + 1) + " from option \"" +
-                                 (row.label()[0] == '-' ? "" : "--") + row.label() + "\"");
-            }
-            throw CommandError("missing argument " + name);
-        }
-        const std::string& word = m_words[next];
-        bool dashed = word.size() > 1 && word[0] == '-' && !parse_number(word);
-        if (!optional && dashed && !m_session.compat) {
-            std::string bare = word.substr(word[1] == '-' ? 2 : 1);
-            if (bare != "compat" && find_command(bare.substr(0, bare.find(':')))) {
-                throw CommandError("missing argument " + name + ", \"" + word +
-                                   "\" is a command (a file of that name is \"./" + word + "\")");
-            }
-        }
-        // Outputs of checks were taken from the command line as they are, before it ran.
-        const bool runs = m_session.flow.running() && row.group != Group::Check;
-        arguments.push_back(runs ? evaluated(next) : word);
-        ++next;
+void Runner::refuse_missing_argument(const Word& word) const {
+    const bool at_end = word.end() >= m_words.size();
+    if (at_end && m_session.compat) {
+        const size_t given = word.token.value.size() + word.arguments.size();
+        const std::string label = word.row->label();
+        throw UsageError("Missing parameter " + std::to_string(given + 1) + " from option \"" +
+                         (label[0] == '-' ? "" : "--") + label + "\"");
     }
+    const std::string next = at_end ? "" : m_words[word.end()];
+    throw CommandError(
+        "missing argument " + word.missing +
+        (at_end ? ""
+                : ", \"" + next + "\" is a command (a file of that name is \"./" + next + "\")"));
+}
+
+// Outputs of checks were taken from the command line as they are, before it ran.
+Strings Runner::arguments_of(const Word& word) const {
+    if (!word.missing.empty())
+        refuse_missing_argument(word);
+    const bool runs = m_session.flow.running() && word.row->group != Group::Check;
+    Strings arguments = word.token.value;
+    for (size_t at : word.arguments)
+        arguments.push_back(runs ? evaluated(at) : m_words[at]);
     return arguments;
 }
 
@@ -385,95 +313,12 @@ void Runner::run_call(Call& call) {
     }
 }
 
-void Runner::print_statistics() {
-    std::string text = OIIO::Strutil::fmt::format(
-        "\nThreads: {}\ntonetool runtime statistics:\n  Total time: {:.2f}s\n",
-        OIIO::get_int_attribute("threads"), m_time());
-    double rest = m_time();
-    for (const auto& [name, seconds] : m_session.seconds) {
-        text += OIIO::Strutil::fmt::format("      {:<12} : {:5.2f}\n", name, seconds);
-        rest -= seconds;
-    }
-    text += OIIO::Strutil::fmt::format("      {:<12} : {:5.2f}\n", "unaccounted", rest);
-    m_session.out << text << "  Peak memory:    "
-                  << OIIO::Strutil::memformat(OIIO::Sysutil::memory_used(true))
-                  << "\n  Current memory: "
-                  << OIIO::Strutil::memformat(OIIO::Sysutil::memory_used()) << "\n\n"
-                  << OIIO::ImageCache::create()->getstats(2) << "\n";
-}
-
 void Runner::run_postponed() {
     while (!m_postponed.empty() && enough_images(m_postponed.front())) {
         Call call = std::move(m_postponed.front());
         m_postponed.pop_front();
         m_session.waiting = m_postponed.empty() ? "" : m_postponed.front().row().label();
         run_call(call);
-    }
-}
-
-// A shell's * in place of #, or a forgotten tests=, leaves images that nothing has looked at.
-void Runner::refuse_what_was_not_compared() const {
-    for (const ImagePtr& image : m_session.stack) {
-        if (m_session.judges && !image->worked_on && !image->written) {
-            throw CommandError("\"" + image->name() +
-                               "\" was never compared (valid: names with # "
-                               "for sequences, tests=K for K tests of one reference, or --pop)");
-        }
-    }
-}
-
-// "ref a b --hdrflip" compares a with b: the forgotten tests=2 must not go unnoticed.
-void Runner::warn_of_unused() {
-    const bool listing = m_session.listing() || m_session.produced_by_name;
-    for (const ImagePtr& image : m_session.stack) {
-        const bool result = m_session.for_images && image == m_session.stack.back();
-        if (!listing && !result && !image->used && image->part().from_file())
-            m_session.warning("", "\"" + image->name() + "\" was read, but no command used it");
-    }
-}
-
-void Runner::finish() {
-    if (m_session.compat) {
-        finish_leniently();
-        return;
-    }
-    if (!m_postponed.empty()) {
-        const Call& call = m_postponed.front();
-        m_where = call.row().label();
-        throw CommandError("never executed: needs " + std::to_string(call.pops()) +
-                           " image(s), the stack has " + std::to_string(m_session.stack.size()));
-    }
-    if (!m_session.flow.blocks.empty()) {
-        throw CommandError("--" + m_session.flow.blocks.back().kind + " without its --end" +
-                           m_session.flow.blocks.back().kind);
-    }
-    if (!m_session.diff.waiting.empty()) {
-        m_where = m_session.diff.waiting;
-        throw CommandError("no --diff ran after it, so nothing was held to this limit (other "
-                           "measurements have their own, as --hdrflip:fail=X)");
-    }
-    check_outputs(m_session);
-    refuse_what_was_not_compared();
-    warn_of_unused();
-    if (!m_session.produced && !m_session.wrote && !m_session.for_images)
-        throw CommandError("produced no output. Did you forget -o?");
-}
-
-void Runner::finish_leniently() {
-    refuse_what_was_not_compared();
-    if (!m_postponed.empty())
-        m_session.warning(m_postponed.front().text(), "pending command never executed");
-    if (!m_session.flow.blocks.empty()) {
-        const std::string& kind = m_session.flow.blocks.back().kind;
-        m_session.warning(kind, "unterminated " + kind);
-    }
-    if (!m_session.produced && !m_session.listing() && !m_session.dry_run &&
-        !m_session.for_images) {
-        const Image* top = m_session.stack.empty() ? nullptr : m_session.stack.back().get();
-        if (top && !top->written && !top->part().from_file())
-            m_session.warning("", "modified images without outputting them. Did you forget -o?");
-        else if (!m_session.wrote)
-            m_session.warning("", kNoOutput);
     }
 }
 

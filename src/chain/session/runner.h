@@ -5,6 +5,7 @@
 #include <deque>
 #include <string>
 
+#include "chain/language/line.h"
 #include "chain/session/call.h"
 #include "chain/session/session.h"
 
@@ -24,8 +25,10 @@ private:
     void guarded(void (Runner::*step)());
     void run_word();
     void run_file(const std::string& word);
-    const Command& find(const Token& token);
-    Strings take_arguments(const Command& row, const Token& token);
+    void run_command_word(Word word);
+    const Command& known(const Word& word);
+    [[noreturn]] void refuse_missing_argument(const Word& word) const;
+    Strings arguments_of(const Word& word) const;
     bool enough_images(const Call& call) const {
         return static_cast<size_t>(call.pops()) <= m_session.stack.size();
     }
@@ -55,8 +58,5 @@ private:
     size_t m_count = 0;   ///< of words that were run
     OIIO::Timer m_time;
 };
-
-/// Runs one command on the stack, as if "--word arguments..." were next.
-void run_command(Session& session, const std::string& word, Strings arguments);
 
 } // namespace tonetool::chain

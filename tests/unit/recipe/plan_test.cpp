@@ -3,7 +3,11 @@
 #include <filesystem>
 #include <fstream>
 #include <gtest/gtest.h>
+#include <map>
 #include <unistd.h>
+
+#include "chain/language/registry.h"
+#include "runs/runs.h"
 
 namespace tonetool::recipe {
 namespace {
@@ -52,6 +56,51 @@ INSTANTIATE_TEST_SUITE_P(
                     "--sattrib s t --echo text",
                     "--colorconfig $T/../ocio/tonetool.ocio $T/plain.exr --colorconvert "
                     "ACES2065-1 ACEScg --ociodisplay sRGB agx"));
+
+// The chain "a command with arguments" for a row of the registry.
+std::string chain_of(const chain::Command& row) {
+    const std::map<std::string, std::string> examples = {
+        {"VALUES", "0.5"},
+        {"SCALE", "0.5"},
+        {"STOPS", "1"},
+        {"NAME", "name"},
+        {"VALUE", "value"},
+        {"REGEX", "n.*"},
+        {"TEXT", "text"},
+        {"KEYWORD", "word"},
+        {"COLORSPACE", "ACEScg"},
+        {"SRC", "ACES2065-1"},
+        {"DST", "ACEScg"},
+        {"LOOK", "'ACES 1.3 Reference Gamut Compression'"},
+        {"DISPLAY", "sRGB"},
+        {"VIEW", "agx"},
+        {"MATRIXVALS", "1,0,0,0,1,0,0,0,1"},
+        {"FILE", "$T/../ocio/tonetool.ocio"}};
+    std::string words = "--" + row.names.front();
+    for (const std::string& argument : row.args)
+        words += " " + examples.at(argument);
+    return words;
+}
+
+// A row that says so keeps the header of what is on the stack and of what is read after it.
+TEST_F(Plan, CommandsKeepHeadersAsTheirRowsSay) {
+    runs::know_all_commands();
+    for (const chain::Command& row : chain::all_commands()) {
+        if (!row.keeps_header)
+            continue;
+        const std::string image = "$T/datawindow.exr", own = chain_of(row);
+        const std::string config = "--colorconfig $T/../ocio/tonetool.ocio ";
+        const Source recipe =
+            source(config + (row.pops == 0 ? own + " " + image : image + " " + own));
+        const auto planned = planned_header(recipe);
+        ASSERT_TRUE(planned.has_value()) << own;
+        const OIIO::ImageSpec made = picture_of(recipe)->subimages.front().spec();
+        EXPECT_EQ(planned->roi(), made.roi()) << own;
+        EXPECT_EQ(planned->roi_full(), made.roi_full()) << own;
+        EXPECT_EQ(planned->nchannels, made.nchannels) << own;
+        EXPECT_EQ(planned->format, made.format) << own;
+    }
+}
 
 using Unplanned = Plan;
 TEST_P(Unplanned, IsToBeRun) {

@@ -60,6 +60,37 @@ TEST_F(Registry, OnlyTheLastArgumentMayBeLeftOut) {
             EXPECT_NE(row.args[i].front(), '[') << row.names.front();
 }
 
+// What a recipe's size is told from without running it.
+TEST_F(Registry, WhatKeepsHeadersKeepsTheStack) {
+    size_t rows = 0;
+    for (const Command& row : all_commands()) {
+        const std::string& name = row.names.front();
+        if (row.keeps_header) {
+            ++rows;
+            EXPECT_EQ(row.pops, row.pushes) << name;
+            EXPECT_LE(row.pops, 1) << name;
+            EXPECT_EQ(row.pops_of, nullptr) << name;
+            EXPECT_FALSE(row.control || row.whole_line || row.outlives_chain()) << name;
+        }
+        if (row.makes_map) {
+            EXPECT_EQ(row.pops, 2) << name;
+            EXPECT_EQ(row.pushes, 1) << name;
+        }
+        EXPECT_FALSE(row.keeps_header && row.makes_map) << name;
+    }
+    EXPECT_GT(rows, 25U);
+}
+
+TEST_F(Registry, WholeLinesAreSetByWhatMakesNoImage) {
+    for (const Command& row : all_commands()) {
+        if (row.whole_line) {
+            EXPECT_EQ(row.pops + row.pushes, 0) << row.names.front();
+            EXPECT_TRUE(row.modifiers.empty()) << row.names.front();
+        }
+        EXPECT_TRUE(row.whole_line || row.group != Group::Check) << row.names.front();
+    }
+}
+
 TEST_F(Registry, SuggestsNearNames) {
     EXPECT_NE(suggest_command("hdrflp").find("--hdrflip"), std::string::npos);
     EXPECT_EQ(suggest_command("qqqqqqqqqq").find("did you mean"), std::string::npos);

@@ -27,10 +27,10 @@ TEST(CommandLine, CompatIsACommandAndNotAnArgument) {
          {Strings{"-compat"}, Strings{"a.exr", "--compat"},
           Strings{"--parallel-frames", "--compat"}, Strings{"--parallel-frames", "2", "--compat"},
           Strings{"--attrib", "a", "b", "--compat"}})
-        EXPECT_TRUE(is_compat(words)) << words.front();
+        EXPECT_TRUE(chain::parse_line(words).compat) << words.front();
     for (const Strings& words : {Strings{"compat"}, Strings{"--echo", "--compat"},
                                  Strings{"--attrib", "note", "--compat"}, Strings{"-o", "-compat"}})
-        EXPECT_FALSE(is_compat(words)) << words.front();
+        EXPECT_FALSE(chain::parse_line(words).compat) << words.front();
 }
 
 const std::string kPlain = TESTIMAGES_DIR "/plain.exr";

@@ -51,5 +51,18 @@ TEST(ParseToken, RefusesAModifierGivenTwice) {
     EXPECT_THROW(parse_token("--c:fail=0.5:fail=0.1"), CommandError);
 }
 
+TEST(ParseToken, LenientlyTellsItsFirstProblem) {
+    EXPECT_EQ(parse_token("--c:a=1:a=2:bad", true).problem, "modifier \"a\" is given twice");
+    EXPECT_EQ(parse_token("--c:bad:a=1:a=2", true).problem,
+              "malformed modifier \"bad\", not key=value");
+    EXPECT_EQ(parse_token("--c:a=1:b=2").problem, "");
+}
+
+TEST(ParseToken, AValueIsReplacedWhereItStands) {
+    EXPECT_EQ(parse_token("--c:a=1:b='x:y':d=3").with_value("b", "z"), "--c:a=1:b=z:d=3");
+    EXPECT_EQ(parse_token("--c:a=':b=1':b=2").with_value("b", "z"), "--c:a=':b=1':b=z");
+    EXPECT_EQ(parse_token("-c:a=1").with_value("b", "z"), "-c:a=1");
+}
+
 } // namespace
 } // namespace tonetool::chain

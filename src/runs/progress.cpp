@@ -1,0 +1,44 @@
+#include "runs/progress.h"
+
+#include <OpenImageIO/strutil.h>
+#include <cstdio>
+#include <iostream>
+#include <unistd.h>
+
+#include "text/printable.h"
+
+namespace tonetool::runs {
+
+Progress::Progress(std::ostream& stream, const FramePlan& plan)
+    : m_stream(stream),
+      m_json(plan.progress == "json"),
+      m_terminal(!m_json && plan.loops && &stream == &std::cerr && isatty(STDERR_FILENO) == 1),
+      m_verbose(!m_json && plan.loops && plan.verbose && !plan.line.compat),
+      m_total(plan.runs.size()) {}
+
+void Progress::done(const FrameRun& run, int status, const std::string& words, double seconds) {
+    ++m_done;
+    double elapsed = m_time();
+    double rate = elapsed > 0 ? double(m_done) / elapsed : 0;
+    double left = rate > 0 ? double(m_total - m_done) / rate : 0;
+    if (m_json) {
+        m_stream << OIIO::Strutil::fmt::format(
+                        "{{\"frame\": {}, \"status\": {}, \"done\": {}, \"total\": {}, "
+                        "\"frames_per_second\": {:.4g}, \"seconds_left\": {:.1f}}}",
+                        run.frame.number, status, m_done, m_total, rate, left)
+                 << std::endl;
+    } else if (m_verbose) {
+        m_stream << OIIO::Strutil::fmt::format("frame {}{}{}: {}, {:.2f} s, {:.0f} s left",
+                                               run.frame.number, run.frame.view.empty() ? "" : " ",
+                                               printable(run.frame.view), words, seconds, left)
+                 << std::endl;
+    } else if (m_terminal) {
+        // Past the stream, which lets no name go back in its line, and nothing else either.
+        const std::string text =
+            OIIO::Strutil::fmt::format("\r{} of {} frames, {:.3g} a second, {:.0f} s left {}",
+                                       m_done, m_total, rate, left, m_done == m_total ? "\n" : "");
+        std::fputs(text.c_str(), stderr);
+    }
+}
+
+} // namespace tonetool::runs
