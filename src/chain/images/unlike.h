@@ -1,7 +1,8 @@
-// Where two images differ in kind: values that are no numbers on one side only.
+// Where two images differ in what OpenImageIO's comparisons of their pixels do not look at.
 #pragma once
 
 #include <OpenImageIO/imagebuf.h>
+#include <string>
 
 namespace tonetool::chain {
 
@@ -16,5 +17,12 @@ struct Unlike {
 /// and a second NaN that only one image has makes up for the first. Channels by their place; what
 /// an image has no pixel, channel or deep sample for is 0.
 Unlike unlike_values(const OIIO::ImageBuf& a, const OIIO::ImageBuf& b);
+
+/// Pixels that differ by more than `limit` where the perceptual comparison does not look: in the
+/// channels behind its three, and beside a NaN or Inf. The images are of one size, and flat.
+OIIO::imagesize_t unseen_differences(const OIIO::ImageBuf& a, const OIIO::ImageBuf& b, float limit);
+
+/// What makes two headers ones of different pictures, as a sentence; empty where nothing does.
+std::string difference_of_headers(const OIIO::ImageSpec& a, const OIIO::ImageSpec& b);
 
 } // namespace tonetool::chain

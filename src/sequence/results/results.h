@@ -133,9 +133,8 @@ bool is_unmeasured(const FrameResult& frame);
 /// twice.
 void conclude(ShotResult& shot);
 
-/// Whether more of a quantity of a command is better: of psnr and mpsnr of --errormap, and of all
-/// that --tmqi finds. Of anything else less is.
-bool higher_is_better(const std::string& command, const std::string& quantity);
+/// A quantity by its name.
+std::optional<double> quantity_of(const Measurement& measured, const std::string& name);
 
 /// How bad a frame is beside another of the same status, more being worse: the measured value in
 /// units of its threshold, or as it is (below 0 where higher is better) where there is none. A
