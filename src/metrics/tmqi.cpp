@@ -26,9 +26,6 @@ constexpr double kC1 = 0.01, kC2 = 10;
 constexpr double kMean = 115.94, kMeanSigma = 27.99;
 constexpr double kBetaA = 4.4, kBetaB = 10.1, kContrastRange = 64.29;
 
-// Weights of both in the index.
-constexpr double kShare = 0.8012, kStructurePower = 0.3046, kNaturalnessPower = 0.7088;
-
 using Taps = std::array<double, kTaps>;
 
 Taps make_gaussian() {
@@ -323,8 +320,7 @@ TmqiScore tmqi(const TmqiPair& pair, const LightRange& range, float* structure,
         score.s *= std::pow(std::max(0.0, score.scales[i]), kWeight[i]);
     measure_picture(pair, parallel, score);
     score.n = naturalness(score.mean, score.deviation);
-    score.q = kShare * std::pow(score.s, kStructurePower) +
-              (1 - kShare) * std::pow(score.n, kNaturalnessPower);
+    score.q = tmqi_index(score.s, score.n);
     return score;
 }
 

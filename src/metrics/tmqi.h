@@ -2,6 +2,7 @@
 // Transactions on Image Processing 22(2), 2013.
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 
 #include "kernels/views.h"
@@ -11,6 +12,13 @@ namespace tonetool::metrics {
 
 /// The window of the statistics; smaller images have no TMQI.
 inline constexpr int kTmqiWindow = 11;
+
+/// The index of an image of this structural fidelity and naturalness.
+inline double tmqi_index(double structure, double naturalness) {
+    constexpr double share = 0.8012, structure_power = 0.3046, naturalness_power = 0.7088;
+    return share * std::pow(structure, structure_power) +
+           (1 - share) * std::pow(naturalness, naturalness_power);
+}
 
 /// An HDR image and its tone-mapped image as planes of one size, row by row without padding.
 struct TmqiPair {

@@ -35,12 +35,8 @@ void add_compare(Module& module) {
     add_pool(module);
     using S = FlipSide;
     ResultClass<S> result(module, "FlipSide", "How one image was read and what was found in it.");
-    result.field("layer", &S::layer, "\"\" for the plain R, G, B.")
-        .field("space", &S::space, "Colour space the stored values were read in.")
-        .field("nonfinite", &S::nonfinite, "Pixels with NaN or Inf.")
-        .field("negative", &S::negative, "Pixels with a negative component, which counts as 0.")
-        .field("uncovered", &S::uncovered, "Compared pixels outside the data window: black.")
-        .finish();
+    visit_side(visitor(result));
+    result.finish();
 }
 
 } // namespace tonetool::python

@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "imagebuf/compare/fields.h"
 #include "python/results.h"
 #include "tonetool/compare.h"
 
@@ -38,25 +39,33 @@ Fields<O> pair_fields() {
     };
 }
 
+/// For imagebuf/compare/fields.h: adds the fields that it is shown.
+template <class S>
+auto visitor(ResultClass<S>& result) {
+    return [&result](const SummaryField& f, auto member) { result.field(f.name, member, f.text); };
+}
+
 template <class S>
 void add_pair_summary(ResultClass<S>& result) {
     result.field("pool", &S::pool, "Pooled values of the map.")
         .field("reference", &S::reference, "How the reference was read.")
-        .field("test", &S::test, "How the test was read.")
-        .field("nonfinite_both", &S::nonfinite_both,
-               "Pixels that are NaN or Inf in both images and alike: error 0.")
-        .field("nonfinite_unlike", &S::nonfinite_unlike,
-               "Pixels that are NaN or Inf in both images, of another kind or beside "
-               "other values: they differ.")
-        .field("alpha_ignored", &S::alpha_ignored,
-               "Pixels whose alpha differs, where alpha is ignored.")
-        .field("region", &S::region, "Pixels compared.")
-        .field("alpha_compared", &S::alpha_compared, "Alpha is part of the map.")
-        .field("alpha_mean", &S::alpha_mean, "Mean of the difference of alpha.")
-        .field("alpha_max", &S::alpha_max, "Its maximum,")
-        .field("alpha_max_x", &S::alpha_max_x, "its column,")
+        .field("test", &S::test, "How the test was read.");
+    visit_pair_counts(visitor(result));
+    result.field("region", &S::region, "Pixels compared.")
+        .field("alpha_compared", &S::alpha_compared, "Alpha is part of the map.");
+    visit_alpha(visitor(result));
+    result.field("alpha_max_x", &S::alpha_max_x, "its column,")
         .field("alpha_max_y", &S::alpha_max_y, "and its row.")
         .field("warnings", &S::warnings, "What a user must know, one sentence each.");
+}
+
+/// `text` says which exposures.
+template <class S>
+void add_exposures(ResultClass<S>& result, const char* text) {
+    result.field("exposures", &S::exposures, text);
+    visit_exposed_luminance<S>(visitor(result));
+    result.field("median_of_lit", &S::median_of_lit,
+                 "More than half of the reference is black: the median is that of the rest.");
 }
 
 inline Parameter reference_parameter() {

@@ -45,14 +45,9 @@ void add_results(Module& module) {
     ResultClass<S> result(module, "ErrorSummary", "A measure of the error, and how it was made.");
     result.field("metric", &S::metric, "Which.")
         .field("value", &S::value, "The measure.")
-        .field("decibels", &S::decibels, "It is in dB, higher is better; else 0 is best.")
-        .field("eps", &S::eps, "0: the metric has none.")
-        .field("peak", &S::peak, "0: the metric has none.")
-        .field("exposures", &S::exposures, "Of mpsnr: stops, ascending.")
-        .field("max_luminance", &S::max_luminance, "That gave the exposures; 0: not used.")
-        .field("median_luminance", &S::median_luminance, "That gave the exposures; 0: not used.")
-        .field("median_of_lit", &S::median_of_lit,
-               "More than half of the reference is black: the median is that of the rest.");
+        .field("decibels", &S::decibels, "It is in dB, higher is better; else 0 is best.");
+    visit_metric_options(visitor(result));
+    add_exposures(result, "Of mpsnr: stops, ascending.");
     add_pair_summary(result);
     result.finish();
     ResultClass<ErrorObject>(module, "ErrorResult", "The map of an error and its summary.")

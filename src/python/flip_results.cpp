@@ -23,15 +23,10 @@ void add_summary(Module& module) {
         .field("on", &S::on, "\"rgb\", \"luminance\" or \"color\".")
         .field("coeffs", &S::coeffs, "Six coefficients of the curve; empty where it has none.")
         .field("bright", &S::bright, "Scene value of a grey that is shown at 0.85; 0: none.")
-        .field("baked", &S::baked, "The view was shown through a table.")
-        .field("bake_error_max", &S::bake_error_max, "Largest error of the table, display light.")
-        .field("bake_error_mean", &S::bake_error_mean, "Its mean error.")
-        .field("exposures", &S::exposures, "Stops, ascending; empty for LDR-FLIP.")
-        .field("max_luminance", &S::max_luminance, "That gave the exposures; 0: not used.")
-        .field("median_luminance", &S::median_luminance, "That gave the exposures; 0: not used.")
-        .field("median_of_lit", &S::median_of_lit,
-               "More than half of the reference is black: the median is that of the rest.")
-        .finish();
+        .field("baked", &S::baked, "The view was shown through a table.");
+    visit_bake_error(visitor(result));
+    add_exposures(result, "Stops, ascending; empty for LDR-FLIP.");
+    result.finish();
 }
 
 py::object quantity(std::vector<py::object>& arguments) {

@@ -61,15 +61,14 @@ py::object quantity(std::vector<py::object>& arguments) {
 
 void add_results(Module& module) {
     using S = TmqiScore;
-    ResultClass<S>(module, "TmqiScore",
-                   "The tone-mapped image quality index, 0 to 1, and its parts.")
-        .field("q", &S::q, "0.8012 s^0.3046 + 0.1988 n^0.7088.")
+    ResultClass<S> score(module, "TmqiScore",
+                         "The tone-mapped image quality index, 0 to 1, and its parts.");
+    score.field("q", &S::q, "0.8012 s^0.3046 + 0.1988 n^0.7088.")
         .field("s", &S::s, "Structural fidelity.")
         .field("n", &S::n, "Statistical naturalness.")
-        .field("scales", &S::scales, "Fidelity at each of five scales, the finest first.")
-        .field("mean", &S::mean, "Of the picture, 0 to 255, that n follows from.")
-        .field("deviation", &S::deviation, "Of the picture, that n follows from.")
-        .finish();
+        .field("scales", &S::scales, "Fidelity at each of five scales, the finest first.");
+    visit_shown_luminance(visitor(score));
+    score.finish();
     using M = TmqiSummary;
     ResultClass<M>(module, "TmqiSummary", "What TMQI found, and in what.")
         .field("score", &M::score, "The index.")

@@ -9,7 +9,9 @@
 #include "chain/commands/shot_args.h"
 #include "chain/images/colormap.h"
 #include "imagebuf/pixels/upright.h"
+#include "metrics/errors.h"
 #include "sequence/results/measurement.h"
+#include "sequence/results/measuring.h"
 #include "text/error.h"
 
 namespace tonetool::chain {
@@ -113,7 +115,7 @@ void show_flip(Session& session, const Call& call, sequence::PictureRequest requ
 bool judge_flip(Session& session, const Call& call, const Limits& limits, const FlipPool& pool,
                 size_t test = 0) {
     const auto measure = [&](const std::string& quantity) {
-        return Measured{ToneAlgo::flip_quantity(pool, quantity).value()};
+        return ToneAlgo::flip_quantity(pool, quantity).value();
     };
     return judge(session, call, limits, measure, sequence::Position{pool.max_x, pool.max_y}, test);
 }
@@ -218,7 +220,8 @@ void run_ldrflip(Session& session, const Call& call) {
 void run_flipdiff(Session& session, const Call& call) {
     HdrFlipOptions options = flipdiff_options(session, call);
     bool hdr = call.flag("hdr", true);
-    const Limits limits = limits_of(call, {{"max"}, false}, options.quantities);
+    const auto* measuring = sequence::measuring_command(call.row().label());
+    const Limits limits = limits_of(call, {{measuring->quantity}, false}, options.quantities);
     auto colors = call.text("colormap");
     if (colors)
         check_colormap(*colors);
@@ -262,24 +265,25 @@ void run_filmstrip(Session& session, const Call& call) {
 }
 
 // Errors that have no bound may have any limit.
-Measures error_measures(const std::string& metric) {
+Measures error_measures(const metrics::ErrorMetric& metric) {
     constexpr double unbounded = 1e30;
     Measures measures;
-    measures.names.insert(measures.names.begin(), metric);
-    measures.scale = [metric](const std::string& quantity) {
-        const bool bounded = metric == "smape" || metric == "mpsnr";
-        if (quantity == metric && (metric == "psnr" || metric == "mpsnr")) {
+    measures.names.insert(measures.names.begin(), metric.name);
+    measures.scale = [&metric](const std::string& quantity) {
+        const bool bounded = metric.has(metrics::kBounded);
+        if (quantity == metric.name && metric.has(metrics::kDecibels)) {
             constexpr double least = -300; // of an error of 1e30
-            return Scale{bounded ? 0 : least, unbounded, true};
+            return Scale{bounded ? 0 : least, unbounded};
         }
-        return Scale{0, bounded ? 1 : unbounded, false};
+        return Scale{0, bounded ? 1 : unbounded};
     };
     return measures;
 }
 
 void run_errormap(Session& session, const Call& call) {
     ErrorOptions options = error_options(session, call);
-    const Limits limits = limits_of(call, error_measures(options.metric), options.quantities);
+    const metrics::ErrorMetric& metric = *metrics::find_error_metric(options.metric);
+    const Limits limits = limits_of(call, error_measures(metric), options.quantities);
     ErrorSummary summary;
     auto [views, maps] =
         compare(session, call, same_look(call), [&](Maps& to, auto& reference, auto& tests) {
@@ -287,8 +291,7 @@ void run_errormap(Session& session, const Call& call) {
         });
     report(session, call, summary);
     const auto measured = [&](const std::string& quantity) {
-        const auto pooled = ToneAlgo::flip_quantity(summary.pool, quantity);
-        return Measured{pooled.value_or(summary.value), !pooled && summary.decibels};
+        return ToneAlgo::flip_quantity(summary.pool, quantity).value_or(summary.value);
     };
     judge(session, call, limits, measured,
           sequence::Position{summary.pool.max_x, summary.pool.max_y});
@@ -296,15 +299,13 @@ void run_errormap(Session& session, const Call& call) {
     request.look.pixels = options.pixels;
     request.look.size = options.size;
     request.exposures = summary.exposures;
-    request.error = options.metric == "smape" || options.metric == "mpsnr" ? &maps[0] : nullptr;
+    request.error = metric.has(metrics::kBounded) ? &maps[0] : nullptr;
     show(session, call, std::move(request));
     push_map(session, call, std::move(maps[0]));
 }
 
 Measures tmqi_measures() {
-    return {ToneAlgo::tmqi_quantities(), false, [](const std::string&) {
-                return Scale{0, 1, true};
-            }};
+    return {ToneAlgo::tmqi_quantities(), false};
 }
 
 void run_tmqi(Session& session, const Call& call) {
@@ -319,7 +320,7 @@ void run_tmqi(Session& session, const Call& call) {
         });
     report(session, call, summary);
     const auto measured = [&](const std::string& quantity) {
-        return Measured{ToneAlgo::tmqi_quantity(summary.score, quantity).value(), true};
+        return ToneAlgo::tmqi_quantity(summary.score, quantity).value();
     };
     judge(session, call, limits, measured, {});
     push_map(session, call, std::move(maps[0]));

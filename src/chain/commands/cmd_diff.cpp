@@ -1,18 +1,16 @@
 // --diff and --pdiff, with oiiotool's report and exit status, but for what oiiotool lets pass:
-// images with values that are no numbers (images/nonfinite_mismatch.h), and without --compat images
+// images with values that are no numbers (images/unseen_difference.h), and without --compat images
 // whose windows, channels or parts differ, and parts that it does not look at.
 #include <OpenImageIO/imagebufalgo.h>
 #include <OpenImageIO/strutil.h>
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <ostream>
 
 #include "chain/commands/check_part.h"
 #include "chain/commands/color_input.h"
 #include "chain/commands/commands.h"
-#include "chain/images/nonfinite_mismatch.h"
-#include "imagebuf/pixels/upright.h"
+#include "chain/images/unseen_difference.h"
 #include "sequence/results/results.h"
 #include "text/error.h"
 #include "tonetool/color_tags.h"
@@ -22,6 +20,8 @@ namespace tonetool::chain {
 namespace {
 
 using OIIO::Strutil::fmt::format;
+using sequence::DiffLimit;
+using sequence::DiffLimits;
 using Results = OIIO::ImageBufAlgo::CompareResults;
 
 enum class Verdict { Pass, Warning, Failure };
@@ -57,8 +57,8 @@ void print_report(Session& session, const OIIO::ImageBuf& a, const OIIO::ImageBu
     }
     print_maximum(session, a, b, found);
     const std::pair<OIIO::imagesize_t, std::string> counts[] = {
-        {found.nwarn, format("over {:g}", limits.warn)},
-        {found.nfail, format("over {:g}", limits.fail)},
+        {found.nwarn, format("over {:g}", limits.warn.each)},
+        {found.nfail, format("over {:g}", limits.fail.each)},
         {found.nfail, "failed the perceptual test"}};
     for (size_t i = 0; i < (perceptual ? 3 : 2); ++i) {
         const auto& [count, what] = counts[i];
@@ -68,13 +68,12 @@ void print_report(Session& session, const OIIO::ImageBuf& a, const OIIO::ImageBu
 }
 
 Verdict judge(const Results& found, const DiffLimits& limits, double pixels) {
-    auto beyond = [&](OIIO::imagesize_t count, float percent, float hard) {
-        return double(count) > double(percent) / 100 * pixels || found.maxerror > double(hard);
+    const auto beyond = [&](OIIO::imagesize_t count, const DiffLimit& limit) {
+        return double(count) > limit.allowed(pixels) || found.maxerror > double(limit.hardest);
     };
-    if (beyond(found.nfail, limits.fail_percent, limits.hard_fail))
+    if (beyond(found.nfail, limits.fail))
         return Verdict::Failure;
-    return beyond(found.nwarn, limits.warn_percent, limits.hard_warn) ? Verdict::Warning
-                                                                      : Verdict::Pass;
+    return beyond(found.nwarn, limits.warn) ? Verdict::Warning : Verdict::Pass;
 }
 
 // The verdict as a threshold: of the pixels that fail or warn, or of the largest error.
@@ -82,10 +81,10 @@ sequence::Threshold threshold_of(const Results& found, const DiffLimits& limits,
                                  Verdict verdict) {
     const bool warns = verdict == Verdict::Warning;
     const double count = double(warns ? found.nwarn : found.nfail);
-    const double allowed = double(warns ? limits.warn_percent : limits.fail_percent) / 100 * pixels;
-    const double hard = double(warns ? limits.hard_warn : limits.hard_fail);
+    const DiffLimit& exceeded = warns ? limits.warn : limits.fail;
+    const double allowed = exceeded.allowed(pixels);
     const bool by_count = verdict == Verdict::Pass || count > allowed;
-    const std::optional<double> limit = by_count ? allowed : hard, none;
+    const std::optional<double> limit = by_count ? allowed : double(exceeded.hardest), none;
     return {by_count ? "differing-pixels" : "max", by_count ? count : found.maxerror, false,
             warns ? none : limit, warns ? limit : none};
 }
@@ -126,7 +125,7 @@ Results results_of(const OIIO::ImageBuf& a, const OIIO::ImageBuf& b, const DiffL
     if (perceptual)
         found.nfail = OIIO::imagesize_t(OIIO::ImageBufAlgo::compare_Yee(a, b, found));
     else
-        found = OIIO::ImageBufAlgo::compare(a, b, limits.fail, limits.warn);
+        found = OIIO::ImageBufAlgo::compare(a, b, limits.fail.each, limits.warn.each);
     if (a.has_error() || b.has_error())
         throw CommandError(a.has_error() ? a.geterror() : b.geterror());
     return found;
@@ -139,36 +138,6 @@ void add(Results& found, const NonfiniteMismatch& unlike) {
     found.maxy = unlike.y;
     found.maxz = unlike.z;
     found.maxc = unlike.channel;
-}
-
-// Pixels that differ by more than `limit` where the perceptual comparison does not look: in the
-// channels behind its three, and beside a NaN or Inf.
-OIIO::imagesize_t unseen_differences(const OIIO::ImageBuf& a, const OIIO::ImageBuf& b,
-                                     float limit) {
-    constexpr int looked_at = 3;
-    const OIIO::ROI all = a.roi();
-    const size_t channels = size_t(a.nchannels());
-    std::vector<float> values_of_a(size_t(all.width()) * channels), values_of_b(values_of_a.size());
-    OIIO::imagesize_t pixels = 0;
-    for (int y = all.ybegin; y < all.yend; ++y) {
-        OIIO::ROI row = all;
-        row.ybegin = y;
-        row.yend = y + 1;
-        a.get_pixels(row, OIIO::TypeFloat, values_of_a.data());
-        b.get_pixels(row, OIIO::TypeFloat, values_of_b.data());
-        for (size_t at = 0; at < values_of_a.size(); at += channels) {
-            const float *one = &values_of_a[at], *other = &values_of_b[at];
-            const auto finite = [](float value) { return std::isfinite(value); };
-            const size_t colors = std::min<size_t>(channels, looked_at);
-            const bool seen = std::all_of(one, one + colors, finite) &&
-                              std::all_of(other, other + colors, finite);
-            bool differs = false;
-            for (size_t c = seen ? colors : 0; c < channels; ++c)
-                differs = differs || std::abs(one[c] - other[c]) > limit;
-            pixels += differs ? 1 : 0;
-        }
-    }
-    return pixels;
 }
 
 // Once something differs, all that follows is reported.
@@ -185,7 +154,7 @@ void compare_pixels(Session& session, const OIIO::ImageBuf& a, const OIIO::Image
         verdict = judge(found, session.diff, pixels);
     }
     const auto unseen = perceptual && !session.compat && !a.deep() && !b.deep()
-                            ? unseen_differences(a, b, session.diff.fail)
+                            ? unseen_differences(a, b, session.diff.fail.each)
                             : 0;
     Results all = found;
     all.nfail = std::max(found.nfail, unseen);
@@ -206,49 +175,6 @@ void compare_pixels(Session& session, const OIIO::ImageBuf& a, const OIIO::Image
                                  unseen));
         }
     }
-}
-
-std::string window_text(const OIIO::ROI& window) {
-    return format("{}x{}{:+}{:+}", window.width(), window.height(), window.xbegin, window.ybegin);
-}
-
-// Of one of several parts: that of a file's only one is not what its picture is known by.
-std::string name_of_part(const OIIO::ImageSpec& spec) {
-    const std::string view = spec.get_string_attribute("view");
-    return spec.get_int_attribute("oiio:subimages") < 2
-               ? ""
-               : std::string(spec.get_string_attribute("oiio:subimagename")) +
-                     (view.empty() ? "" : " of view " + view);
-}
-
-// What makes two headers ones of different pictures, as a sentence; empty where nothing does.
-std::string difference(const OIIO::ImageSpec& a, const OIIO::ImageSpec& b) {
-    const auto windows = [](const OIIO::ROI& r, const OIIO::ROI& t) {
-        return window_text(r) + " vs " + window_text(t);
-    };
-    const auto same = [](const OIIO::ROI& r, const OIIO::ROI& t) {
-        return r.xbegin == t.xbegin && r.xend == t.xend && r.ybegin == t.ybegin &&
-               r.yend == t.yend && r.zbegin == t.zbegin && r.zend == t.zend;
-    };
-    if (!same(a.roi(), b.roi()))
-        return "Images differ in size (data windows " + windows(a.roi(), b.roi()) + ")";
-    if (!same(a.roi_full(), b.roi_full())) {
-        return "Images differ in their display windows (" + windows(a.roi_full(), b.roi_full()) +
-               ")";
-    }
-    if (a.channelnames != b.channelnames) {
-        return "Images differ in their channels (" + join(a.channelnames, ",") + " vs " +
-               join(b.channelnames, ",") + ")";
-    }
-    if (name_of_part(a) != name_of_part(b)) {
-        return "Images differ in the names of their parts (" + name_of_part(a) + " vs " +
-               name_of_part(b) + ")";
-    }
-    if (orientation_of(a) != orientation_of(b)) {
-        return format("Images differ in Orientation ({} vs {})", orientation_of(a),
-                      orientation_of(b));
-    }
-    return "";
 }
 
 // Of a comparison of images that may have several parts.
@@ -287,7 +213,8 @@ void compare_parts(Session& session, Part& a, Part& b, bool perceptual, const st
         if (level > 0 && a.mip_levels() != b.mip_levels())
             return outcome.differ(session, "Files do not match in their number of MIPmap levels");
         const OIIO::ImageSpec& spec = a.header(level);
-        const std::string unlike = session.compat ? "" : difference(spec, b.header(level));
+        const std::string unlike =
+            session.compat ? "" : difference_of_headers(spec, b.header(level));
         if (!unlike.empty())
             return outcome.differ(session, unlike);
         const std::string heading = format("{} {}: {} x {}, {} channel\n", which,
@@ -351,10 +278,10 @@ void warn_of_unapplied(Session& session, const Call& call, const Image& image_a,
 // Limits that no number of pixels can exceed.
 void check_limits(const DiffLimits& limits) {
     constexpr float all = 100, unlimited = 1e30f;
-    if (limits.fail_percent >= all && limits.hard_fail >= unlimited) {
+    if (limits.fail.percent >= all && limits.fail.hardest >= unlimited) {
         throw CommandError(format("--failpercent {} can never fail (valid: below 100, or with "
                                   "--hardfail)",
-                                  limits.fail_percent));
+                                  limits.fail.percent));
     }
 }
 
@@ -364,7 +291,7 @@ void run_diff(Session& session, const Call& call) {
     session.print(format("Computing {}diff of \"{}\" vs \"{}\"", perceptual ? "perceptual " : "",
                          a.name(), b.name()));
     const size_t before = result_of(session) ? result_of(session)->measurements.size() : 0;
-    session.diff.waiting.clear();
+    session.unused_limit.clear();
     if (!session.compat) {
         check_limits(session.diff);
         check_nothing_left_out(a);
@@ -388,29 +315,21 @@ void run_diff(Session& session, const Call& call) {
     session.push(call.images[1]);
 }
 
-template <float DiffLimits::*Limit>
-Command limit_row(const char* name, const char* argument, const char* help) {
-    return setting(Group::Compare, {name}, {argument}, help,
-                   [](Session& session, const Call& call) {
-                       session.diff.*Limit = float(call.number_argument(0, {0, 1e30}));
-                       session.diff.waiting = call.row().label();
-                   });
+Command limit_row(const sequence::DiffOption& option) {
+    return setting(
+        Group::Compare, {option.name}, {option.argument}, option.help,
+        [option](Session& session, const Call& call) {
+            (session.diff.*option.limit).*option.number = float(call.number_argument(0, {0, 1e30}));
+            session.unused_limit = call.row().label();
+        });
 }
 
 } // namespace
 
 std::vector<Command> diff_commands() {
-    std::vector<Command> rows = {
-        limit_row<&DiffLimits::fail>("fail", "THRESH", "--diff: a pixel fails above it (1e-6)"),
-        limit_row<&DiffLimits::fail_percent>("failpercent", "PCNT",
-                                             "--diff: so many failing pixels are allowed (0)"),
-        limit_row<&DiffLimits::hard_fail>("hardfail", "THRESH",
-                                          "--diff: no pixel may exceed it (infinity)"),
-        limit_row<&DiffLimits::warn>("warn", "THRESH", "--diff: a pixel warns above it (1e-6)"),
-        limit_row<&DiffLimits::warn_percent>("warnpercent", "PCNT",
-                                             "--diff: so many warning pixels are allowed (0)"),
-        limit_row<&DiffLimits::hard_warn>("hardwarn", "THRESH",
-                                          "--diff: a pixel above it is a warning (infinity)")};
+    std::vector<Command> rows;
+    for (const sequence::DiffOption& option : sequence::kDiffOptions)
+        rows.push_back(limit_row(option));
     for (const char* name : {"diff", "pdiff"}) {
         const bool perceptual = name[0] == 'p';
         rows.push_back({{{name}, {}, 2, 2, Group::Compare},

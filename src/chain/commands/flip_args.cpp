@@ -7,6 +7,8 @@
 #include "chain/commands/options.h"
 #include "chain/commands/tone_args.h"
 #include "imagebuf/options/flip_options.h"
+#include "metrics/errors.h"
+#include "sequence/results/measuring.h"
 #include "text/error.h"
 
 namespace tonetool::chain {
@@ -45,6 +47,14 @@ void read_exposures(const Call& call, Options& options, double least = 1) {
     options.stop_exposure = call.number("stopExposure", kStopsRange);
     check_order(call, options.start_exposure, options.stop_exposure);
     options.num_exposures = call.integer("numExposures", {least, double(kMostExposures)});
+}
+
+Strings metrics_with(metrics::ErrorTrait trait) {
+    Strings names;
+    for (const metrics::ErrorMetric& metric : metrics::kErrorMetrics)
+        if (metric.has(trait))
+            names.emplace_back(metric.name);
+    return names;
 }
 
 // fail= and warn= of a command.
@@ -95,15 +105,14 @@ private:
                   const std::string& quantity) const {
         const Scale scale = scale_of(quantity);
         const double limit = checked_number(key, text, {scale.low, scale.high});
-        const double idle = scale.higher_is_better ? scale.low : scale.high;
+        const bool up = sequence::higher_is_better(m_call.row().label(), quantity);
+        const double idle = up ? scale.low : scale.high;
         if (limit == idle) {
             throw CommandError(
                 key + "=" + text + " can never " + key + ": " + quantity + " is " +
-                (scale.higher_is_better ? "never below " : "never above ") + format_number(idle) +
-                " (valid: " +
-                (scale.higher_is_better
-                     ? "above " + format_number(scale.low) + " to " + format_number(scale.high)
-                     : format_number(scale.low) + " to below " + format_number(scale.high)) +
+                (up ? "never below " : "never above ") + format_number(idle) + " (valid: " +
+                (up ? "above " + format_number(scale.low) + " to " + format_number(scale.high)
+                    : format_number(scale.low) + " to below " + format_number(scale.high)) +
                 ")");
         }
         return limit;
@@ -281,14 +290,19 @@ Limits limits_of(const Call& call, const Measures& measures, Strings& pooled) {
 std::vector<Modifier> error_modifiers() {
     Measures measures;
     measures.names.insert(measures.names.begin(), "METRIC");
-    return concatenated({{{"metric", choices(ToneAlgo::error_metrics()), "which error"},
-                          {"eps", "X", "of smape, rmae, relmse (0.01)"},
-                          {"peak", "X", "of psnr (1)"},
-                          {"startExposure", "STOPS", "of mpsnr: first exposure, as in hdrflip"},
-                          {"stopExposure", "STOPS", "its last exposure"},
-                          {"numExposures", "N", "number of its exposures"}},
-                         pair_modifiers(),
-                         threshold_modifiers(measures, "at most X (psnr, mpsnr: at least X dB)")});
+    const auto of = [](metrics::ErrorTrait trait) {
+        return "of " + join(metrics_with(trait), ", ");
+    };
+    const std::string in_decibels = join(metrics_with(metrics::kDecibels), ", ");
+    return concatenated(
+        {{{"metric", choices(ToneAlgo::error_metrics()), "which error"},
+          {"eps", "X", of(metrics::kEps) + " (0.01)"},
+          {"peak", "X", of(metrics::kPeak) + " (1)"},
+          {"startExposure", "STOPS", of(metrics::kExposures) + ": first exposure, as in hdrflip"},
+          {"stopExposure", "STOPS", "its last exposure"},
+          {"numExposures", "N", "number of its exposures"}},
+         pair_modifiers(),
+         threshold_modifiers(measures, "at most X (" + in_decibels + ": at least X dB)")});
 }
 
 ErrorOptions error_options(const Session& session, const Call& call) {
@@ -297,15 +311,16 @@ ErrorOptions error_options(const Session& session, const Call& call) {
     options.metric = call.choice("metric", ToneAlgo::error_metrics()).value_or("");
     if (options.metric.empty())
         throw CommandError("needs metric= (valid: " + join(ToneAlgo::error_metrics(), ", ") + ")");
-    const std::pair<const char*, Strings> keys[] = {{"eps", {"smape", "rmae", "relmse"}},
-                                                    {"peak", {"psnr"}},
-                                                    {"startExposure", {"mpsnr"}},
-                                                    {"stopExposure", {"mpsnr"}},
-                                                    {"numExposures", {"mpsnr"}}};
-    for (const auto& [key, of] : keys) {
-        if (call.has(key) && std::find(of.begin(), of.end(), options.metric) == of.end()) {
-            throw CommandError(std::string(key) + "= goes with metric=" + join(of, ", ") +
-                               ", not with " + options.metric);
+    constexpr std::pair<const char*, metrics::ErrorTrait> keys[] = {
+        {"eps", metrics::kEps},
+        {"peak", metrics::kPeak},
+        {"startExposure", metrics::kExposures},
+        {"stopExposure", metrics::kExposures},
+        {"numExposures", metrics::kExposures}};
+    for (const auto& [key, trait] : keys) {
+        if (call.has(key) && !metrics::find_error_metric(options.metric)->has(trait)) {
+            throw CommandError(std::string(key) + "= goes with metric=" +
+                               join(metrics_with(trait), ", ") + ", not with " + options.metric);
         }
     }
     options.eps = call.number("eps", {1e-12, 1e12}).value_or(options.eps);

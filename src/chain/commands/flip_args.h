@@ -22,7 +22,6 @@ using Limits = std::vector<Limit>;
 /// Between which values a quantity lies; a limit that no value can miss is an error.
 struct Scale {
     double low = 0, high = 1;
-    bool higher_is_better = false;
 };
 
 /// What fail= and warn= may be of.

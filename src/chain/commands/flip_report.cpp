@@ -1,6 +1,8 @@
 #include "chain/commands/flip_report.h"
 
 #include "chain/commands/check_part.h"
+#include "imagebuf/compare/fields.h"
+#include "sequence/results/measuring.h"
 #include "text/error.h"
 
 namespace tonetool::chain {
@@ -11,14 +13,18 @@ std::string at(int x, int y) {
     return " at " + std::to_string(x) + "," + std::to_string(y);
 }
 
+// For imagebuf/compare/fields.h: of the summary, or of the image that is called so.
+template <class Summary>
+auto fields(Lines& lines, const Summary& summary, const std::string& of = "") {
+    return [&lines, &summary, of](const SummaryField& field, auto member) {
+        lines.add(key_name(field, of), said(field, summary.*member));
+    };
+}
+
 void add_side(Lines& lines, const std::string& side, const std::string& file,
               const FlipSide& found) {
     lines.add(side, file);
-    lines.add(side + "-layer", found.layer.empty() ? "R,G,B" : found.layer);
-    lines.add(side + "-space", found.space);
-    lines.add(side + "-nonfinite", found.nonfinite);
-    lines.add(side + "-negative", found.negative);
-    lines.add(side + "-uncovered", found.uncovered);
+    visit_side(fields(lines, found, side));
 }
 
 void add_tone(Lines& lines, const FlipSummary& summary) {
@@ -44,11 +50,12 @@ void add_exposures(Lines& lines, const Summary& summary) {
                                    format_number(summary.exposures.back()) + " count " +
                                    std::to_string(summary.exposures.size()));
     }
-    lines.add_positive("max-luminance", summary.max_luminance);
-    if (summary.median_luminance > 0) {
-        lines.add("median-luminance", format_number(summary.median_luminance) +
-                                          (summary.median_of_lit ? " of lit pixels" : ""));
-    }
+    visit_exposed_luminance<Summary>([&](const SummaryField& field, auto member) {
+        const bool of_lit = summary.median_of_lit && member == &Summary::median_luminance;
+        if (summary.*member > 0)
+            lines.add(key_name(field),
+                      format_number(summary.*member) + (of_lit ? " of lit pixels" : ""));
+    });
 }
 
 void add_pool(Lines& lines, const FlipPool& pool) {
@@ -67,17 +74,18 @@ void add_pair(Lines& lines, const PairSummary& summary, const std::string& refer
               const std::string& test) {
     add_side(lines, "reference", reference, summary.reference);
     add_side(lines, "test", test, summary.test);
-    lines.add("nonfinite-in-both", summary.nonfinite_both);
-    lines.add("nonfinite-unlike", summary.nonfinite_unlike);
-    lines.add("alpha-ignored", summary.alpha_ignored);
+    visit_pair_counts(fields(lines, summary));
     lines.add("pixels", summary.pool.pixels);
 }
 
 void add_found(Lines& lines, const PairSummary& summary) {
     if (summary.alpha_compared) {
-        lines.add("alpha-mean", summary.alpha_mean);
-        lines.add("alpha-max",
-                  format_number(summary.alpha_max) + at(summary.alpha_max_x, summary.alpha_max_y));
+        visit_alpha([&](const SummaryField& field, auto member) {
+            const bool placed = member == &PairSummary::alpha_max;
+            lines.add(key_name(field),
+                      format_number(summary.*member) +
+                          (placed ? at(summary.alpha_max_x, summary.alpha_max_y) : ""));
+        });
     }
     add_pool(lines, summary.pool);
 }
@@ -128,8 +136,9 @@ std::string summary_text(const std::string& label, const ErrorSummary& summary,
                          const std::string& first, const std::string& second) {
     Lines lines(label);
     add_pair(lines, summary, first, second);
-    lines.add_positive("eps", summary.eps);
-    lines.add_positive("peak", summary.peak);
+    visit_metric_options([&](const SummaryField& field, auto member) {
+        lines.add_positive(key_name(field), summary.*member);
+    });
     add_exposures(lines, summary);
     lines.add(summary.metric, summary.value);
     add_found(lines, summary);
@@ -144,9 +153,8 @@ std::string summary_text(const std::string& label, const TmqiSummary& summary,
     for (const std::string& name : ToneAlgo::tmqi_quantities())
         lines.add(name, ToneAlgo::tmqi_quantity(summary.score, name).value());
     for (size_t i = 0; i < summary.score.scales.size(); ++i)
-        lines.add("S" + std::to_string(i + 1), summary.score.scales[i]);
-    lines.add("ldr-mean", summary.score.mean);
-    lines.add("ldr-deviation", summary.score.deviation);
+        lines.add(scale_name(i), summary.score.scales[i]);
+    visit_shown_luminance(fields(lines, summary.score));
     return lines.text;
 }
 
@@ -160,21 +168,21 @@ void record(Session& session, const Call& call, sequence::Measurement measuremen
 }
 
 bool judge(Session& session, const Call& call, const Limits& limits,
-           const std::function<Measured(const std::string& quantity)>& measure,
+           const std::function<double(const std::string& quantity)>& measure,
            const std::optional<sequence::Position>& worst, size_t test) {
     if (limits.empty())
         return false;
+    const std::string label = call.row().label();
     Sentences said;
     std::vector<sequence::Threshold> thresholds;
     for (const Limit& limit : limits) {
-        const Measured measured = measure(limit.quantity);
-        thresholds.push_back(
-            {limit.quantity, measured.value, measured.higher_is_better, limit.fail, limit.warn});
+        thresholds.push_back({limit.quantity, measure(limit.quantity),
+                              sequence::higher_is_better(label, limit.quantity), limit.fail,
+                              limit.warn});
         said.add(thresholds.back());
     }
     if (result_of(session))
         result_of(session)->measurements.back().thresholds = thresholds;
-    const std::string label = call.row().label();
     const std::string where =
         worst ? ", worst pixel " + std::to_string(worst->x) + "," + std::to_string(worst->y) : "";
     const std::string file = " (" + call.images.at(test + 1)->name() + ")";

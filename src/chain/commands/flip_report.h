@@ -23,18 +23,12 @@ std::string summary_text(const std::string& label, const TmqiSummary& summary,
 /// Part of the frame's result, where there is a check. judge() adds the threshold to it.
 void record(Session& session, const Call& call, sequence::Measurement measurement, size_t test = 0);
 
-/// A measured quantity, and whether a threshold is what it must reach or what it may be at most.
-struct Measured {
-    double value = 0;
-    bool higher_is_better = false;
-};
-
 /// The verdict of a command with limits as the last line of its report: PASS, WARNING or FAIL, the
 /// limits that say so, the worst pixel where there is one, and the test image. Warns, and counts in
 /// the session. Whatever is not on the good side of a limit fails. Returns whether one of fail= was
 /// missed.
 bool judge(Session& session, const Call& call, const Limits& limits,
-           const std::function<Measured(const std::string& quantity)>& measure,
+           const std::function<double(const std::string& quantity)>& measure,
            const std::optional<sequence::Position>& worst, size_t test = 0);
 
 } // namespace tonetool::chain

@@ -64,8 +64,8 @@ void Runner::finish() {
         throw CommandError("--" + m_session.flow.blocks.back().kind + " without its --end" +
                            m_session.flow.blocks.back().kind);
     }
-    if (!m_session.diff.waiting.empty()) {
-        m_where = m_session.diff.waiting;
+    if (!m_session.unused_limit.empty()) {
+        m_where = m_session.unused_limit;
         throw CommandError("no --diff ran after it, so nothing was held to this limit (other "
                            "measurements have their own, as --hdrflip:fail=X)");
     }

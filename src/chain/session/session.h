@@ -17,6 +17,7 @@
 #include "chain/images/output.h"
 #include "chain/language/policy.h"
 #include "sequence/frames/file_stamp.h"
+#include "sequence/results/diff_limits.h"
 #include "text/text.h"
 
 namespace tonetool::chain {
@@ -44,13 +45,6 @@ public:
 private:
     std::mutex m_mutex;
     std::map<std::string, std::pair<int, std::string>> m_frame_of; ///< number and view
-};
-
-/// What --diff lets pass.
-struct DiffLimits {
-    float fail = 1e-6f, fail_percent = 0, hard_fail = 1e30f;
-    float warn = 1e-6f, warn_percent = 0, hard_warn = 1e30f;
-    std::string waiting; ///< the option that set one which no --diff has looked at yet
 };
 
 /// An --if, --while or --for that is not ended yet.
@@ -109,8 +103,9 @@ struct Session {
     std::set<std::string> matched_channels; ///< those of -d CHAN=TYPE that some output had
 
     std::map<std::string, double> seconds; ///< that commands took, for --runstats
-    DiffLimits diff;
-    Listing list; ///< what is printed of files as they are read
+    sequence::DiffLimits diff;
+    std::string unused_limit; ///< the option that set one of them which no --diff has looked at yet
+    Listing list;             ///< what is printed of files as they are read
 
     std::string color_config; ///< file of the OpenColorIO configuration; empty: $OCIO
     std::shared_ptr<OIIO::ColorConfig> ocio; ///< what is in it, once it is needed

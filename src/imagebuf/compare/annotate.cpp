@@ -3,6 +3,8 @@
 #include <OpenImageIO/strutil.h>
 #include <algorithm>
 
+#include "imagebuf/compare/fields.h"
+
 namespace tonetool {
 namespace {
 
@@ -23,6 +25,26 @@ struct Writer {
     }
     void text(const std::string& name, const std::string& value) const {
         spec.attribute(prefix + name, value);
+    }
+
+    void add(const std::string& name, double value) const { number(name, value); }
+    void add(const std::string& name, int64_t value) const { count(name, value); }
+    void add(const std::string& name, const std::string& value) const { text(name, value); }
+
+    /// For fields.h: of the summary, or of the image that is called so.
+    template <class Summary>
+    auto fields(const Summary& summary, const std::string& of = "") const {
+        return [this, &summary, of](const SummaryField& field, auto member) {
+            add(attribute_name(field, of), said(field, summary.*member));
+        };
+    }
+    /// The same without values that are 0.
+    template <class Summary>
+    auto positive_fields(const Summary& summary) const {
+        return [this, &summary](const SummaryField& field, auto member) {
+            if (summary.*member > 0)
+                number(attribute_name(field), summary.*member);
+        };
     }
 };
 
@@ -46,14 +68,6 @@ void annotate_pool(const Writer& to, const FlipPool& pool) {
     to.text("histogram", join(pool.histogram, " "));
 }
 
-void annotate_side(const Writer& to, const std::string& who, const FlipSide& side) {
-    to.text(who + "Layer", side.layer.empty() ? "R,G,B" : side.layer);
-    to.text(who + "Space", side.space);
-    to.count(who + "Nonfinite", side.nonfinite);
-    to.count(who + "Negative", side.negative);
-    to.count(who + "Uncovered", side.uncovered);
-}
-
 template <class Summary>
 void annotate_exposures(const Writer& to, const Summary& summary) {
     if (summary.exposures.empty())
@@ -61,10 +75,7 @@ void annotate_exposures(const Writer& to, const Summary& summary) {
     to.number("startExposure", summary.exposures.front());
     to.number("stopExposure", summary.exposures.back());
     to.count("numExposures", int64_t(summary.exposures.size()));
-    if (summary.max_luminance > 0)
-        to.number("maxLuminance", summary.max_luminance);
-    if (summary.median_luminance > 0)
-        to.number("medianLuminance", summary.median_luminance);
+    visit_exposed_luminance<Summary>(to.positive_fields(summary));
     to.count("medianOfLit", summary.median_of_lit);
 }
 
@@ -79,23 +90,17 @@ void annotate_tone(const Writer& to, const FlipSummary& summary) {
         to.text("parameters", join(parameters, " "));
     if (!summary.on.empty())
         to.text("on", summary.on);
-    if (summary.baked) {
-        to.number("bakeErrorMax", summary.bake_error_max);
-        to.number("bakeErrorMean", summary.bake_error_mean);
-    }
+    if (summary.baked)
+        visit_bake_error(to.fields(summary));
 }
 
 void annotate_pair(const Writer& to, const PairSummary& summary) {
     annotate_pool(to, summary.pool);
-    annotate_side(to, "reference", summary.reference);
-    annotate_side(to, "test", summary.test);
-    to.count("bothNonfinite", summary.nonfinite_both);
-    to.count("unlikeNonfinite", summary.nonfinite_unlike);
-    to.count("alphaIgnored", summary.alpha_ignored);
-    if (summary.alpha_compared) {
-        to.number("alphaMeanError", summary.alpha_mean);
-        to.number("alphaMaxError", summary.alpha_max);
-    }
+    visit_side(to.fields(summary.reference, "reference"));
+    visit_side(to.fields(summary.test, "test"));
+    visit_pair_counts(to.fields(summary));
+    if (summary.alpha_compared)
+        visit_alpha(to.fields(summary));
 }
 
 void annotate_end(const Writer& to, const std::vector<std::string>& warnings) {
@@ -121,10 +126,7 @@ void annotate(ImageSpec& spec, const ErrorSummary& summary) {
     const Writer to{spec, "Error:"};
     to.text("metric", summary.metric);
     to.number(summary.decibels ? "decibels" : "value", summary.value);
-    if (summary.eps > 0)
-        to.number("eps", summary.eps);
-    if (summary.peak > 0)
-        to.number("peak", summary.peak);
+    visit_metric_options(to.positive_fields(summary));
     annotate_pair(to, summary);
     annotate_exposures(to, summary);
     annotate_end(to, summary.warnings);
@@ -136,11 +138,10 @@ void annotate(ImageSpec& spec, const TmqiSummary& summary) {
     to.number("S", summary.score.s);
     to.number("N", summary.score.n);
     for (size_t i = 0; i < summary.score.scales.size(); ++i)
-        to.number("S" + std::to_string(i + 1), summary.score.scales[i]);
-    to.number("mean", summary.score.mean);
-    to.number("deviation", summary.score.deviation);
-    annotate_side(to, "hdr", summary.hdr);
-    annotate_side(to, "ldr", summary.ldr);
+        to.number(scale_name(i), summary.score.scales[i]);
+    visit_shown_luminance(to.fields(summary.score));
+    visit_side(to.fields(summary.hdr, "hdr"));
+    visit_side(to.fields(summary.ldr, "ldr"));
     annotate_end(to, summary.warnings);
 }
 

@@ -2,8 +2,6 @@
 #include "tonetool/errors.h"
 
 #include <OpenImageIO/strutil.h>
-#include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include "imagebuf/compare/annotate.h"
@@ -14,32 +12,17 @@
 namespace tonetool {
 namespace {
 
-using metrics::ErrorKind;
+using metrics::ErrorMetric;
 using OIIO::ImageBuf;
 using OIIO::ROI;
 using OIIO::Strutil::fmt::format;
 
-struct Metric {
-    const char* name;
-    ErrorKind kind;
-    bool eps, decibels;
-};
-
-constexpr Metric kMetrics[] = {{"smape", ErrorKind::Symmetric, true, false},
-                               {"rmae", ErrorKind::RelativeAbsolute, true, false},
-                               {"relmse", ErrorKind::RelativeSquared, true, false},
-                               {"mse", ErrorKind::Squared, false, false},
-                               {"mae", ErrorKind::Absolute, false, false},
-                               {"psnr", ErrorKind::Squared, false, true},
-                               {"mpsnr", ErrorKind::Exposed, false, true}};
-
-const Metric* find_metric(const std::string& name, std::string& error) {
-    for (const Metric& metric : kMetrics)
-        if (name == metric.name)
-            return &metric;
-    error = "unknown metric \"" + name +
-            "\"; valid: " + OIIO::Strutil::join(ToneAlgo::error_metrics(), ", ");
-    return nullptr;
+const ErrorMetric* find_metric(const std::string& name, std::string& error) {
+    const ErrorMetric* metric = metrics::find_error_metric(name);
+    if (!metric)
+        error = "unknown metric \"" + name +
+                "\"; valid: " + OIIO::Strutil::join(ToneAlgo::error_metrics(), ", ");
+    return metric;
 }
 
 // Beyond these the squares leave what a double tells apart.
@@ -51,35 +34,34 @@ bool check_range(double value, const char* name, std::string& error) {
     return false;
 }
 
-ErrorSummary summarize(const Metric& metric, const ErrorOptions& options, FlipSummary&& found) {
+ErrorSummary summarize(const ErrorMetric& metric, const ErrorOptions& options,
+                       FlipSummary&& found) {
     ErrorSummary s;
     static_cast<PairSummary&>(s) = std::move(static_cast<PairSummary&>(found));
     s.metric = metric.name;
-    s.eps = metric.eps ? options.eps : 0;
-    s.decibels = metric.decibels;
-    if (metric.kind == ErrorKind::Exposed) {
+    s.eps = metric.has(metrics::kEps) ? options.eps : 0;
+    s.peak = metric.has(metrics::kPeak) ? options.peak : 0;
+    s.decibels = metric.has(metrics::kDecibels);
+    if (metric.has(metrics::kExposures)) {
         s.exposures = std::move(found.exposures);
         s.max_luminance = found.max_luminance;
         s.median_luminance = found.median_luminance;
         s.median_of_lit = found.median_of_lit;
-    } else if (metric.decibels) {
-        s.peak = options.peak;
     }
-    const double largest = s.peak > 0 ? s.peak : 1;
-    s.value = metric.decibels ? 10 * std::log10(largest * largest / s.pool.mean) : s.pool.mean;
+    s.value = metric.measure(s.pool.mean, s.peak > 0 ? s.peak : 1);
     return s;
 }
 
 bool measure(ImageBuf& dst, const ImageBuf& reference, const ImageBuf& test,
              const ErrorOptions& options, ErrorSummary* summary, ROI roi, int nthreads,
              std::string& error) {
-    const Metric* metric = find_metric(options.metric, error);
+    const ErrorMetric* metric = find_metric(options.metric, error);
     FlipPlan plan;
     std::vector<ImageBuf> maps;
     std::vector<FlipResult> results;
     if (!metric || !check_range(options.eps, "eps", error) ||
         !check_range(options.peak, "peak", error) ||
-        !plan_errors(options, {metric->kind, options.eps}, metric->kind == ErrorKind::Exposed, plan,
+        !plan_errors(options, {metric->kind, options.eps}, metric->has(metrics::kExposures), plan,
                      error) ||
         !run_flip(plan, reference, {&test}, {&dst}, roi, nthreads, maps, results, error))
         return false;
@@ -111,7 +93,7 @@ ImageBuf error_map(const ImageBuf& reference, const ImageBuf& test, const ErrorO
 
 std::vector<std::string> error_metrics() {
     std::vector<std::string> names;
-    for (const Metric& metric : kMetrics)
+    for (const ErrorMetric& metric : metrics::kErrorMetrics)
         names.emplace_back(metric.name);
     return names;
 }

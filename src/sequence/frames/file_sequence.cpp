@@ -48,9 +48,7 @@ std::vector<Item> items_of(const std::vector<int>& frames, const NamePattern& pa
 struct Found {
     Item item;
     std::string name;
-    bool operator<(const Found& o) const {
-        return std::tie(item.frame, item.view, name) < std::tie(o.item.frame, o.item.view, o.name);
-    }
+    bool operator<(const Found& o) const { return std::tie(item, name) < std::tie(o.item, o.name); }
 };
 
 // The files of one view in the folder that the pattern names.
@@ -101,13 +99,11 @@ Files on_disk(const std::string& printf_style, const PatternOptions& options) {
     return listing;
 }
 
-using Key = std::pair<int, std::string>;
-
 void check_each_once(const std::string& pattern, const Files& files) {
-    std::map<Key, std::string> names;
+    std::map<Item, std::string> names;
     for (size_t i = 0; i < files.items.size(); ++i) {
         const Item& item = files.items[i];
-        const auto [known, is_new] = names.emplace(Key(item.frame, item.view), files.names[i]);
+        const auto [known, is_new] = names.emplace(item, files.names[i]);
         if (!is_new) {
             throw std::runtime_error("\"" + known->second + "\" and \"" + files.names[i] +
                                      "\" are both frame " + std::to_string(item.frame) + " of \"" +
@@ -120,12 +116,10 @@ void check_each_once(const std::string& pattern, const Files& files) {
 
 // The files on the disk whose numbers are in `meant`.
 Files with_numbers_of(const std::vector<Item>& meant, const Files& found) {
-    std::set<Key> keys;
-    for (const Item& item : meant)
-        keys.emplace(item.frame, item.view);
+    const std::set<Item> keys(meant.begin(), meant.end());
     Files files;
     for (size_t i = 0; i < found.items.size(); ++i) {
-        if (keys.count({found.items[i].frame, found.items[i].view}) > 0) {
+        if (keys.count(found.items[i]) > 0) {
             files.items.push_back(found.items[i]);
             files.names.push_back(found.names[i]);
         }

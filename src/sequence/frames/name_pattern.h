@@ -4,6 +4,7 @@
 
 #include <optional>
 #include <string>
+#include <tuple>
 #include <vector>
 
 namespace tonetool::sequence {
@@ -12,6 +13,9 @@ struct Item {
     int frame = 0;
     std::string view; ///< empty where the pattern has no %V or %v
     bool operator==(const Item& o) const { return frame == o.frame && view == o.view; }
+    bool operator<(const Item& o) const {
+        return std::tie(frame, view) < std::tie(o.frame, o.view);
+    }
 };
 
 class NamePattern {

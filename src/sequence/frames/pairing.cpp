@@ -6,7 +6,6 @@
 #include <numeric>
 #include <set>
 #include <stdexcept>
-#include <utility>
 
 #include "sequence/frames/frame_range.h"
 
@@ -14,13 +13,7 @@ namespace tonetool::sequence {
 
 namespace {
 
-using Key = std::pair<int, std::string>;
-
-Key key(const Item& item) {
-    return {item.frame, item.view};
-}
-
-void fill_holes(std::set<Key>& keys) {
+void fill_holes(std::set<Item>& keys) {
     std::set<std::string> views;
     std::set<int> numbers;
     for (const auto& [number, view] : keys) {
@@ -40,7 +33,7 @@ void fill_holes(std::set<Key>& keys) {
     }
     for (long long number = first; step > 0 && number <= last; number += step)
         for (const std::string& view : views)
-            keys.emplace(int(number), view);
+            keys.insert({int(number), view});
 }
 
 std::vector<int> numbers_of(const std::vector<Item>& items) {
@@ -98,9 +91,9 @@ void check_positions(const std::vector<Side>& sides) {
                 " (valid: ranges of equal length, paired by position)");
         }
     }
-    std::set<Key> keys;
+    std::set<Item> keys;
     for (const Item& item : first.files.items) {
-        if (!keys.insert(key(item)).second) {
+        if (!keys.insert(item).second) {
             throw std::runtime_error("\"" + first.pattern + "\" has frame " +
                                      std::to_string(item.frame) +
                                      " twice (valid: every frame of the first range once)");
@@ -135,19 +128,16 @@ void check_common_number(const std::vector<Side>& sides) {
 } // namespace
 
 std::vector<Item> paired(const std::vector<Side>& sides) {
-    std::set<Key> keys;
+    std::set<Item> keys;
     bool from_disk = true;
     for (const Side& side : sides) {
         from_disk = from_disk && side.files.from_disk;
         for (const Item& item : side.files.items)
-            keys.insert(key(item));
+            keys.insert(item);
     }
     if (from_disk && !keys.empty())
         fill_holes(keys);
-    std::vector<Item> items;
-    for (const auto& [number, view] : keys)
-        items.push_back({number, view});
-    return items;
+    return {keys.begin(), keys.end()};
 }
 
 Pairing pair_sides(const std::vector<Side>& sides, const PatternOptions& options) {
@@ -179,15 +169,15 @@ std::vector<std::string> names_of(const Side& side, const PatternOptions& option
                                   const std::vector<Item>& items) {
     // Names found on the disk begin with "./" even where the pattern does not.
     const bool dotted = side.pattern.compare(0, 2, "./") == 0;
-    std::map<Key, std::string> known;
+    std::map<Item, std::string> known;
     for (size_t i = 0; side.files.from_disk && i < side.files.items.size(); ++i) {
         const std::string& name = side.files.names.at(i);
         const bool strip = !dotted && name.compare(0, 2, "./") == 0;
-        known.emplace(key(side.files.items[i]), strip ? name.substr(2) : name);
+        known.emplace(side.files.items[i], strip ? name.substr(2) : name);
     }
     std::vector<std::string> names = input_names(side.pattern, options, items);
     for (size_t i = 0; i < items.size(); ++i) {
-        const auto found = known.find(key(items[i]));
+        const auto found = known.find(items[i]);
         names[i] = found == known.end() ? names[i] : found->second;
     }
     return names;

@@ -1,15 +1,27 @@
 #include "sequence/results/measurement.h"
 
+#include "imagebuf/compare/fields.h"
+
 namespace tonetool::sequence {
 
 namespace {
 
-void add_side(Measurement& to, const std::string& side, const FlipSide& found) {
-    to.settings.emplace_back(side + "-layer", found.layer.empty() ? "R,G,B" : found.layer);
-    to.settings.emplace_back(side + "-space", found.space);
-    to.parameters.emplace_back(side + "-nonfinite", double(found.nonfinite));
-    to.parameters.emplace_back(side + "-negative", double(found.negative));
-    to.parameters.emplace_back(side + "-uncovered", double(found.uncovered));
+void add(Measurement& to, const std::string& key, double value) {
+    to.parameters.emplace_back(key, value);
+}
+void add(Measurement& to, const std::string& key, int64_t value) {
+    to.parameters.emplace_back(key, double(value));
+}
+void add(Measurement& to, const std::string& key, const std::string& value) {
+    to.settings.emplace_back(key, value);
+}
+
+// For imagebuf/compare/fields.h: of the summary, or of the image that is called so.
+template <class Summary>
+auto fields(Measurement& to, const Summary& summary, const std::string& of = "") {
+    return [&to, &summary, of](const SummaryField& field, auto member) {
+        add(to, key_name(field, of), said(field, summary.*member));
+    };
 }
 
 void add_pool(Measurement& to, const FlipPool& pool) {
@@ -24,15 +36,11 @@ void add_pool(Measurement& to, const FlipPool& pool) {
 
 void add_pair(Measurement& to, const PairSummary& summary) {
     add_pool(to, summary.pool);
-    add_side(to, "reference", summary.reference);
-    add_side(to, "test", summary.test);
-    to.parameters.emplace_back("nonfinite-in-both", double(summary.nonfinite_both));
-    to.parameters.emplace_back("nonfinite-unlike", double(summary.nonfinite_unlike));
-    to.parameters.emplace_back("alpha-ignored", double(summary.alpha_ignored));
-    if (summary.alpha_compared) {
-        to.parameters.emplace_back("alpha-mean", summary.alpha_mean);
-        to.parameters.emplace_back("alpha-max", summary.alpha_max);
-    }
+    visit_side(fields(to, summary.reference, "reference"));
+    visit_side(fields(to, summary.test, "test"));
+    visit_pair_counts(fields(to, summary));
+    if (summary.alpha_compared)
+        visit_alpha(fields(to, summary));
     to.warnings = summary.warnings;
 }
 
@@ -40,8 +48,7 @@ template <class Summary>
 void add_exposures(Measurement& to, const Summary& summary) {
     to.exposures = summary.exposures;
     if (!summary.exposures.empty()) {
-        to.parameters.emplace_back("max-luminance", summary.max_luminance);
-        to.parameters.emplace_back("median-luminance", summary.median_luminance);
+        visit_exposed_luminance<Summary>(fields(to, summary));
         to.settings.emplace_back("median-of", summary.median_of_lit ? "lit pixels" : "all pixels");
     }
 }
@@ -59,10 +66,8 @@ Measurement measurement(const FlipSummary& summary) {
             to.parameters.emplace_back("coefficient-" + std::to_string(i), summary.coeffs[i]);
         for (const auto& [name, value] : summary.parameters)
             to.parameters.emplace_back("curve-" + name, value);
-        if (summary.baked) {
-            to.parameters.emplace_back("bake-error-max", summary.bake_error_max);
-            to.parameters.emplace_back("bake-error-mean", summary.bake_error_mean);
-        }
+        if (summary.baked)
+            visit_bake_error(fields(to, summary));
     }
     add_exposures(to, summary);
     return to;
@@ -72,10 +77,10 @@ Measurement measurement(const ErrorSummary& summary) {
     Measurement to;
     to.quantities.emplace_back(summary.metric, summary.value);
     add_pair(to, summary);
-    if (summary.eps > 0)
-        to.parameters.emplace_back("eps", summary.eps);
-    if (summary.peak > 0)
-        to.parameters.emplace_back("peak", summary.peak);
+    visit_metric_options([&](const SummaryField& field, auto member) {
+        if (summary.*member > 0)
+            to.parameters.emplace_back(key_name(field), summary.*member);
+    });
     add_exposures(to, summary);
     return to;
 }
@@ -85,11 +90,10 @@ Measurement measurement(const TmqiSummary& summary) {
     for (const std::string& name : ToneAlgo::tmqi_quantities())
         to.quantities.emplace_back(name, ToneAlgo::tmqi_quantity(summary.score, name).value());
     for (size_t i = 0; i < summary.score.scales.size(); ++i)
-        to.quantities.emplace_back("S" + std::to_string(i + 1), summary.score.scales[i]);
-    add_side(to, "hdr", summary.hdr);
-    add_side(to, "ldr", summary.ldr);
-    to.parameters.emplace_back("ldr-mean", summary.score.mean);
-    to.parameters.emplace_back("ldr-deviation", summary.score.deviation);
+        to.quantities.emplace_back(scale_name(i), summary.score.scales[i]);
+    visit_side(fields(to, summary.hdr, "hdr"));
+    visit_side(fields(to, summary.ldr, "ldr"));
+    visit_shown_luminance(fields(to, summary.score));
     to.pixels = static_cast<long long>(summary.region.npixels());
     to.warnings = summary.warnings;
     return to;

@@ -9,6 +9,7 @@
 #include <tuple>
 
 #include "sequence/qc/qc.h"
+#include "sequence/results/measuring.h"
 
 namespace tonetool::sequence {
 
@@ -207,9 +208,11 @@ void judge(FrameResult& frame) {
     }
 }
 
-bool higher_is_better(const std::string& command, const std::string& quantity) {
-    return command == "tmqi" ||
-           (command == "errormap" && (quantity == "psnr" || quantity == "mpsnr"));
+std::optional<double> quantity_of(const Measurement& measured, const std::string& name) {
+    const auto& all = measured.quantities;
+    const auto found =
+        std::find_if(all.begin(), all.end(), [&](const auto& one) { return one.first == name; });
+    return found == all.end() ? std::nullopt : std::optional<double>(found->second);
 }
 
 double badness(const FrameResult& frame) {

@@ -139,9 +139,8 @@ bool is_unmeasured(const FrameResult& frame);
 /// twice.
 void conclude(ShotResult& shot);
 
-/// Whether higher values of a command's quantity are better: psnr and mpsnr of --errormap, and all
-/// quantities of --tmqi. For all others lower is better.
-bool higher_is_better(const std::string& command, const std::string& quantity);
+/// A quantity by its name.
+std::optional<double> quantity_of(const Measurement& measured, const std::string& name);
 
 /// The rank of a frame among those of the same status, higher being worse: the measured value in
 /// units of its threshold; without a threshold the value itself, negated where higher is better.

@@ -1,11 +1,11 @@
 #include "sequence/results/results_json.h"
 
 #include <OpenImageIO/strutil.h>
-#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
 #include "sequence/results/json_text.h"
+#include "sequence/verdict/summary.h"
 #include "sequence/verdict/trust.h"
 
 namespace tonetool::sequence {
@@ -264,60 +264,6 @@ ShotExposures exposures_of(const ordered_json& from) {
             ""};
 }
 
-ordered_json worst_of(const ShotResult& shot) {
-    ordered_json list = ordered_json::array();
-    for (size_t index : shot.worst) {
-        const FrameResult& frame = shot.frames.at(index);
-        ordered_json one{{"frame", frame.frame}};
-        put(one, "view", frame.view);
-        list.push_back(one);
-    }
-    return list;
-}
-
-ordered_json counts_of(const std::vector<Status>& frames) {
-    ordered_json counts = ordered_json::object();
-    for (Status one :
-         {Status::Passed, Status::Measured, Status::Warning, Status::Failed, Status::SizeMismatch,
-          Status::Missing, Status::Unreadable, Status::Error, Status::Crashed})
-        counts[status_name(one)] = std::count(frames.begin(), frames.end(), one);
-    return counts;
-}
-
-ordered_json counts_of(const ShotResult& shot) {
-    std::vector<Status> frames;
-    for (const FrameResult& frame : shot.frames)
-        frames.push_back(frame.status);
-    return counts_of(frames);
-}
-
-void check_equal(const std::string& key, const ordered_json& said, const ordered_json& found) {
-    if (said != found) {
-        throw std::runtime_error("\"" + key + "\" is " + one_line(said) +
-                                 ", but that of its frames is " + one_line(found));
-    }
-}
-
-// What the file says of all frames is of those that it has: none was taken out or put in since.
-// Where numbers were believed rather than the word, only what the words make is known.
-void check_summary(const ordered_json& from, const ShotResult& shot) {
-    std::vector<Status> said;
-    for (const ordered_json& frame : from.at("frames"))
-        said.push_back(status(frame));
-    const ordered_json counts = counts_of(said);
-    for (const auto& one : counts.items()) {
-        check_equal("counts/" + one.key(), from.at("counts").value(one.key(), ordered_json(0)),
-                    one.value());
-    }
-    check_equal(
-        "verdict", from.at("verdict"),
-        status_name(said.empty() ? Status::Error : *std::max_element(said.begin(), said.end())));
-    if (counts == counts_of(shot)) {
-        check_equal("sentence", from.at("sentence"), shot.sentence);
-        check_equal("worst", from.at("worst"), worst_of(shot));
-    }
-}
-
 } // namespace
 
 void check_format(const ordered_json& from, const std::string& format, int version) {
@@ -358,7 +304,10 @@ ShotResult shot_from_json(const std::string& from) {
         });
         check_limits(shot);
         conclude(shot);
-        check_summary(json, shot);
+        std::vector<Status> said;
+        for (const ordered_json& frame : json.at("frames"))
+            said.push_back(status(frame));
+        check_summary(json, said, shot);
         return shot;
     });
 }

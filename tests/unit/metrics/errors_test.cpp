@@ -5,6 +5,8 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <set>
+#include <string>
 
 namespace tonetool::metrics {
 namespace {
@@ -67,6 +69,31 @@ TEST(PixelErrors, GrowWithTheDifferenceAndStayFinite) {
         }
         EXPECT_GT(last, 0.1f);
     }
+}
+
+TEST(ErrorMetrics, EachIsARowOfOneKernel) {
+    std::set<std::string> names;
+    std::set<ErrorKind> kinds;
+    for (const ErrorMetric& metric : kErrorMetrics) {
+        EXPECT_TRUE(names.insert(metric.name).second) << metric.name;
+        kinds.insert(metric.kind);
+        EXPECT_EQ(find_error_metric(metric.name), &metric);
+        EXPECT_EQ((PixelError{metric.kind, 0.01}.bounded()), metric.has(kBounded)) << metric.name;
+        EXPECT_TRUE(metric.has(kDecibels) || !metric.has(kPeak)) << metric.name;
+    }
+    for (const ErrorKind kind : kKinds)
+        EXPECT_EQ(kinds.count(kind), 1U) << int(kind);
+    EXPECT_EQ(find_error_metric("mspe"), nullptr);
+}
+
+TEST(ErrorMetrics, TheMeasureIsTheMeanOrThatInDecibels) {
+    for (const ErrorMetric& metric : kErrorMetrics) {
+        const bool decibels = metric.has(kDecibels);
+        EXPECT_DOUBLE_EQ(metric.measure(0.01, 1), decibels ? 20 : 0.01) << metric.name;
+        EXPECT_EQ(metric.measure(0, 1), decibels ? INFINITY : 0) << metric.name;
+        EXPECT_EQ(metric.measure(0.02, 1) > metric.measure(0.01, 1), !decibels) << metric.name;
+    }
+    EXPECT_DOUBLE_EQ(find_error_metric("psnr")->measure(0.25, 10), 10 * std::log10(400));
 }
 
 TEST(PixelErrors, SymmetricIsSymmetric) {

@@ -1,10 +1,12 @@
 #include "chain/language/registry.h"
 
+#include <algorithm>
 #include <gtest/gtest.h>
 #include <set>
 
 #include "chain/manual/help.h"
 #include "runs/runs.h"
+#include "sequence/results/measuring.h"
 
 namespace tonetool::runs {
 namespace {
@@ -51,6 +53,23 @@ TEST_F(Registry, ModifiersAreUniqueAndExplained) {
             EXPECT_FALSE(modifier.hint.empty()) << where;
             EXPECT_FALSE(modifier.help.empty()) << where;
         }
+    }
+}
+
+bool has_limits(const Command& row) {
+    return std::any_of(row.modifiers.begin(), row.modifiers.end(),
+                       [](const Modifier& modifier) { return modifier.key == "fail"; });
+}
+
+// What a check must know of a command whose numbers it judges.
+TEST_F(Registry, EveryCommandWithLimitsIsKnownToMeasure) {
+    for (const Command& row : all_commands())
+        if (has_limits(row))
+            EXPECT_NE(sequence::measuring_command(row.names.front()), nullptr) << row.names.front();
+    for (const sequence::MeasuringCommand& known : sequence::kMeasuringCommands) {
+        const Command* row = find_command(known.name);
+        ASSERT_NE(row, nullptr) << known.name;
+        EXPECT_EQ(has_limits(*row), !known.compares_values()) << known.name;
     }
 }
 

@@ -6,6 +6,7 @@
 #include <gmock/gmock.h>
 #include <stdexcept>
 
+#include "metrics/errors.h"
 #include "sequence/results/json_text.h"
 #include "sequence/results/results_json.h"
 
@@ -199,6 +200,29 @@ TEST(Trust, DirectionFollowsFromTheQuantity) {
     EXPECT_THAT(refusal([](auto&) {},
                         shot_of({"--errormap:metric=mse:fail=psnr=30"}, psnr(0.0001), psnr(0.1))),
                 HasSubstr("metric is mse"));
+}
+
+TEST(Trust, TheMeasureOfEveryMetricIsHeldToTheMapsMean) {
+    for (const metrics::ErrorMetric& metric : metrics::kErrorMetrics) {
+        const bool up = metric.has(metrics::kDecibels);
+        const auto measure = [&](double mean) {
+            const double value = metric.measure(mean, 1);
+            return of("errormap", {metric.name, value, up, metric.measure(0.01, 1), {}},
+                      {{metric.name, value}, {"mean", mean}, {"max", 1}});
+        };
+        const ShotResult result = shot_of(
+            {std::string("--errormap:metric=") + metric.name + ":fail=" + (up ? "20" : "0.01")},
+            measure(0.0001), measure(0.1));
+        EXPECT_EQ(result.frames[0].status, Status::Passed) << metric.name;
+        EXPECT_EQ(result.frames[1].status, Status::Failed) << metric.name;
+        EXPECT_THAT(forged(result,
+                           [&](auto& one) {
+                               one["quantities"][metric.name] = one["thresholds"][0]["value"] =
+                                   metric.measure(0.001, 1);
+                           }),
+                    HasSubstr("but its mean of 0.1 gives"))
+            << metric.name;
+    }
 }
 
 TEST(Trust, TheScoresOfTmqiAreHeldToEachOther) {

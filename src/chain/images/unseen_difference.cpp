@@ -1,14 +1,19 @@
-#include "chain/images/nonfinite_mismatch.h"
+#include "chain/images/unseen_difference.h"
 
+#include <OpenImageIO/strutil.h>
 #include <algorithm>
 #include <cmath>
 #include <vector>
 
+#include "imagebuf/pixels/upright.h"
 #include "text/error.h"
+#include "text/text.h"
 
 namespace tonetool::chain {
 
 namespace {
+
+using OIIO::Strutil::fmt::format;
 
 constexpr int64_t kValuesAtOnce = int64_t(1) << 21; // of one image
 
@@ -101,6 +106,19 @@ void look_at_samples(const OIIO::ImageBuf& a, const OIIO::ImageBuf& b, const OII
     }
 }
 
+std::string window_text(const OIIO::ROI& window) {
+    return format("{}x{}{:+}{:+}", window.width(), window.height(), window.xbegin, window.ybegin);
+}
+
+// Of one of several parts: that of a file's only one is not what its picture is known by.
+std::string name_of_part(const OIIO::ImageSpec& spec) {
+    const std::string view = spec.get_string_attribute("view");
+    return spec.get_int_attribute("oiio:subimages") < 2
+               ? ""
+               : std::string(spec.get_string_attribute("oiio:subimagename")) +
+                     (view.empty() ? "" : " of view " + view);
+}
+
 } // namespace
 
 NonfiniteMismatch find_nonfinite_mismatch(const OIIO::ImageBuf& a, const OIIO::ImageBuf& b) {
@@ -123,6 +141,63 @@ NonfiniteMismatch find_nonfinite_mismatch(const OIIO::ImageBuf& a, const OIIO::I
         }
     }
     return found;
+}
+
+OIIO::imagesize_t unseen_differences(const OIIO::ImageBuf& a, const OIIO::ImageBuf& b,
+                                     float limit) {
+    constexpr int looked_at = 3;
+    const OIIO::ROI all = a.roi();
+    const size_t channels = size_t(a.nchannels());
+    std::vector<float> values_of_a(size_t(all.width()) * channels), values_of_b(values_of_a.size());
+    OIIO::imagesize_t pixels = 0;
+    for (int y = all.ybegin; y < all.yend; ++y) {
+        OIIO::ROI row = all;
+        row.ybegin = y;
+        row.yend = y + 1;
+        a.get_pixels(row, OIIO::TypeFloat, values_of_a.data());
+        b.get_pixels(row, OIIO::TypeFloat, values_of_b.data());
+        for (size_t at = 0; at < values_of_a.size(); at += channels) {
+            const float *one = &values_of_a[at], *other = &values_of_b[at];
+            const auto finite = [](float value) { return std::isfinite(value); };
+            const size_t colors = std::min<size_t>(channels, looked_at);
+            const bool seen = std::all_of(one, one + colors, finite) &&
+                              std::all_of(other, other + colors, finite);
+            bool differs = false;
+            for (size_t c = seen ? colors : 0; c < channels; ++c)
+                differs = differs || std::abs(one[c] - other[c]) > limit;
+            pixels += differs ? 1 : 0;
+        }
+    }
+    return pixels;
+}
+
+std::string difference_of_headers(const OIIO::ImageSpec& a, const OIIO::ImageSpec& b) {
+    const auto windows = [](const OIIO::ROI& r, const OIIO::ROI& t) {
+        return window_text(r) + " vs " + window_text(t);
+    };
+    const auto same = [](const OIIO::ROI& r, const OIIO::ROI& t) {
+        return r.xbegin == t.xbegin && r.xend == t.xend && r.ybegin == t.ybegin &&
+               r.yend == t.yend && r.zbegin == t.zbegin && r.zend == t.zend;
+    };
+    if (!same(a.roi(), b.roi()))
+        return "Images differ in size (data windows " + windows(a.roi(), b.roi()) + ")";
+    if (!same(a.roi_full(), b.roi_full())) {
+        return "Images differ in their display windows (" + windows(a.roi_full(), b.roi_full()) +
+               ")";
+    }
+    if (a.channelnames != b.channelnames) {
+        return "Images differ in their channels (" + join(a.channelnames, ",") + " vs " +
+               join(b.channelnames, ",") + ")";
+    }
+    if (name_of_part(a) != name_of_part(b)) {
+        return "Images differ in the names of their parts (" + name_of_part(a) + " vs " +
+               name_of_part(b) + ")";
+    }
+    if (orientation_of(a) != orientation_of(b)) {
+        return format("Images differ in Orientation ({} vs {})", orientation_of(a),
+                      orientation_of(b));
+    }
+    return "";
 }
 
 } // namespace tonetool::chain

@@ -1,4 +1,4 @@
-#include "chain/images/nonfinite_mismatch.h"
+#include "chain/images/unseen_difference.h"
 
 #include <OpenImageIO/imagebufalgo.h>
 #include <cmath>

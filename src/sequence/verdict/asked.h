@@ -1,0 +1,33 @@
+// What the words of a check ask of its measurements.
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "sequence/results/diff_limits.h"
+#include "sequence/results/measuring.h"
+
+namespace tonetool::sequence {
+
+using Limits = std::map<std::string, double>; ///< by the name of the quantity
+
+/// A word of the check that measures.
+struct Asked {
+    bool limited = false; ///< it has a limit
+    bool open = false;    ///< but its numbers are those of an expression, which is not known here
+    Limits fail, warn;
+    std::string metric; ///< of --errormap
+    double peak = 1;
+    DiffLimits diff;
+};
+
+struct Check {
+    std::map<std::string, std::vector<Asked>> asked; ///< by the name of the command
+    bool open = false;                               ///< an expression stands for a command
+    bool blocks = false;                             ///< not every word runs once
+};
+
+Check check_of(const std::vector<std::string>& words);
+
+} // namespace tonetool::sequence
