@@ -272,16 +272,16 @@ std::string QcScan::hash() const {
 void QcScan::scan_spikes(bool last) {
     const ROI& window = picture_window();
     const int held = m_largest_begin + int(m_largest.size());
-    const int end = last ? held : held - Spike::kReach;
+    const int end = last ? held : held - Spike::kRadius;
     std::vector<std::vector<Spike>> found(size_t(std::max(end - m_spikes_done, 0)));
     make_parallel(m_nthreads)(int64_t(found.size()), [&](int64_t i) {
         const int y = m_spikes_done + int(i);
-        const float* rows[2 * Spike::kReach + 1];
-        for (int dy = -Spike::kReach; dy <= Spike::kReach; ++dy) {
+        const float* rows[2 * Spike::kRadius + 1];
+        for (int dy = -Spike::kRadius; dy <= Spike::kRadius; ++dy) {
             const int at = y + dy;
-            rows[dy + Spike::kReach] = at >= m_largest_begin && at < held
-                                           ? m_largest[size_t(at - m_largest_begin)].data()
-                                           : nullptr;
+            rows[dy + Spike::kRadius] = at >= m_largest_begin && at < held
+                                            ? m_largest[size_t(at - m_largest_begin)].data()
+                                            : nullptr;
         }
         metrics::find_spikes(rows, window.width(), window.xbegin, y, found[size_t(i)]);
     });
@@ -291,7 +291,7 @@ void QcScan::scan_spikes(bool last) {
     }
     metrics::keep_largest(m_spikes, QcPicture::kSpikes);
     m_spikes_done = std::max(end, m_spikes_done);
-    while (!m_largest.empty() && m_largest_begin < m_spikes_done - Spike::kReach) {
+    while (!m_largest.empty() && m_largest_begin < m_spikes_done - Spike::kRadius) {
         m_largest.pop_front();
         ++m_largest_begin;
     }
