@@ -18,10 +18,12 @@ bool is_left_out(const std::string& argument, const Strings& texts, size_t at, b
             (lenient && texts[at][0] == '-'));
 }
 
-// "--attrib note --compat" sets a text, though where results go no name begins with a dash.
+// "--attrib note --compat" and "--echo --frames=1" are texts; a file of results or a range of
+// frames is not called so.
 bool is_command_instead(const Command& row, const std::string& text) {
-    const std::string name = has_dash(text) ? parse_token(text, true).name : "";
-    return (row.whole_line || name != "compat") && find_command(name) != nullptr;
+    const Token token = parse_token(has_dash(text) ? text : "", true);
+    const bool may_be_text = token.name == "compat" || !token.value.empty();
+    return (row.whole_line || !may_be_text) && find_command(token.name) != nullptr;
 }
 
 void take_arguments(Word& word, const Strings& texts, bool lenient) {

@@ -41,8 +41,8 @@ TEST_F(Line, CommandsTakeTheirArguments) {
 
 TEST_F(Line, AForgottenArgumentIsNotTheNextCommand) {
     EXPECT_THAT(shape({"--frames", "--echo", "x"}), ElementsAre("--frames(no RANGE)", "--echo(x)"));
-    EXPECT_THAT(shape({"--label", "--frames=1-3"}),
-                ElementsAre("--label(no NAME)", "--frames(1-3)"));
+    EXPECT_THAT(shape({"--json", "--frames=1-3"}), ElementsAre("--json(no FILE)", "--frames(1-3)"));
+    EXPECT_THAT(shape({"--label", "--frames=1-3"}), ElementsAre("--label(--frames=1-3)"));
     EXPECT_THAT(shape({"--json", "--compat"}), ElementsAre("--json(no FILE)", "--compat"));
     EXPECT_THAT(shape({"--mulc"}), ElementsAre("--mulc(no VALUES)"));
 }
