@@ -9,7 +9,7 @@
 namespace tonetool {
 
 // The limits that src/flip knows, which is not included here: the test of the tables compares them.
-inline constexpr Range kPpdRange{1, 1000}, kStopsRange{-1000, 1000};
+inline constexpr Range kPpdRange{1, 1000}, kStopsRange{-126, 127};
 inline constexpr int kMostExposures = 1024;
 
 /// The screen: of LDR-FLIP and HDR-FLIP.
