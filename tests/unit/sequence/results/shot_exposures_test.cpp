@@ -57,9 +57,9 @@ TEST(ShotExposures, FilesComeBackToTheBitSorted) {
 TEST(ShotExposures, NumbersThatDoNotFitAreNamed) {
     const auto refusal = [](const std::string& frame, const std::string& maximum) {
         try {
-            samples_from_json(
-                R"({"format":"tonetool-exposures","version":1,"samples":[{"frame":)" + frame +
-                R"(,"max_luminance":)" + maximum + R"(,"median_luminance":1}]})");
+            samples_from_json(R"({"format":"tonetool-exposures","version":1,"samples":[{"frame":)" +
+                              frame + R"(,"max_luminance":)" + maximum +
+                              R"(,"median_luminance":1}]})");
         } catch (const std::runtime_error& problem) {
             return std::string(problem.what());
         }
