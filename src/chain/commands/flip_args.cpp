@@ -41,22 +41,6 @@ void check_order(const Call& call, const std::optional<double>& start,
     }
 }
 
-template <class Options>
-void read_exposures(const Call& call, Options& options, double least = 1) {
-    options.start_exposure = call.number("startExposure", kStopsRange);
-    options.stop_exposure = call.number("stopExposure", kStopsRange);
-    check_order(call, options.start_exposure, options.stop_exposure);
-    options.num_exposures = call.integer("numExposures", {least, double(kMostExposures)});
-}
-
-Strings metrics_with(metrics::ErrorTrait trait) {
-    Strings names;
-    for (const metrics::ErrorMetric& metric : metrics::kErrorMetrics)
-        if (metric.has(trait))
-            names.emplace_back(metric.name);
-    return names;
-}
-
 // fail= and warn= of a command.
 class LimitReader {
 public:
@@ -267,9 +251,10 @@ void read_pair_options(const Session& session, const Call& call, PairOptions& op
 void read_flip_options(const Session& session, const Call& call, bool screen,
                        FlipOptions& options) {
     read_pair_options(session, call, options);
-    options.ppd = call.number("ppd", kPpdRange);
     if (screen)
         read_screen(call, options);
+    else
+        options.ppd = call.number("ppd", kPpdRange);
 }
 
 void read_hdr_options(const Session& session, const Call& call, HdrFlipOptions& options) {
@@ -290,18 +275,9 @@ Limits limits_of(const Call& call, const Measures& measures, Strings& pooled) {
 std::vector<Modifier> error_modifiers() {
     Measures measures;
     measures.names.insert(measures.names.begin(), "METRIC");
-    const auto of = [](metrics::ErrorTrait trait) {
-        return "of " + join(metrics_with(trait), ", ");
-    };
-    const std::string in_decibels = join(metrics_with(metrics::kDecibels), ", ");
+    const std::string in_decibels = join(metrics_that_have(metrics::kDecibels), ", ");
     return concatenated(
-        {{{"metric", choices(ToneAlgo::error_metrics()), "which error"},
-          {"eps", "X", of(metrics::kEps) + " (0.01)"},
-          {"peak", "X", of(metrics::kPeak) + " (1)"},
-          {"startExposure", "STOPS", of(metrics::kExposures) + ": first exposure, as in hdrflip"},
-          {"stopExposure", "STOPS", "its last exposure"},
-          {"numExposures", "N", "number of its exposures"}},
-         pair_modifiers(),
+        {modifiers_of<ErrorOptions>(), pair_modifiers(),
          threshold_modifiers(measures, "at most X (" + in_decibels + ": at least X dB)")});
 }
 
@@ -319,13 +295,13 @@ ErrorOptions error_options(const Session& session, const Call& call) {
         {"numExposures", metrics::kExposures}};
     for (const auto& [key, trait] : keys) {
         if (call.has(key) && !metrics::find_error_metric(options.metric)->has(trait)) {
-            throw CommandError(std::string(key) + "= goes with metric=" +
-                               join(metrics_with(trait), ", ") + ", not with " + options.metric);
+            throw CommandError(std::string(key) +
+                               "= goes with metric=" + join(metrics_that_have(trait), ", ") +
+                               ", not with " + options.metric);
         }
     }
-    options.eps = call.number("eps", {1e-12, 1e12}).value_or(options.eps);
-    options.peak = call.number("peak", {1e-12, 1e12}).value_or(options.peak);
-    read_exposures(call, options);
+    read_options(call, options);
+    check_order(call, options.start_exposure, options.stop_exposure);
     return options;
 }
 
@@ -355,9 +331,12 @@ HdrFlipOptions flipdiff_options(const Session& session, const Call& call) {
     options.ppd = call.number("ppd", kPpdRange).value_or(67.02);
     options.curve.name =
         call.choice("tonemapper", ToneAlgo::flip_tonemappers()).value_or(options.curve.name);
-    read_exposures(call, options, 0);
-    if (options.num_exposures == 0)
-        options.num_exposures.reset();
+    options.start_exposure = call.number("startExposure", kStopsRange);
+    options.stop_exposure = call.number("stopExposure", kStopsRange);
+    check_order(call, options.start_exposure, options.stop_exposure);
+    const int count = call.integer("numExposures", {0, flip::kMaxExposures}).value_or(0);
+    if (count > 0)
+        options.num_exposures = count;
     double maximum = call.number("maxluminance", {-1e30, 1e30}).value_or(2.0);
     double median = call.number("medianluminance", {-1e30, 1e30}).value_or(0.18);
     if (maximum > 0) {

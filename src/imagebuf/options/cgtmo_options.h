@@ -7,8 +7,9 @@
 
 namespace tonetool {
 
+/// The base, and the G-buffer AOVs that guide its filter.
 template <class See>
-void describe(const CgTmoOptions&, See&& see) {
+void describe_base(See&& see) {
     using O = CgTmoOptions;
     see(option("preset", &O::preset,
                "default: a log base with a luminance term; paper: Eq. 2 and 4 to the letter")
@@ -58,6 +59,12 @@ void describe(const CgTmoOptions&, See&& see) {
     see(option("wlslambda", &O::wlslambda, "smoothness of the base of filter=wls")
             .within(0, 100)
             .unset("0.125"));
+}
+
+/// The luminances that the curve follows from, and the result.
+template <class See>
+void describe_curve(See&& see) {
+    using O = CgTmoOptions;
     see(option("lwa", &O::lwa,
                "adaptation luminance: geometric, harmonic, arithmetic or median of the panorama "
                "(of the image without one), or a number")
@@ -87,6 +94,12 @@ void describe(const CgTmoOptions&, See&& see) {
     see(option("show", &O::show,
                "the tone-mapped image, or what its linear luminance is the product of")
             .one_of({"picture", "base", "detail"}));
+}
+
+template <class See>
+void describe(const CgTmoOptions&, See&& see) {
+    describe_base(see);
+    describe_curve(see);
 }
 
 } // namespace tonetool

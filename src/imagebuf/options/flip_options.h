@@ -2,15 +2,17 @@
 // names or switches; pixels, curve and view are structs of their own.
 #pragma once
 
+#include "flip/exposures.h"
+#include "flip/filters.h"
 #include "imagebuf/options/option.h"
+#include "metrics/errors.h"
 #include "tonetool/errors.h"
 #include "tonetool/flip.h"
 
 namespace tonetool {
 
-// The limits that src/flip knows, which is not included here: the test of the tables compares them.
-inline constexpr Range kPpdRange{1, 1000}, kStopsRange{-126, 127};
-inline constexpr int kMostExposures = 1024;
+inline constexpr Range kPpdRange{flip::kMinPixelsPerDegree, flip::kMaxPixelsPerDegree};
+inline constexpr Range kStopsRange{flip::kMinStops, flip::kMaxStops};
 
 /// The screen: of LDR-FLIP and HDR-FLIP.
 template <class See>
@@ -20,11 +22,13 @@ void describe(const FlipOptions&, See&& see) {
             .within(kPpdRange.low, kPpdRange.high)
             .unset("of the three numbers below"));
     see(option("distance", &O::distance, "viewing distance in metres")
-            .positive()
+            .within(1e-6, 1e6)
             .shown_as("METRES"));
-    see(option("width", &O::width, "width of the screen in metres").positive().shown_as("METRES"));
+    see(option("width", &O::width, "width of the screen in metres")
+            .within(1e-6, 1e6)
+            .shown_as("METRES"));
     see(option("pixels", "pixels_across", &O::pixels_across, "width of the screen in pixels")
-            .positive()
+            .within(1, 1e7)
             .shown_as("N"));
 }
 
@@ -42,7 +46,7 @@ void describe_exposures(See&& see, const std::string& start, const std::string& 
             .shown_as("STOPS")
             .unset(stop));
     see(option("numExposures", "num_exposures", &Options::num_exposures, "number of exposures")
-            .within(1, kMostExposures)
+            .within(1, flip::kMaxExposures)
             .unset(number));
 }
 
@@ -72,14 +76,27 @@ void describe(const HdrFlipOptions&, See&& see) {
             .unset("the reference's"));
 }
 
+/// Names of the error metrics that have an option, or another trait.
+inline std::vector<std::string> metrics_that_have(metrics::ErrorTrait trait) {
+    std::vector<std::string> names;
+    for (const metrics::ErrorMetric& metric : metrics::kErrorMetrics)
+        if (metric.has(trait))
+            names.emplace_back(metric.name);
+    return names;
+}
+
 template <class See>
 void describe(const ErrorOptions&, See&& see) {
     using O = ErrorOptions;
+    const auto of = [](metrics::ErrorTrait trait) {
+        return "of " + OIIO::Strutil::join(metrics_that_have(trait), ", ");
+    };
+    const std::string exposures = of(metrics::kExposures) + " alone; as hdrflip";
     see(option("metric", &O::metric, "error metric").one_of(ToneAlgo::error_metrics()));
-    see(option("eps", &O::eps, "epsilon of smape, rmae and relmse").within(1e-12, 1e12));
-    see(option("peak", &O::peak, "peak of psnr in linear light").within(1e-12, 1e12));
-    describe_exposures<O>(see, "of mpsnr alone; as hdrflip", "of mpsnr alone; as hdrflip",
-                          "of mpsnr alone; as hdrflip");
+    see(option("eps", &O::eps, "epsilon " + of(metrics::kEps)).within(1e-12, 1e12));
+    see(option("peak", &O::peak, "peak " + of(metrics::kPeak) + " in linear light")
+            .within(1e-12, 1e12));
+    describe_exposures<O>(see, exposures, exposures, exposures);
 }
 
 } // namespace tonetool

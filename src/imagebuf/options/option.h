@@ -45,7 +45,9 @@ struct Option {
     std::optional<Range> range = {};    ///< of a number
     std::vector<std::string> list = {}; ///< of a name: the choices
     bool or_zero = false;               ///< 0 is valid beside the range
-    std::string otherwise = {};         ///< what stands for an unset or empty value: "the image's"
+    /// What stands for an unset or empty value, or for a number's default outside the range: "the
+    /// image's".
+    std::string otherwise = {};
 
     Option within(double low, double high) && {
         range = Range{low, high};
@@ -106,7 +108,11 @@ struct Option {
                 value = options.*member;
             }
             const bool inside = double(value) >= range->low && double(value) <= range->high;
-            return inside || (or_zero && value == 0)
+            const bool zero = or_zero && value == 0;
+            bool unset = false;
+            if constexpr (!optional)
+                unset = !otherwise.empty() && value == Owner().*member;
+            return inside || zero || unset
                        ? ""
                        : format("{} is {}: must be {} to {}", key, value, range->low, range->high);
         } else if constexpr (std::is_same_v<T, std::string>) {
@@ -124,8 +130,9 @@ private:
         using OIIO::Strutil::fmt::format;
         if (!range)
             return "";
-        return range->low <= 1e-30 ? ", above 0"
-                                   : format(", {:g} to {:g}", range->low, range->high);
+        if (range->low <= 0 || range->low > 1e-30)
+            return format(", {:g} to {:g}", range->low, range->high);
+        return range->high >= 1e30 ? ", above 0" : format(", above 0, to {:g}", range->high);
     }
 };
 

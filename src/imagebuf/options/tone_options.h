@@ -53,7 +53,6 @@ void describe(const LutOptions&, See&& see) {
     see(option("max", &O::max, "high end of shaper=log2 in stops").within(1, 16));
     see(option("size", &O::size, "entries, or nodes along the edge of a cube (2 to 129)")
             .within(2, 65536)
-            .zero_too()
             .unset("4096, or 33"));
 }
 

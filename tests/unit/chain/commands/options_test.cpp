@@ -96,6 +96,16 @@ TEST(Options, OutOfRangeIsRefusedByCommandLineAndLibrary) {
     EXPECT_EQ(options_fault(lens), "blades is 21: must be 3 to 20");
 }
 
+TEST(Options, RangesAreSaid) {
+    const auto said = [](double low, double high) {
+        return option("focal", &Lens::focal, "x").within(low, high).meaning();
+    };
+    EXPECT_EQ(said(-126, 127), "x, -126 to 127");
+    EXPECT_EQ(said(0, 4), "x, 0 to 4");
+    EXPECT_EQ(said(1e-30, 1), "x, above 0, to 1");
+    EXPECT_EQ(option("focal", &Lens::focal, "x").positive().meaning(), "x, above 0");
+}
+
 // Every row of every table: a name, a text of its own, and a default that is valid.
 template <class Options>
 void check_table() {
@@ -118,6 +128,12 @@ TEST(Options, TablesAreComplete) {
     check_table<TonemapOptions>();
     check_table<LutOptions>();
     check_table<LightOptions>();
+    EXPECT_EQ(options_fault([] {
+                  LutOptions odd;
+                  odd.size = 1;
+                  return odd;
+              }()),
+              "size is 1: must be 2 to 65536");
 }
 
 TEST(Options, LimitsAreThoseOfTheAlgorithms) {
@@ -125,7 +141,10 @@ TEST(Options, LimitsAreThoseOfTheAlgorithms) {
     EXPECT_EQ(kPpdRange.high, flip::kMaxPixelsPerDegree);
     EXPECT_EQ(kStopsRange.low, flip::kMinStops);
     EXPECT_EQ(kStopsRange.high, flip::kMaxStops);
-    EXPECT_EQ(kMostExposures, flip::kMaxExposures);
+    describe(HdrFlipOptions(), [](const auto& row) {
+        if (std::string(row.key) == "numExposures")
+            EXPECT_EQ(row.range->high, flip::kMaxExposures);
+    });
 }
 
 } // namespace
