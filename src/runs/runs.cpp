@@ -20,8 +20,8 @@ void know_all_commands() {
     static std::once_flag once;
     std::call_once(once, [] {
         chain::add_commands(check_commands());
-        chain::add_commands(chain::commands());
-        chain::add_commands(chain::commands());
+        chain::add_commands(chain::own_commands());
+        chain::add_commands(chain::help_commands());
     });
 }
 

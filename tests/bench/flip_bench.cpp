@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <cstdio>
 #include <ctime>
+#include <exception>
 #include <limits>
 #include <random>
 #include <string>
@@ -275,9 +276,10 @@ void evaluate_view(benchmark::State& state) {
     options.view.display = "sRGB";
     options.view.view = "ACES SDR";
     DisplayLight light;
-    std::string error;
-    if (!light.open(options, error)) {
-        state.SkipWithError(error.c_str());
+    try {
+        light.open(options);
+    } catch (const std::exception& why) {
+        state.SkipWithError(why.what());
         return;
     }
     const PicturePair pair = make_pair(width, height);

@@ -4,7 +4,7 @@
 
 namespace tonetool::chain {
 
-std::vector<Command> commands() {
+std::vector<Command> own_commands() {
     std::vector<Command> all = diff_commands();
     for (auto family : {compare_commands, qc_commands, exposure_commands, tone_commands,
                         cgtmo_commands, light_commands, memory_commands}) {

@@ -18,6 +18,6 @@ std::vector<Command> light_commands();
 std::vector<Command> memory_commands();
 
 /// All of them.
-std::vector<Command> commands();
+std::vector<Command> own_commands();
 
 } // namespace tonetool::chain

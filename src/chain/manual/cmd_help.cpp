@@ -33,7 +33,7 @@ void run_help(Session& session, const Call& call) {
 
 } // namespace
 
-std::vector<Command> commands() {
+std::vector<Command> help_commands() {
     return {setting(
         Group::General, {"help"}, {"[COMMAND]"},
         "List all commands, tell more about one, or all as man, bash, zsh (completion) or json",

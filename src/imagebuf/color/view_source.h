@@ -9,6 +9,6 @@
 namespace tonetool {
 
 /// The space that `options.from` names in the configuration `options.config`, to linear Rec.709.
-bool config_space(const PixelOptions& options, ColorSpace& space, std::string& error);
+ColorSpace config_space(const PixelOptions& options);
 
 } // namespace tonetool

@@ -8,8 +8,10 @@
 
 #include "imagebuf/compare/annotate.h"
 #include "imagebuf/compare/flip_run.h"
+#include "imagebuf/pixels/checks.h"
 #include "imagebuf/pixels/deliver.h"
 #include "imagebuf/pixels/guard.h"
+#include "metrics/refusal.h"
 
 namespace tonetool {
 namespace {
@@ -33,23 +35,16 @@ constexpr Metric kMetrics[] = {{"smape", ErrorKind::Symmetric, true, false},
                                {"psnr", ErrorKind::Squared, false, true},
                                {"mpsnr", ErrorKind::Exposed, false, true}};
 
-const Metric* find_metric(const std::string& name, std::string& error) {
+const Metric& find_metric(const std::string& name) {
     for (const Metric& metric : kMetrics)
         if (name == metric.name)
-            return &metric;
-    error = "unknown metric \"" + name +
-            "\"; valid: " + OIIO::Strutil::join(ToneAlgo::error_metrics(), ", ");
-    return nullptr;
+            return metric;
+    throw Refusal("unknown metric \"" + name +
+                  "\"; valid: " + OIIO::Strutil::join(ToneAlgo::error_metrics(), ", "));
 }
 
 // Beyond these the squares leave what a double tells apart.
-bool check_range(double value, const char* name, std::string& error) {
-    constexpr double low = 1e-12, high = 1e12;
-    if (value >= low && value <= high)
-        return true;
-    error = format("{} is {}: must be {} to {}", name, value, low, high);
-    return false;
-}
+constexpr double kLeast = 1e-12, kMost = 1e12;
 
 ErrorSummary summarize(const Metric& metric, const ErrorOptions& options, FlipSummary&& found) {
     ErrorSummary s;
@@ -70,25 +65,21 @@ ErrorSummary summarize(const Metric& metric, const ErrorOptions& options, FlipSu
     return s;
 }
 
-bool measure(ImageBuf& dst, const ImageBuf& reference, const ImageBuf& test,
-             const ErrorOptions& options, ErrorSummary* summary, ROI roi, int nthreads,
-             std::string& error) {
-    const Metric* metric = find_metric(options.metric, error);
-    FlipPlan plan;
+void measure(ImageBuf& dst, const ImageBuf& reference, const ImageBuf& test,
+             const ErrorOptions& options, ErrorSummary* summary, ROI roi, int nthreads) {
+    const Metric& metric = find_metric(options.metric);
+    check_range(options.eps, kLeast, kMost, "eps");
+    check_range(options.peak, kLeast, kMost, "peak");
+    const FlipPlan plan =
+        plan_errors(options, {metric.kind, options.eps}, metric.kind == ErrorKind::Exposed);
     std::vector<ImageBuf> maps;
     std::vector<FlipResult> results;
-    if (!metric || !check_range(options.eps, "eps", error) ||
-        !check_range(options.peak, "peak", error) ||
-        !plan_errors(options, {metric->kind, options.eps}, metric->kind == ErrorKind::Exposed, plan,
-                     error) ||
-        !run_flip(plan, reference, {&test}, {&dst}, roi, nthreads, maps, results, error))
-        return false;
-    ErrorSummary found = summarize(*metric, options, std::move(results[0].summary));
+    run_flip(plan, reference, {&test}, {&dst}, roi, nthreads, maps, results);
+    ErrorSummary found = summarize(metric, options, std::move(results[0].summary));
     annotate(maps[0].specmod(), found);
     deliver(dst, std::move(maps[0]), "Error:");
     if (summary)
         *summary = std::move(found);
-    return true;
 }
 
 } // namespace
@@ -97,9 +88,8 @@ namespace ToneAlgo {
 
 bool error_map(ImageBuf& dst, const ImageBuf& reference, const ImageBuf& test,
                const ErrorOptions& options, ErrorSummary* summary, ROI roi, int nthreads) {
-    return guarded(dst, "error_map", [&](std::string& error) {
-        return measure(dst, reference, test, options, summary, roi, nthreads, error);
-    });
+    return guarded(dst, "error_map",
+                   [&] { measure(dst, reference, test, options, summary, roi, nthreads); });
 }
 
 ImageBuf error_map(const ImageBuf& reference, const ImageBuf& test, const ErrorOptions& options,

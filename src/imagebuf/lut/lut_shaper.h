@@ -11,7 +11,7 @@ namespace tonetool {
 
 class LutShaper {
 public:
-    bool make(const LutOptions& options, std::string& error);
+    void make(const LutOptions& options);
 
     double shape(double x) const;
     double light(double v) const; ///< the inverse, never below 0

@@ -41,17 +41,6 @@ inline void expect_memory(uint64_t bytes) {
         throw TooLarge(bytes, available);
 }
 
-/// The same as an error.
-inline bool has_memory(uint64_t bytes, std::string& error) {
-    try {
-        expect_memory(bytes);
-        return true;
-    } catch (const TooLarge& failure) {
-        error = failure.what();
-        return false;
-    }
-}
-
 /// An image whose pixels are there, but not set; a std::bad_alloc else.
 inline OIIO::ImageBuf allocated_image(const OIIO::ImageSpec& spec) {
     expect_memory(spec.image_bytes());

@@ -6,6 +6,7 @@
 
 #include "imagebuf/pixels/checks.h"
 #include "imagebuf/pixels/names.h"
+#include "metrics/refusal.h"
 #include "tonemap/poisson.h"
 #include "tonetool/tonemap.h"
 
@@ -19,35 +20,33 @@ constexpr double kWindowOfSigma = 2.5;
 
 // The place of a name in a list, which enumerators follow.
 template <class Enum>
-bool choose(const char* what, const std::string& name, const std::vector<std::string>& valid,
-            Enum& out, std::string& error) {
-    if (!one_of(what, name, valid, error))
-        return false;
+void choose(const char* what, const std::string& name, const std::vector<std::string>& valid,
+            Enum& out) {
+    check_one_of(what, name, valid);
     out = Enum(std::find(valid.begin(), valid.end(), name) - valid.begin());
-    return true;
 }
 
-bool check_numbers(const CgTmoOptions& o, std::string& error) {
-    return in_range(o.sigma, 1, 20, "sigma", error) && in_range(o.bias, 0.01, 1, "bias", error) &&
-           in_range(o.ldmax, 1, 10000, "ldmax", error) &&
-           in_range(o.saturation, 0, 4, "saturation", error) &&
-           in_range(o.lumsigma.value_or(0), 0, 10, "lumsigma", error) &&
-           in_range(o.fov.value_or(90), 1, 179, "fov", error) &&
-           (o.samples == 0 || in_range(o.samples, 4, 400, "samples", error));
+void check_numbers(const CgTmoOptions& o) {
+    check_range(o.sigma, 1, 20, "sigma");
+    check_range(o.bias, 0.01, 1, "bias");
+    check_range(o.ldmax, 1, 10000, "ldmax");
+    check_range(o.saturation, 0, 4, "saturation");
+    check_range(o.lumsigma.value_or(0), 0, 10, "lumsigma");
+    check_range(o.fov.value_or(90), 1, 179, "fov");
+    if (o.samples != 0)
+        check_range(o.samples, 4, 400, "samples");
 }
 
-bool plan_wls(const CgTmoOptions& o, tonemap::WlsTerms& wls, std::string& error) {
+void plan_wls(const CgTmoOptions& o, tonemap::WlsTerms& wls) {
     const std::pair<const char*, const std::optional<double>&> given[] = {
         {"wlsalpha", o.wlsalpha}, {"wlslambda", o.wlslambda}};
     for (const auto& [name, value] : given)
-        if (value && o.filter != "wls") {
-            error = format("{} is of filter=wls, and this is filter={}", name, o.filter);
-            return false;
-        }
+        if (value && o.filter != "wls")
+            throw Refusal(format("{} is of filter=wls, and this is filter={}", name, o.filter));
     wls.alpha = o.wlsalpha.value_or(wls.alpha);
     wls.lambda = o.wlslambda.value_or(wls.lambda);
-    return in_range(wls.alpha, 0, 4, "wlsalpha", error) &&
-           in_range(wls.lambda, 0, 100, "wlslambda", error);
+    check_range(wls.alpha, 0, 4, "wlsalpha");
+    check_range(wls.lambda, 0, 100, "wlslambda");
 }
 
 void plan_filter(const CgTmoOptions& o, bool paper, LocalPlan& plan) {
@@ -65,30 +64,26 @@ void plan_filter(const CgTmoOptions& o, bool paper, LocalPlan& plan) {
 
 } // namespace
 
-bool plan_local(const CgTmoOptions& o, LocalPlan& plan, std::string& error) {
-    plan = {};
+LocalPlan plan_local(const CgTmoOptions& o) {
+    LocalPlan plan;
     plan.encode = find_encoding(o.encode);
-    if (!plan.encode) {
-        error = unknown_name("encoding", o.encode, ToneAlgo::display_encodings());
-        return false;
-    }
+    if (!plan.encode)
+        throw Refusal(unknown_name("encoding", o.encode, ToneAlgo::display_encodings()));
     bool paper = false, logarithmic = false;
-    if (!choose("preset", o.preset, {"default", "paper"}, paper, error))
-        return false;
+    choose("preset", o.preset, {"default", "paper"}, paper);
     const std::string domain = !o.domain.empty() ? o.domain : paper ? "linear" : "log";
-    if (!choose("domain", domain, {"linear", "log"}, logarithmic, error) ||
-        !choose("filter", o.filter, {"guided", "bilateral", "wls", "none"}, plan.filter, error) ||
-        !choose("show", o.show, {"picture", "base", "detail"}, plan.show, error) ||
-        !choose("normaldist", o.normaldist, {"euclid", "dot"}, plan.what.terms.normal_term,
-                error) ||
-        !check_numbers(o, error) || !plan_wls(o, plan.wls, error))
-        return false;
+    choose("domain", domain, {"linear", "log"}, logarithmic);
+    choose("filter", o.filter, {"guided", "bilateral", "wls", "none"}, plan.filter);
+    choose("show", o.show, {"picture", "base", "detail"}, plan.show);
+    choose("normaldist", o.normaldist, {"euclid", "dot"}, plan.what.terms.normal_term);
+    check_numbers(o);
+    plan_wls(o, plan.wls);
     plan.what.logarithmic = plan.wls.logarithmic = logarithmic;
     plan_filter(o, paper, plan);
     plan.what.curve.bias = o.bias;
     plan.what.curve.display_maximum = o.ldmax;
     plan.what.curve.saturation = o.saturation;
-    return true;
+    return plan;
 }
 
 kernels::TapSets taps_of(const LocalPlan& plan, double sigma) {

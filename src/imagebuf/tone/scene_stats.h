@@ -19,7 +19,7 @@ struct SceneStats {
 };
 
 /// `planes` hold the colour of the whole image, as `reader` reads it.
-bool measure_scene(const OIIO::ImageBuf& image, const CgTmoOptions& options, ColorReader& reader,
-                   ColorPlanes& planes, int nthreads, SceneStats& out, std::string& error);
+SceneStats measure_scene(const OIIO::ImageBuf& image, const CgTmoOptions& options,
+                         ColorReader& reader, ColorPlanes& planes, int nthreads);
 
 } // namespace tonetool

@@ -17,10 +17,7 @@ constexpr double kExact = 1e-11; // typed with 12 digits
 
 CurveNumbers curve(const char* name, const std::map<std::string, double>& given = {}) {
     const tonemap::Curve& row = *tonemap::find_curve(name);
-    tonemap::CurveValues values;
-    std::string error;
-    EXPECT_TRUE(tonemap::curve_values(row, given, false, values, error)) << error;
-    return row.make(values);
+    return row.make(tonemap::curve_values(row, given, false));
 }
 
 double at(double x, const char* name, const std::map<std::string, double>& given = {}) {
