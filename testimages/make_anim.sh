@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: BSD-3-Clause
 # make_anim.sh FROM TO: the sequence of FROM (ref.0001.exr ..., test.0001.exr ...) in 48x27, the
 # beauty and its light groups alone. Needs oiiotool.
 set -euo pipefail

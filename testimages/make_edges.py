@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: BSD-3-Clause
 """Writes the small images that are easy to get wrong: make_edges.py [FOLDER] (default: its own).
 
 Every value is an integer, a dyadic fraction or one matrix product of such, so that a second run

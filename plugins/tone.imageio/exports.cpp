@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What OpenImageIO looks for in the file tone.imageio.so: every name begins as the file's does.
 #include "tone.imageio/tone_input.h"
 #include "tonetool/export.h"

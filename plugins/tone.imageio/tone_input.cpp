@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "tone.imageio/tone_input.h"
 
 #include <OpenImageIO/strutil.h>

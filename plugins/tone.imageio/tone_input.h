@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Recipes as OpenImageIO reads them. Of all files here only exports.cpp is in the plugin alone: the
 // program has this reader built in.
 #pragma once

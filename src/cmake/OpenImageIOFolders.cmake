@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 # Debian's OpenImageIO target names include folders of packages that it does not depend on, and
 # CMake refuses folders that are not there.
 get_target_property(tonetool_oiio_folders OpenImageIO::OpenImageIO INTERFACE_INCLUDE_DIRECTORIES)

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 # The rooms of libtonetool as build/release has them. Fuzzed are texts, by clang; of the kernels it
 # would make checks for half an hour, and nobody runs them there.
 set(built ${PROJECT_SOURCE_DIR}/build/release/src)

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 # What another project needs of libtonetool: headers, CMake package, pkg-config file. All of them
 # find each other by relative paths, so that an installed tree can be moved.
 include(CMakePackageConfigHelpers)

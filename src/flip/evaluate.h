@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // LDR-FLIP and HDR-FLIP of whole images or windows of them, tile by tile.
 #pragma once
 

@@ -1,8 +1,11 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "flip/exposures.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+
+#include "metrics/refusal.h"
 
 namespace tonetool::flip {
 namespace {
@@ -13,35 +16,28 @@ std::string text(const char* format, double a, double b = 0) {
     return buffer;
 }
 
-bool in_range(double stops, const char* name, std::string& error) {
-    if (std::isfinite(stops) && stops >= kMinStops && stops <= kMaxStops)
-        return true;
-    error = std::string(name) + text(" exposure is %g stops", stops) +
-            text(": must be finite and between %g and %g; pass ", kMinStops, kMaxStops) + name +
-            "Exposure";
-    return false;
+void check_range(double stops, const char* name) {
+    if (!(std::isfinite(stops) && stops >= kMinStops && stops <= kMaxStops))
+        throw Refusal(std::string(name) + text(" exposure is %g stops", stops) +
+                      text(": must be finite and between %g and %g; pass ", kMinStops, kMaxStops) +
+                      name + "Exposure");
 }
 
-// The exposure that brings a luminance to the exposure anchor.
-bool measure(std::optional<double> bright, double luminance, const char* name, double& stops,
-             std::string& error) {
-    if (!bright) {
-        error = text("what the image is shown through never reaches %g, so there is no automatic "
-                     "exposure: pass "
-                     "startExposure and stopExposure",
-                     kAnchorValue);
-        return false;
-    }
-    if (!(std::isfinite(luminance) && luminance > 0)) {
-        error = std::string(name) +
-                text(" exposure cannot be measured: the luminance is %g, must "
-                     "be positive and finite; pass ",
-                     luminance) +
-                name + "Exposure";
-        return false;
-    }
-    stops = std::log2(*bright / luminance);
-    return true;
+// One end of the range from a luminance.
+double measured(std::optional<double> bright, double luminance, const char* name) {
+    if (!bright)
+        throw Refusal(
+            text("what the image is shown through never reaches %g, so there is no automatic "
+                 "exposure: pass "
+                 "startExposure and stopExposure",
+                 kAnchorValue));
+    if (!(std::isfinite(luminance) && luminance > 0))
+        throw Refusal(std::string(name) +
+                      text(" exposure cannot be measured: the luminance is %g, must "
+                           "be positive and finite; pass ",
+                           luminance) +
+                      name + "Exposure");
+    return std::log2(*bright / luminance);
 }
 
 } // namespace
@@ -85,32 +81,27 @@ std::optional<double> exposure_anchor(const GreyResponse& response) {
     return std::exp2(0.5 * (low + high));
 }
 
-bool make_exposures(std::optional<double> bright, const ExposureRequest& request,
-                    std::vector<double>& stops, std::string& error) {
+std::vector<double> make_exposures(std::optional<double> bright, const ExposureRequest& request) {
     double start = request.start.value_or(0), stop = request.stop.value_or(0);
     const bool single = request.count == 1;
-    if (!request.start && !measure(bright, request.max_luminance, "start", start, error))
-        return false;
+    if (!request.start)
+        start = measured(bright, request.max_luminance, "start");
     if (single && !request.stop)
         stop = start;
-    else if (!request.stop && !measure(bright, request.median_luminance, "stop", stop, error))
-        return false;
-    if (!in_range(start, "start", error) || !in_range(stop, "stop", error))
-        return false;
-    if (start > stop) {
-        error = text("start exposure %g is above stop exposure %g", start, stop) +
-                ": must not be larger";
-        return false;
-    }
+    else if (!request.stop)
+        stop = measured(bright, request.median_luminance, "stop");
+    check_range(start, "start");
+    check_range(stop, "stop");
+    if (start > stop)
+        throw Refusal(text("start exposure %g is above stop exposure %g", start, stop) +
+                      ": must not be larger");
     const int count = request.count.value_or(std::max(2, int(std::ceil(stop - start))));
-    if (count < 1 || count > kMaxExposures) {
-        error = text("number of exposures is %g: must be 1 to %g", count, kMaxExposures);
-        return false;
-    }
-    stops.clear();
+    if (count < 1 || count > kMaxExposures)
+        throw Refusal(text("number of exposures is %g: must be 1 to %g", count, kMaxExposures));
+    std::vector<double> stops;
     for (int i = 0; i < count; ++i)
         stops.push_back(count == 1 ? start : start + i * (stop - start) / (count - 1));
-    return true;
+    return stops;
 }
 
 } // namespace tonetool::flip

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The exposures that HDR-FLIP compares at (Eurographics 2021, section 4).
 #pragma once
 
@@ -36,9 +37,8 @@ struct ExposureRequest {
 
 /// The exposures in stops, ascending. Eq. 2 and 3: start = log2(x / max), stop = log2(x / median),
 /// N = max(2, ceil(stop - start)). `bright` is x, the exposure anchor of the curve, if it has one.
-/// One exposure means the start. On failure `error` says which number is out of range and what
-/// would be valid.
-bool make_exposures(std::optional<double> bright, const ExposureRequest& request,
-                    std::vector<double>& stops, std::string& error);
+/// One exposure means the start. A number that is out of range is a Refusal that says what would be
+/// valid.
+std::vector<double> make_exposures(std::optional<double> bright, const ExposureRequest& request);
 
 } // namespace tonetool::flip

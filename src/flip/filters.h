@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The filters of LDR-FLIP for a number of pixels per degree.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Tone curves as plain numbers: exposed scene light in, display light out.
 #pragma once
 

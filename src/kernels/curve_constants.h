@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Constants of the tone curves that mix channels: there are too many for CurveNumbers, and no
 // option changes them.
 #pragma once

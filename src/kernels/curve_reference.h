@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Tone curves in double precision, written straight from their sources. The tests compare the lanes
 // with them, and single values (inverses, exposures, look-up tables) are computed by them.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Tone curves on rows of pixels, in float lanes (Google Highway, dynamic dispatch).
 #pragma once
 

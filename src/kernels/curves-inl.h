@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The tone curves in lanes. Included once per target.
 //
 // Each curve is a type, so that the pixel loop holds no branch. Its constructor works out in double

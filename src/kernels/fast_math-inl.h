@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Lane arithmetic for positive numbers: cube root, log2, exp2. Included once per target.
 #if defined(TONETOOL_KERNELS_FAST_MATH_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef TONETOOL_KERNELS_FAST_MATH_INL_H_

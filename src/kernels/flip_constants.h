@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Constants of LDR-FLIP (HPG 2020), with the equations they belong to.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The FLIP error of two pixels from their colours and features, in SIMD lanes. Included once per
 // target.
 #if defined(TONETOOL_KERNELS_FLIP_ERROR_INL_H_) == defined(HWY_TARGET_TOGGLE)

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "kernels/flip_reference.h"
 
 #include <algorithm>

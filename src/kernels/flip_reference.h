@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // LDR-FLIP and HDR-FLIP written straight from the papers. In double precision they are the
 // reference implementation of the tests; in float, operation by operation in the order of the
 // papers, they show how exact plain single precision is.

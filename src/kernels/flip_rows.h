@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The stages of LDR-FLIP on rows, in float lanes (Google Highway): one table of functions per
 // instruction set, flip_tile.h puts them together.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The filters of LDR-FLIP as one-sided lists of taps: element i weighs the pixels at +i and -i.
 #pragma once
 

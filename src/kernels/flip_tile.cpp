@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "kernels/flip_tile.h"
 
 #include <hwy/cache_control.h>

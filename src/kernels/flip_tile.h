@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // HDR-FLIP of one tile with all exposures in cache: the row functions of flip_rows.h run over it
 // from top to bottom, and no more than a few rows is kept between them.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "kernels/footprint_rows.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Footprints of pixels from the positions around them, row by row, in float lanes (Google Highway,
 // dynamic dispatch).
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The cross bilateral filter of CG-TMO, guided by the G-buffer, as planes and numbers: F. Banterle
 // et al., Eqs. 3 and 4, with the two terms that others have added.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The cross bilateral filter in double precision, written straight from the paper's Eqs. 3 and 4:
 // the reference implementation that the tests compare with.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The cross bilateral filter on rows, in float lanes (Google Highway): one table of functions per
 // instruction set, guided_tile.h puts them together.
 #pragma once

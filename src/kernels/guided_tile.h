@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The cross bilateral filter over some columns of an image, row by row.
 #pragma once
 

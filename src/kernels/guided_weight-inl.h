@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Weights of the cross bilateral filter in lanes. Included once per target.
 #if defined(TONETOOL_KERNELS_GUIDED_WEIGHT_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef TONETOOL_KERNELS_GUIDED_WEIGHT_INL_H_

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The colour spaces of LDR-FLIP in SIMD lanes. Included once per target.
 #if defined(TONETOOL_KERNELS_HUNT_LAB_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef TONETOOL_KERNELS_HUNT_LAB_INL_H_

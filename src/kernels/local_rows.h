@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A tone curve on the base of an image, its detail multiplied back, on rows of pixels in float
 // lanes (Google Highway, dynamic dispatch).
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The sums behind the means of luminance, row by row in float lanes (Google Highway, dynamic
 // dispatch).
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A 3D LUT behind a shaper curve: scene light in, display light in [0,1] out.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Symmetric convolution in SIMD lanes, several outputs at a time. Included once per target.
 #if defined(TONETOOL_KERNELS_SYMMETRIC_FILTER_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef TONETOOL_KERNELS_SYMMETRIC_FILTER_INL_H_

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The tone curves that HDR-FLIP runs, as plain numbers.
 #pragma once
 

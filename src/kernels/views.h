@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Images as the libraries below the ImageBuf border see them: pointers, strides and numbers.
 #pragma once
 

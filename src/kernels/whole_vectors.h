@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Runs functions that take whole vectors only over rows of any length.
 #pragma once
 

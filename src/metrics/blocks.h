@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Blocks of rows that are visited in parallel; results do not depend on how they are scheduled.
 #pragma once
 

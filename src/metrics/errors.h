@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Errors of single pixels, and the metrics that are made of them; include/tonetool/errors.h says
 // what each is and where it comes from.
 #pragma once

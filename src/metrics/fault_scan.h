@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The measurements behind --qc: rows of pixels in, sums and positions of bad pixels out. Rows are
 // scanned one by one and added up in their order, so results do not depend on threads.
 #pragma once

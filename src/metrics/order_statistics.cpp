@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "metrics/order_statistics.h"
 
 #include <algorithm>

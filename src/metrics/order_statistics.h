@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Exact order statistics of non-negative floats, without sorting or copying them.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // TMQI: H. Yeganeh, Z. Wang, "Objective Quality Assessment of Tone-Mapped Images", IEEE
 // Transactions on Image Processing 22(2), 2013.
 #pragma once

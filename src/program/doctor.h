@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Whether other programs on this computer read recipes, and if not why.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The tonetool program: its arguments go to the chain, the chain's status comes back.
 #include <cerrno>
 #include <csignal>

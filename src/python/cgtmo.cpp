@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // CG-TMO.
 #include "tonetool/cgtmo.h"
 

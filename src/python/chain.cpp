@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A command line on images.
 #include "runs/runs.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What the comparisons of two images have in common.
 #pragma once
 

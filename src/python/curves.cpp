@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The registry of tone curves.
 #include "python/families.h"
 #include "python/results.h"

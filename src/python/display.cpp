@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Making maps visible.
 #include "tonetool/display.h"
 

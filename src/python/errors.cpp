@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The measures that rendering papers report.
 #include "tonetool/errors.h"
 

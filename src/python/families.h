@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What each family of functions adds to the module.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // LDR-FLIP, HDR-FLIP and the filmstrip.
 #include "tonetool/flip.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "python/function.h"
 
 #include <OpenImageIO/strutil.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Functions of the module: positional images, keywords from a table, a docstring with sections.
 #pragma once
 

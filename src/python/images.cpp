@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "python/images.h"
 
 #include <OpenImageIO/oiioversion.h>
@@ -147,11 +148,11 @@ OIIO::ImageBuf copied(const OIIO::ImageBuf& image, const std::string& function) 
     check_read(image, function);
     if (!is_file_to_read(image))
         return image.copy(OIIO::TypeUnknown);
-    OIIO::ImageBuf whole;
-    std::string error;
-    if (!read_whole(image, image.spec().format, whole, error))
-        throw Refused(function + ": " + error);
-    return whole;
+    try {
+        return read_whole(image, image.spec().format);
+    } catch (const Refusal& refusal) {
+        throw Refused(function + ": " + refusal.what());
+    }
 }
 
 } // namespace

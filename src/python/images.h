@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Images of Python: OpenImageIO.ImageBuf, and arrays of numpy, without a copy where their numbers
 // are those of images.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Light groups and panoramas.
 #include "tonetool/lights.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Options of lights, which other functions take, too.
 #pragma once
 

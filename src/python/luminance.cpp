@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Luminance statistics and exposure.
 #include "tonetool/luminance.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Tone curves and views as look-up tables.
 #include "tonetool/lut.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The module of Python. It is called tonetool._tonetool; its package, tonetool, shows all of it.
 #include "python/families.h"
 #include "python/images.h"

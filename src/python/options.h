@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Options as keywords: one table per struct, from which the checks, the signatures, the docstrings
 // and the stubs are made.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Which pixels of an image a function looks at.
 #include "tonetool/pixels.h"
 

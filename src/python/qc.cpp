@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What a dailies check must know of a picture.
 #include "tonetool/qc.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Results as objects with named fields, from one table per struct.
 #pragma once
 

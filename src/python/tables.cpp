@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Tables of the structs of options that several functions take.
 #include "imagebuf/options/tone_options.h"
 #include "python/options.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // TMQI.
 #include "tonetool/tmqi.h"
 

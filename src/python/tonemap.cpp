@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Tone mapping and calibration.
 #include "tonetool/tonemap.h"
 

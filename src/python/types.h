@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // How values of options and results look in Python: one conversion and one spelling per C++ type.
 #pragma once
 

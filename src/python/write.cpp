@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Writing files so that a failed run never harms what was there.
 #include "tonetool/write.h"
 

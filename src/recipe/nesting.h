@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Recipes that read recipes: who reads whom on this thread.
 #pragma once
 

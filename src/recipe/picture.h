@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What a recipe shows: its chain is run once for all who look at it.
 #pragma once
 

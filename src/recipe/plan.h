@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The size of a recipe's picture where the headers of its inputs tell it.
 #pragma once
 

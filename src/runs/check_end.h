@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What a check comes to: its files and its last line, of frames that ran or of parts that are
 // joined.
 #pragma once

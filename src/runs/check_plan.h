@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What a command line says about a check of its frames, before any of them runs.
 #pragma once
 

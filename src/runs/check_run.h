@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Command lines over frames, from the plan to the files that a check writes.
 #pragma once
 

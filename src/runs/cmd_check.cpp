@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Commands that make a check of a command line.
 #include "runs/check_plan.h"
 

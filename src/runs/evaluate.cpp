@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // evaluate(): a chain that is run for the images it leaves.
 #include <algorithm>
 #include <map>
@@ -29,9 +30,11 @@ void read_given(OIIO::ImageBuf& pixels, const std::string& which) {
         why = pixels.geterror();
         why = with_name(pixels, why.empty() ? "there is nothing to read" : why);
     } else if (is_file_to_read(pixels)) {
-        OIIO::ImageBuf whole;
-        if (read_whole(pixels, OIIO::TypeFloat, whole, why))
-            pixels = std::move(whole);
+        try {
+            pixels = read_whole(pixels, OIIO::TypeFloat);
+        } catch (const Refusal& refusal) {
+            why = refusal.what();
+        }
     } else if (oiio::is_unread_file(pixels) &&
                !pixels.read(pixels.subimage(), pixels.miplevel(), true, OIIO::TypeFloat)) {
         why = pixels.geterror();

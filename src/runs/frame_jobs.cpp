@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "runs/frame_jobs.h"
 
 #include <OpenImageIO/sysutil.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What is done with each frame of a command line: run plainly, looked at for the exposures of the
 // shot, or checked.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What a command line says about its frames, on the way to their plan.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The frame loop: a command line with wildcards is run once for each frame.
 #pragma once
 

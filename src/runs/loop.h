@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Runs over frames, several at a time where asked, what they print in their order.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Texts as one row of bytes, for what goes from one process to another.
 #pragma once
 

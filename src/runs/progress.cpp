@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "runs/progress.h"
 
 #include <OpenImageIO/strutil.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The doors to command lines: the program, recipes and Python run them here.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The views of a check: --views, %V and %v.
 #include <algorithm>
 #include <map>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Worker processes: work that a library below may end with a signal is done in a process of its
 // own.
 #pragma once

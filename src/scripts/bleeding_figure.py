@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: BSD-3-Clause
 """How bases keep objects apart: bleeding_figure.py TONETOOL CORNELL GALLERY SHEET
 
 For the renders of testimages/scenes.py in any size: a picture, and of the part that is framed the

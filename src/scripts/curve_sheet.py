@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: BSD-3-Clause
 """One picture of an image under every tone curve: curve_sheet.py TONETOOL IMAGE SHEET [MODIFIERS]
 
 Each curve is run by the program with its default parameters and the same MODIFIERS of --tonemap

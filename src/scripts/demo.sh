@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: BSD-3-Clause
 # Builds the program if it is not built yet, compares a rendered pair and leaves the pictures in
 # build/demo.
 set -euo pipefail

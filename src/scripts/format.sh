@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: BSD-3-Clause
 # The house style: format.sh [--check] [FILE...], of all sources where no file is named. With --check
 # nothing is written: it prints what would change, status 1. Needs clang-format 14 (CLANG_FORMAT names
 # another program).

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: BSD-3-Clause
 # Fuzzes what reads texts: fuzz.sh [SECONDS [TARGET...]], 60 seconds for each target of tests/fuzz.
 # Wants clang with libFuzzer (clang++, or the one in CXX). An input that ends a target is left in
 # build/fuzz/found; status 1.

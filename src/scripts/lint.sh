@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: BSD-3-Clause
 # Format, names of tests, clang-tidy and cppcheck over src/, tests/ and plugins/, and the program linked
 # under watch of the one-definition rule; every finding an error. Not part of test.sh; needs the
 # packages of packages-lint.txt and a build/release configured by test.sh.
@@ -22,6 +23,11 @@ mapfile -t sources < <(printf '%s\n' "${all[@]}" | grep '\.cpp$' || true)
 status=0
 
 bash src/scripts/format.sh --check "${all[@]}" || status=1
+
+if grep -L 'SPDX-License-Identifier: BSD-3-Clause' "${all[@]}" | grep .; then
+    echo "lint.sh: these files lack the SPDX line" >&2
+    status=1
+fi
 
 # GoogleTest makes names of its own with underscores.
 if grep -nE '^ *(TYPED_)?TEST(_[FP])?\([^)]*_' /dev/null "${sources[@]}"; then

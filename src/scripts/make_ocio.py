@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: BSD-3-Clause
 """Writes ocio/: the configuration tonetool.ocio, and a table per curve of the registry in luts/.
 
     make_ocio.py TONETOOL FOLDER

@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: BSD-3-Clause
 """Draws testimages/curves.svg: every tone curve of the registry, one panel each.
 
     plot_curves.py TONETOOL FILE.svg

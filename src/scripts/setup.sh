@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: BSD-3-Clause
 # Installs packages that are missing, then configures and builds:
 #   setup.sh [--preset NAME] [--packages FILE...] [--targets TARGET...] [-DNAME=VALUE...]
 # FILEs list packages (packages.txt where none is given), TARGETs are what is built (everything where

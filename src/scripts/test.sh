@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: BSD-3-Clause
 # Builds what is not built yet and runs every test; ctest has the last word.
 #   test.sh [--preset release|asan|tsan] [-DNAME=VALUE...] [ARGUMENT OF CTEST...]
 # A compiler of another name than g++ is in CXX when the folder is built for the first time.

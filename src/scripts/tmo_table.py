@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: BSD-3-Clause
 """TMQI of the pictures that local tone mapping makes of images, as a table: tmo_table.py TONETOOL IMAGE...
 
 Each image holds a render and its guides (position, normal, albedo) in layers. Rows are images,

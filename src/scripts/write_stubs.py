@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: BSD-3-Clause
 """Writes FOLDER/__init__.pyi, FOLDER being the built package tonetool: write_stubs.py FOLDER."""
 
 import sys

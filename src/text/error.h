@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // How a command says that it cannot go on.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Text for a terminal: a name from a file must not be taken for an order.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Strict numbers and other small pure pieces of text.
 #pragma once
 

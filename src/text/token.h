@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // One word of the command line, taken apart.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A multigrid preconditioner for the conjugate gradients of Eigen.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The base that an operator compresses: luminance under the cross bilateral filter of CG-TMO.
 #pragma once
 

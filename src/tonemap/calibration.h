@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The exposure at which an image is shown: M. Pettineo, "A Closer Look at Tone Mapping" (2010), and
 // G. Krawczyk, K. Myszkowski, H.-P. Seidel, "Perceptual Effects in Real-Time Tone Mapping" (2005).
 #pragma once

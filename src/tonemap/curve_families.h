@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The rows of the registry, by family. Every function lists its curves in the order of the help.
 #pragma once
 

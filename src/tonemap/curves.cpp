@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "tonemap/curves.h"
 
 #include <algorithm>
@@ -5,6 +6,7 @@
 #include <cstdio>
 
 #include "kernels/curve_reference.h"
+#include "metrics/refusal.h"
 #include "tonemap/curve_families.h"
 
 namespace tonetool::tonemap {
@@ -96,8 +98,8 @@ std::vector<std::string> curve_parameter_names() {
     return names;
 }
 
-bool curve_values(const Curve& curve, const std::map<std::string, double>& given, bool flip,
-                  CurveValues& values, std::string& error) {
+CurveValues curve_values(const Curve& curve, const std::map<std::string, double>& given,
+                         bool flip) {
     CurveValues all;
     for (const CurveParameter& parameter : curve.parameters)
         all.push_back(flip ? parameter.flip_value.value_or(parameter.value) : parameter.value);
@@ -105,23 +107,17 @@ bool curve_values(const Curve& curve, const std::map<std::string, double>& given
         size_t i = 0;
         while (i < all.size() && curve.parameters[i].name != name)
             ++i;
-        if (i == all.size()) {
-            error = unknown_parameter(curve, name);
-            return false;
-        }
+        if (i == all.size())
+            throw Refusal(unknown_parameter(curve, name));
         const CurveParameter& parameter = curve.parameters[i];
-        if (!(value >= parameter.low && value <= parameter.high)) {
-            error = "\"" + name + "\" of " + of_curve(curve) + " cannot be " + number(value) +
-                    "; valid: " + number(parameter.low) + " to " + number(parameter.high);
-            return false;
-        }
+        if (!(value >= parameter.low && value <= parameter.high))
+            throw Refusal("\"" + name + "\" of " + of_curve(curve) + " cannot be " + number(value) +
+                          "; valid: " + number(parameter.low) + " to " + number(parameter.high));
         all[i] = value;
     }
-    error = given.empty() ? "" : fault(curve, all);
-    if (!error.empty())
-        return false;
-    values = std::move(all);
-    return true;
+    if (const std::string why = given.empty() ? "" : fault(curve, all); !why.empty())
+        throw Refusal(why);
+    return all;
 }
 
 } // namespace tonetool::tonemap

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The registry of tone curves: one row each. Options, help, tests, look-up tables and figures are
 // all read from these rows.
 #pragma once
@@ -52,12 +53,10 @@ std::vector<std::string> curve_parameter_names();
 /// Defaults, with those of `given` in their place. An unknown name or a value out of range is an
 /// error that says what would be valid; so are values that together make a curve that falls or has
 /// a pole. `flip`: HDR-FLIP's defaults.
-bool curve_values(const Curve& curve, const std::map<std::string, double>& given, bool flip,
-                  CurveValues& values, std::string& error);
+CurveValues curve_values(const Curve& curve, const std::map<std::string, double>& given, bool flip);
 
 /// Six coefficients as a curve. Not finite, or a denominator that is 0 everywhere, is an error.
-bool coefficient_curve(const std::vector<double>& k, kernels::CurveNumbers& curve,
-                       std::string& error);
+kernels::CurveNumbers coefficient_curve(const std::vector<double>& k);
 
 /// The largest x >= 0 up to 2^64 with curve(x) = y for a grey; nullopt where there is none. Where
 /// the curve stays at y from somewhere on, as agx does, it is the smallest of those x.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Curves older than the filmic ones. White is 5 by default, as in M. Pettineo's article of 2010.
 #include "tonemap/curve_families.h"
 

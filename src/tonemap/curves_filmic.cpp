@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Curves after the response of film, and fits of the ACES output transform.
 #include "tonemap/curve_families.h"
 

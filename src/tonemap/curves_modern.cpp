@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Curves of 2016 and later.
 #include "tonemap/curve_families.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The footprint of pixels in the scene, from their positions.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // CG-TMO: Drago's curve on a base, which the G-buffer guides. F. Banterle et al., Eq. 2 to 4; this
 // library sees only numbers and planes.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The means of luminance that the adaptation luminance is taken from.
 #pragma once
 

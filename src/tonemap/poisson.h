@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Subsets of a filter's window: F. Banterle, M. Corsini, P. Cignoni, R. Scopigno, "A Low-Memory,
 // Straightforward and Fast Bilateral Filter Through Subsampling in Spatial Domain" (2012).
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "tonemap/rational.h"
 
 #include <algorithm>
@@ -5,6 +6,7 @@
 #include <cstdio>
 #include <iterator>
 
+#include "metrics/refusal.h"
 #include "tonemap/curves.h"
 
 namespace tonetool::tonemap {
@@ -52,10 +54,7 @@ std::optional<kernels::ToneCurve> rational_curve(std::string_view name) {
     if (std::find(std::begin(kNames), std::end(kNames), name) == std::end(kNames))
         return std::nullopt;
     const Curve& row = *find_curve(name);
-    CurveValues values;
-    std::string error;
-    curve_values(row, {}, true, values, error);
-    const auto numbers = row.make(values);
+    const auto numbers = row.make(curve_values(row, {}, true));
     kernels::ToneCurve curve{row.domain == CurveDomain::Luminance
                                  ? kernels::ToneKind::ReinhardLuminance
                                  : kernels::ToneKind::Rational,
@@ -68,15 +67,15 @@ std::vector<std::string> rational_curve_names() {
     return {std::begin(kNames), std::end(kNames)};
 }
 
-bool coefficient_curve(const std::vector<double>& k, kernels::CurveNumbers& curve,
-                       std::string& error) {
-    error = k.size() == 6 ? coefficient_fault(k.data())
-                          : "a curve has 6 coefficients, not " + std::to_string(k.size());
-    if (!error.empty())
-        return false;
-    curve = {};
+kernels::CurveNumbers coefficient_curve(const std::vector<double>& k) {
+    const std::string why = k.size() == 6
+                                ? coefficient_fault(k.data())
+                                : "a curve has 6 coefficients, not " + std::to_string(k.size());
+    if (!why.empty())
+        throw Refusal(why);
+    kernels::CurveNumbers curve;
     std::copy(k.begin(), k.end(), curve.p.begin());
-    return true;
+    return curve;
 }
 
 std::string curve_fault(const std::array<double, 6>& k, double largest) {

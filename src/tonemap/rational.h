@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Rational tone curves by their six coefficients (HDR-FLIP paper, Eq. 1).
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The base of WLS tone mapping: Z. Farbman et al., "Edge-Preserving Decompositions for Multi-Scale
 // Tone and Detail Manipulation" (2008), section 3.
 #pragma once

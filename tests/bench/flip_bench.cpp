@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // tonetool_bench [--target=NAME] [options of Google Benchmark]: the evaluation of HDR-FLIP alone,
 // without files or conversions, on a synthetic pair (a smooth HDR picture, 25 % noise on it). Every
 // figure is that of the fastest repeat; cycles are those of the core, measured between the repeats.
@@ -10,6 +11,7 @@
 #include <cstdint>
 #include <cstdio>
 #include <ctime>
+#include <exception>
 #include <limits>
 #include <random>
 #include <string>
@@ -275,9 +277,10 @@ void evaluate_view(benchmark::State& state) {
     options.view.display = "sRGB";
     options.view.view = "ACES SDR";
     DisplayLight light;
-    std::string error;
-    if (!light.open(options, error)) {
-        state.SkipWithError(error.c_str());
+    try {
+        light.open(options);
+    } catch (const std::exception& why) {
+        state.SkipWithError(why.what());
         return;
     }
     const PicturePair pair = make_pair(width, height);

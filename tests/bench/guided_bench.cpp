@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // CG-TMO on a synthetic G-buffer, its base alone and the whole operator, next to a copy of the
 // planes that it reads.
 #include <benchmark/benchmark.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Where the time of the evaluation goes: its functions, each with a clock around it.
 #pragma once
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """What all tests of the program share: how it is called, and images to call it with."""
 
 import os

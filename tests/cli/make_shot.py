@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Makes a small rendered-looking shot of 20 frames, and breaks one of them.
 
     make_shot.py FOLDER [--fault NAME] [--noisy] [--cut]

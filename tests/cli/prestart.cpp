@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Preloaded into a program under test (LD_PRELOAD), so that it starts a thousand times in the time
 // of a few: most of what it does then is to load two hundred libraries. Once loaded it waits on the
 // socket that PRESTART_SOCKET names. For each request a copy of it (fork) calls the program's own

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Programs that are loaded once and run many times, see prestart.cpp."""
 
 import array

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """--cgtmo: laws of the operator, its guides, and what is refused."""
 
 import numpy as np

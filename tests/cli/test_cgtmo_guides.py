@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """--cgtmo: what its guides may look like, and where they may lie."""
 
 import math

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Checks of sequences: every frame has a result, and the worst of them is the exit status."""
 
 import csv

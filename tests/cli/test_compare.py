@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """What the FLIP commands print and push, and the status they end with."""
 
 import numpy as np

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """--diff and --pdiff where oiiotool lets pass what nobody means to let pass. Their other verdicts
 are compared with oiiotool's in differential/."""
 

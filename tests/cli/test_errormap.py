@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Error maps: what --errormap prints and pushes, and the status it ends with."""
 
 import math

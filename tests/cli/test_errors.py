@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Strictness: whatever is not understood is an error with status 1, and says why."""
 
 import os

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Look-up tables of curves and views: stock oiiotool, reading them, shows what tonetool computes."""
 
 import os

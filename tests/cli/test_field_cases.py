@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """The field cases of the shared folder: what users type, and what must come of it."""
 
 import os

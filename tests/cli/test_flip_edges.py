@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Edge cases of the FLIP commands: none of them may end as a pass that is not one.
 
 Rows of the table of edge cases of NVIDIA's reference program (what it does with them is in the

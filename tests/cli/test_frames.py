@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """The frame loop: wildcards, holes, views, parallel frames, progress; and the language around it."""
 
 import json

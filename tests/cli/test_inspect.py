@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """--info, -v and --stats print what oiiotool 2.4.7 prints."""
 
 import numpy as np

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Statistics from the scene: light index, tables of lights, panoramas, and what --cgtmo takes."""
 
 import json

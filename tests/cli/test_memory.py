@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """--memory: what it takes, what it bounds, and that it changes nothing else."""
 
 import subprocess

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """ocio/: what programs that read OpenColorIO configurations show is what tonetool computes."""
 
 import os

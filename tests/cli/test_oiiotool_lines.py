@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """What command lines of oiiotool meet beside its own behaviour, which tests/cli/differential holds:
 where --compat is a command and where it is an argument, what it drops, deep images."""
 

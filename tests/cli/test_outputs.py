@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Data types, formats, metadata, and what becomes of a file that cannot be written."""
 
 import os

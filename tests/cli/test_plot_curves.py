@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """The figure of the tone curves is drawn from the registry and kept."""
 
 import subprocess

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """--qc: each fault alone is found in its frame, and nothing else; clean shots have none."""
 
 import json

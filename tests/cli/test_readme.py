@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Every command of the README runs, and its picture is what it says it is."""
 
 import os

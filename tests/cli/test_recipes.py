@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Recipes, read by OpenImageIO's own programs with the plugin and by the program without it."""
 
 import os

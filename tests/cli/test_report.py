@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """--report, --contactsheet and --pictures, without a browser; test_report_page.py opens the page."""
 
 import base64

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """The page of --report in a browser: Chromium, driven by Selenium; skips where they are not."""
 
 import base64

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """What is written for a screen, and what the headers of files say about their colour."""
 
 import base64

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """tonetool-slurm on a Slurm of one node that this test starts in a folder of its own."""
 
 import json

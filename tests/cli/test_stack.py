@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """The stack, postponed operators, labels, channels and subimages."""
 
 import numpy as np

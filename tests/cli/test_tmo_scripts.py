@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """The scripts that show and score the bases of --cgtmo."""
 
 import re

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """TMQI: what --tmqi prints and pushes, and the status it ends with."""
 
 import json

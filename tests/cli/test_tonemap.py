@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """--tonemap, --calibrate and --tonecurves, against numpy and against the files' own figures."""
 
 import numpy as np

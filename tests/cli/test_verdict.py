@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """What a comparison looks at, and what it says of it: nothing that was not compared is a pass."""
 
 import json

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Views of OpenColorIO configurations, shown by --tonemap and compared through by --hdrflip."""
 
 import os

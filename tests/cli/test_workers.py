@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """A frame that ends the process that reads it is one result of a check, and the others go on."""
 
 import json

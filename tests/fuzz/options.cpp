@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Modifiers of the commands that take curves, views and tables, on a picture of 8 x 8 pixels. The
 // first byte chooses the command.
 #include <OpenImageIO/imagebufalgo.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // JSON of checks: results, frames, exposures, what --qc measured; and their merge.
 #include "sequence/qc/qc_json.h"
 #include "sequence/results/results_json.h"

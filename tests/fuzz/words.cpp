@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Tokens, expressions, numbers, and what is printed of them.
 #include <algorithm>
 

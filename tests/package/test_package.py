@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """The installed tree is all that a C++ project needs."""
 
 import os

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Images, the program, and how results are compared: to the bit."""
 
 import os

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Wrong calls raise, and say what was wrong, with the shape."""
 
 import gc

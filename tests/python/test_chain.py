@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """tonetool.chain runs what the program runs."""
 
 import numpy as np

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """What help() shows is complete, and so are the stubs that the build writes."""
 
 import ast

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """What the module computes is what the program computes, to the bit, and in the type it was given."""
 
 import re

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Other Python threads run while a function computes."""
 
 import threading

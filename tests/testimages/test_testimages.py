@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """testimages/ is what its README, its generator and its manifest say."""
 import hashlib
 import pathlib

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Arithmetic on pixel values, with constants and with other images.
 #include <limits>
 

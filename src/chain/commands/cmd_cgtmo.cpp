@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The local tone mapper of rendered images.
 #include "chain/commands/color_input.h"
 #include "chain/commands/commands.h"

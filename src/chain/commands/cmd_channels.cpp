@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Commands that choose channels, subimages and MIP levels, and count pixels.
 #include <OpenImageIO/strutil.h>
 #include <algorithm>

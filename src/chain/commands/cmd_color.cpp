@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Values as colours, and the OpenColorIO configuration.
 #include "chain/images/colormap.h"
 #include "chain/session/ops.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Commands that compare a test image with a reference.
 #include <functional>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Compositing, pasting, contact sheets and deep images.
 #include <algorithm>
 #include <cstdio>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Commands that decide which of the others run: variables, conditions, loops, frames.
 #include <OpenImageIO/strutil.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Commands that create images, and draw.
 #include <OpenImageIO/strutil.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // --diff and --pdiff, with oiiotool's report and exit status, but for what oiiotool lets pass:
 // images with values that are no numbers (images/unseen_difference.h), and without --compat images
 // whose windows, channels or parts differ, and parts that it does not look at.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Commands that measure luminance and change exposure.
 #include "chain/commands/color_input.h"
 #include "chain/commands/commands.h"

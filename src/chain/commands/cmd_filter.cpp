@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Filters: neighbourhoods, kernels, Fourier transforms and repairs.
 #include "chain/session/ops.h"
 

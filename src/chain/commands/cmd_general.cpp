@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Commands that set how the rest of the command line runs, and help.
 #include <OpenImageIO/imagecache.h>
 #include <OpenImageIO/imageio.h>

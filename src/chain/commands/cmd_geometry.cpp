@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Commands that move, cut, turn and resample pixels.
 #include "chain/session/ops.h"
 #include "imagebuf/pixels/oiio_compat.h"

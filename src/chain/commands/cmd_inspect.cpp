@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Commands that print what images are, and other texts.
 #include <OpenImageIO/strutil.h>
 #include <cstdio>

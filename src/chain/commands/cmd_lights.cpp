@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The index of the light that lights each pixel.
 #include "chain/commands/color_input.h"
 #include "chain/commands/commands.h"

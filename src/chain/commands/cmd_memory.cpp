@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // --memory, the bound of the memory of comparisons.
 #include <cstdint>
 #ifdef __GLIBC__

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Commands that change headers and leave the pixels as they are.
 #include <OpenImageIO/strutil.h>
 #include <algorithm>

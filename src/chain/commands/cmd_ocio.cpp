@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Colour spaces, looks and views of the OpenColorIO configuration, and ICC profiles.
 #include <Imath/ImathMatrix.h>
 #include <OpenImageIO/color.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // --qc: the faults of an image that are found without a reference.
 #include <algorithm>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Commands that read images.
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/strutil.h>

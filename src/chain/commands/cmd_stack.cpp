@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Commands that rearrange the image stack.
 #include "chain/session/ops.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Commands that write textures.
 #include <OpenImageIO/imagebufalgo.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Commands that show HDR images: calibration, tone curves, views.
 #include <algorithm>
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Converts images of the stack to the inputs of the library's measuring functions.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The commands of tonetool itself, as rows of the registry.
 #pragma once
 

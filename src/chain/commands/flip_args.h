@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The modifiers of the commands that compare, and the library's options made from them.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What the commands that compare print, and what their thresholds say.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The images of a command in the report of a check.
 #pragma once
 

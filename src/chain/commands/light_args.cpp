@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "chain/commands/light_args.h"
 
 #include "chain/commands/options.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Modifiers of the lights of a scene, for all commands that have them.
 #pragma once
 

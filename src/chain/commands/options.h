@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Modifiers of commands made of the tables of options, and options read from modifiers.
 #pragma once
 

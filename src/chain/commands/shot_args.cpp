@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "chain/commands/shot_args.h"
 
 #include "chain/commands/check_part.h"

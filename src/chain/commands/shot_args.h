@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // exposures=: where the range of exposures comes from.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "chain/commands/tone_args.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Modifiers of tone curves, views and calibration, for all commands that have them.
 #pragma once
 

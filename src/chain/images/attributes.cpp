@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "chain/images/attributes.h"
 
 #include <OpenImageIO/filesystem.h>

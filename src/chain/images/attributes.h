@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Attributes of images: setting them from text, and their values in expressions.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Choosing and naming channels, in oiiotool's way of writing it.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Fits an image to the limits of a file format, and to its display on a screen.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // One entry of the image stack: read from a file, or made by a command.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What --info, -v, --stats, --hash and --dumpdata print of an image, as oiiotool does.
 #pragma once
 

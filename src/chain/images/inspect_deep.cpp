@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Prints information about deep images.
 #include <OpenImageIO/strutil.h>
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Writes images to files: data types, the limits of formats, metadata.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Images assembled from several: pasted over each other, or side by side.
 #pragma once
 

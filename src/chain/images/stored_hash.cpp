@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The hash that tells whether two files hold the same values.
 #include <OpenImageIO/deepdata.h>
 #include <OpenImageIO/hash.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "chain/images/unseen_difference.h"
 
 #include <OpenImageIO/strutil.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Where two images differ in what OpenImageIO's comparisons of their pixels do not look at.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Sizes, positions and windows as the command line gives them.
 #pragma once
 

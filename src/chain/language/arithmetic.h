@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // "TOP.width/2 + 1": arithmetic on numbers, texts, and what names stand for.
 #pragma once
 

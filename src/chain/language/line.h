@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The command line, taken apart once: which of its words are commands, files and arguments.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What a chain may do that is run for its images, and where its files are.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The commands: one row each. Help, checks and tests are all read from these rows.
 #pragma once
 

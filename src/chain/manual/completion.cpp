@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The registry of commands for other programs: the man page, shell completion, JSON.
 #include <nlohmann/json.hpp>
 

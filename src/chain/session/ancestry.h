@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What images carry on of those that they are made of.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // One use of a command: its row, arguments, modifiers and the images it popped.
 #pragma once
 

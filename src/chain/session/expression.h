@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // "{TOP.width/2}": values of images, variables and the frame, put into words.
 #pragma once
 

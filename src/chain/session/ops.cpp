@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "chain/session/ops.h"
 
 #include <OpenImageIO/strutil.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Commands that make an image from images: one kernel each, run over subimages and MIP levels.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Runs the words of one frame's command line from left to right.
 #pragma once
 

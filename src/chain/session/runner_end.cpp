@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What is looked at when the words of a frame have run.
 #include <OpenImageIO/imagecache.h>
 #include <OpenImageIO/imageio.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What one command line knows while it runs: the stack, the settings, what was found.
 #pragma once
 

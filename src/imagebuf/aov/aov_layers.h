@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The layers of an image, whatever they hold, by the names of their channels.
 #pragma once
 

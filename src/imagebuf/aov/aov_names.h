@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The names that renderers give to layers which hold data: the one table.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What an image tells of the camera that made it.
 #pragma once
 

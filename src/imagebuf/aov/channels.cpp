@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Which channels of an image are its colour.
 #include <OpenImageIO/strutil.h>
 #include <algorithm>
@@ -6,6 +7,8 @@
 #include "imagebuf/aov/aov_layers.h"
 #include "imagebuf/aov/color_names.h"
 #include "imagebuf/pixels/colorimetry.h"
+#include "imagebuf/pixels/guard.h"
+#include "metrics/refusal.h"
 #include "tonetool/pixels.h"
 
 namespace tonetool {
@@ -273,24 +276,19 @@ std::string no_layer_text(const OIIO::ImageSpec& spec, const std::vector<Layer>&
            list(layers);
 }
 
-// Whether the channels are one colour, and a colour at all.
-bool usable(const OIIO::ImageSpec& spec, const Layer& layer, std::string& error) {
-    if (layer.twice) {
-        error = "layer " + layer.shown() +
-                " has a colour twice, in two spellings: " + list_channels(spec);
-        return false;
-    }
+// Refuses channels that are not one colour, or no colour at all.
+void check_usable(const OIIO::ImageSpec& spec, const Layer& layer) {
+    if (layer.twice)
+        throw Refusal("layer " + layer.shown() +
+                      " has a colour twice, in two spellings: " + list_channels(spec));
     for (int c = 0; c < 3; ++c) {
         const OIIO::TypeDesc type = spec.channelformat(layer.channel[c]);
-        if (!type.is_floating_point() && type.size() > 2) {
-            error = "channel " + std::string(spec.channel_name(layer.channel[c])) + " is " +
-                    type.c_str() +
-                    ": numbers of objects, not a colour; valid: half, float, double, "
-                    "8 and 16 bit integers";
-            return false;
-        }
+        if (!type.is_floating_point() && type.size() > 2)
+            throw Refusal("channel " + std::string(spec.channel_name(layer.channel[c])) + " is " +
+                          type.c_str() +
+                          ": numbers of objects, not a colour; valid: half, float, double, "
+                          "8 and 16 bit integers");
     }
-    return true;
 }
 
 } // namespace
@@ -312,42 +310,38 @@ bool holds_only_data(const OIIO::ImageSpec& spec) {
            (!layers.empty() || grey.empty() || !is_grey_picture(spec, grey[0]));
 }
 
-namespace ToneAlgo {
-
-bool find_color(const OIIO::ImageSpec& spec, const PixelOptions& options, ColorChoice& choice,
-                std::string& error) {
+ColorChoice chosen_color(const OIIO::ImageSpec& spec, const PixelOptions& options) {
     const auto layers = find_layers(spec);
     auto found = options.layer.empty() ? beauty(spec, layers) : named(layers, options.layer);
     if (found.empty() && !options.layer.empty())
         found = of_part(spec, layers, options.layer);
     if (found.empty() && !options.layer.empty())
         found = named_grey(spec, options.layer);
-    if (found.empty()) {
-        error = no_layer_text(spec, layers, options);
-        return false;
-    }
-    if (found.size() > 1) {
-        error = std::to_string(found.size()) + " layers could be meant: " + list(found) +
-                "; pass layer= one of them";
-        return false;
-    }
+    if (found.empty())
+        throw Refusal(no_layer_text(spec, layers, options));
+    if (found.size() > 1)
+        throw Refusal(std::to_string(found.size()) + " layers could be meant: " + list(found) +
+                      "; pass layer= one of them");
     const Layer& layer = found[0];
-    if (!usable(spec, layer, error))
-        return false;
-    choice = {};
+    check_usable(spec, layer);
+    ColorChoice choice;
     choice.r = layer.channel[0];
     choice.g = layer.channel[1];
     choice.b = layer.channel[2];
     choice.a = layer.channel[3];
     choice.layer = layer.name;
-    ColorSpace space;
-    if (!find_space(spec, options, space, error))
-        return false;
+    const ColorSpace space = find_space(spec, options);
     choice.space = space.name;
     choice.display_encoded = space.encoded();
-    return true;
+    return choice;
 }
 
+namespace ToneAlgo {
+
+bool find_color(const OIIO::ImageSpec& spec, const PixelOptions& options, ColorChoice& choice,
+                std::string& error) {
+    return contained(error, [&] { choice = chosen_color(spec, options); });
+}
 std::vector<std::string> color_layers(const OIIO::ImageSpec& spec) {
     std::vector<std::string> names;
     for (const Layer& layer : find_layers(spec))

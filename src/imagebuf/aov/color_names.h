@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What the name of a layer, or of a part of a file, says of its R, G, B.
 #pragma once
 

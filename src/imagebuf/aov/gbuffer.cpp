@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "imagebuf/aov/gbuffer.h"
 
 #include <algorithm>
@@ -6,6 +7,7 @@
 #include "imagebuf/pixels/parallel.h"
 #include "imagebuf/pixels/planes.h"
 #include "imagebuf/pixels/row_source.h"
+#include "metrics/refusal.h"
 
 namespace tonetool {
 namespace {
@@ -35,7 +37,7 @@ public:
     void want(const char* guide, const std::optional<GuideChannels>& from,
               std::vector<float>* planes, int count);
     /// Pixels that it does not cover remain or, if others were read before, become background.
-    bool read(std::string& error);
+    void read();
 
 private:
     bool fits(const char* guide, const GuideChannels& from, int count);
@@ -111,43 +113,36 @@ void Reader::copy_row(int y, int first, const ROI& window,
         }
 }
 
-bool Reader::read(std::string& error) {
+void Reader::read() {
     const ROI window = OIIO::roi_intersection(m_image.roi(), m_region);
     cover(window);
     if (m_planes.empty() || window.width() <= 0 || window.height() <= 0)
-        return true;
+        return;
     std::vector<int> channels;
     for (const Plane& plane : m_planes)
         channels.push_back(plane.channel);
-    if (!m_source.open(m_image, runs_of(channels), error))
-        return false;
+    m_source.open(m_image, runs_of(channels));
     std::vector<std::vector<float>> rows(m_source.runs().size());
     for (int first = window.ybegin; first < window.yend;) {
         const int last = std::min(first + m_source.rows_at_once(first, kStep), window.yend);
         for (size_t r = 0; r < rows.size(); ++r) {
             rows[r].resize(size_t(last - first) * size_t(m_source.width()) *
                            size_t(m_source.runs()[r].count()));
-            if (!m_source.read(first, last, r, rows[r].data(), error))
-                return false;
+            m_source.read(first, last, r, rows[r].data());
         }
         m_parallel(last - first,
                    [&](int64_t row) { copy_row(first + int(row), first, window, rows); });
         first = last;
     }
-    return true;
 }
 
 } // namespace
 
-bool read_gbuffer(const ImageBuf& image, const GBufferNames& names, ROI region, int nthreads,
-                  GBuffer& out, std::string& error) {
-    out = {};
-    if (!check_readable(image, "guide", error))
-        return false;
-    if (region.width() <= 0 || region.height() <= 0) {
-        error = "the region holds no pixel";
-        return false;
-    }
+GBuffer read_gbuffer(const ImageBuf& image, const GBufferNames& names, ROI region, int nthreads) {
+    GBuffer out;
+    check_readable(image, "guide");
+    if (region.width() <= 0 || region.height() <= 0)
+        throw Refusal("the region holds no pixel");
     out.width = region.width();
     out.height = region.height();
     out.background.assign(size_t(out.width) * size_t(out.height), 1);
@@ -163,13 +158,10 @@ bool read_gbuffer(const ImageBuf& image, const GBufferNames& names, ROI region, 
         reader.want("normal", names.normal, out.normal, 3);
         reader.want("albedo", names.albedo, out.albedo, 3);
         reader.want("depth", names.depth, &out.depth, 1);
-        if (!reader.read(error)) {
-            error = with_side(side_name("guide", *from), error);
-            return false;
-        }
+        of_side(side_name("guide", *from), [&] { reader.read(); });
     }
     check_gbuffer(out, names, make_parallel(nthreads));
-    return true;
+    return out;
 }
 
 } // namespace tonetool

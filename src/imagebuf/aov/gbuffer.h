@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What a renderer knows of the surface in each pixel: found by the names of layers, checked by
 // their content, cleaned.
 #pragma once
@@ -33,8 +34,7 @@ struct GBufferNames {
 };
 
 /// Looks at names only. Finding nothing is no error; a layer the user named that is not there is.
-bool find_gbuffer(const OIIO::ImageSpec& spec, const GuideOptions& options, GBufferNames& names,
-                  std::string& error);
+GBufferNames find_gbuffer(const OIIO::ImageSpec& spec, const GuideOptions& options);
 
 /// Guides of a region, row by row. A guide that was not found or failed its check is empty. Pixels
 /// that show no surface hold 0 in all of them, so that nothing here is ever NaN or infinite.
@@ -58,7 +58,7 @@ struct GBuffer {
 };
 
 /// Reads the guides of a region. What is doubtful about them becomes a warning, not an error.
-bool read_gbuffer(const OIIO::ImageBuf& image, const GBufferNames& names, OIIO::ROI region,
-                  int nthreads, GBuffer& out, std::string& error);
+GBuffer read_gbuffer(const OIIO::ImageBuf& image, const GBufferNames& names, OIIO::ROI region,
+                     int nthreads);
 
 } // namespace tonetool

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Whether guides hold what their names say, and which pixels show no surface.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Which layers of an image are the guides, by the names renderers give them.
 #include <OpenImageIO/strutil.h>
 #include <algorithm>
@@ -5,6 +6,7 @@
 #include "imagebuf/aov/aov_layers.h"
 #include "imagebuf/aov/gbuffer.h"
 #include "imagebuf/pixels/names.h"
+#include "metrics/refusal.h"
 
 namespace tonetool {
 namespace {
@@ -94,8 +96,7 @@ struct Finder {
     }
 
     void find_home(const GuideOptions& options, std::vector<std::string>& notes);
-    bool named(Guide guide, const std::string& name, const AovLayer*& found,
-               std::string& error) const;
+    const AovLayer* named(Guide guide, const std::string& name) const;
 };
 
 // Guides of another view layer are of another geometry: all come from one. The picture's is the
@@ -122,8 +123,7 @@ void Finder::find_home(const GuideOptions& options, std::vector<std::string>& no
 }
 
 // A layer by its full name, in any case, or by its last part.
-bool Finder::named(Guide guide, const std::string& name, const AovLayer*& found,
-                   std::string& error) const {
+const AovLayer* Finder::named(Guide guide, const std::string& name) const {
     Layers exact, any_case, by_pass, at_home;
     std::vector<std::string> valid;
     for (const AovLayer& layer : layers) {
@@ -142,14 +142,13 @@ bool Finder::named(Guide guide, const std::string& name, const AovLayer*& found,
     std::copy_if(all.begin(), all.end(), std::back_inserter(at_home),
                  [&](const AovLayer* layer) { return layer->home == home; });
     const Layers& list = all.size() > 1 && !at_home.empty() ? at_home : all;
+    const std::string what = std::string(kGuideNames[guide]) + " layer";
     if (list.empty())
-        error = unknown_name(std::string(kGuideNames[guide]) + " layer", name, valid);
-    else if (list.size() > 1)
-        error = std::string(kGuideNames[guide]) + " layer \"" + name + "\" could be one of " +
-                show(guide, list) + "; pass one of them";
-    else
-        found = list[0];
-    return found != nullptr;
+        throw Refusal(unknown_name(what, name, valid));
+    if (list.size() > 1)
+        throw Refusal(what + " \"" + name + "\" could be one of " + show(guide, list) +
+                      "; pass one of them");
+    return list[0];
 }
 
 GuideChannels channels_of(Guide guide, const AovLayer& layer, const ImageSpec& spec) {
@@ -164,9 +163,8 @@ GuideChannels channels_of(Guide guide, const AovLayer& layer, const ImageSpec& s
 
 } // namespace
 
-bool find_gbuffer(const ImageSpec& spec, const GuideOptions& options, GBufferNames& names,
-                  std::string& error) {
-    names = {};
+GBufferNames find_gbuffer(const ImageSpec& spec, const GuideOptions& options) {
+    GBufferNames names;
     Finder finder{spec, aov_layers(spec), false, ""};
     finder.vray = is_vray(spec, finder.layers);
     finder.find_home(options, names.notes);
@@ -180,8 +178,7 @@ bool find_gbuffer(const ImageSpec& spec, const GuideOptions& options, GBufferNam
         if (*wanted[i] == "none")
             continue;
         if (!wanted[i]->empty()) {
-            if (!finder.named(guide, *wanted[i], found, error))
-                return false;
+            found = finder.named(guide, *wanted[i]);
         } else if (const Layers best = finder.best(guide, finder.home); !best.empty()) {
             found = best[0];
             if (best.size() > 1)
@@ -191,7 +188,7 @@ bool find_gbuffer(const ImageSpec& spec, const GuideOptions& options, GBufferNam
         if (found)
             *out[i] = channels_of(guide, *found, spec);
     }
-    return true;
+    return names;
 }
 
 } // namespace tonetool

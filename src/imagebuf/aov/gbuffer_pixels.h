@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Looking at all pixels of the guides.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "imagebuf/aov/gbuffer_precision.h"
 
 #include <OpenImageIO/strutil.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // How exactly positions are stored, against how far apart they are.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The last word on every pixel of the guides.
 #include <algorithm>
 

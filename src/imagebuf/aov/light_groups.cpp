@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "imagebuf/aov/light_groups.h"
 
 #include <OpenImageIO/strutil.h>
@@ -5,6 +6,7 @@
 
 #include "imagebuf/aov/aov_layers.h"
 #include "imagebuf/pixels/names.h"
+#include "metrics/refusal.h"
 
 namespace tonetool {
 namespace {
@@ -67,12 +69,11 @@ std::vector<LightGroup> find_light_groups(const OIIO::ImageSpec& spec, const std
     return {};
 }
 
-bool choose_light_groups(const OIIO::ImageSpec& spec, const std::string& beauty,
-                         const std::vector<std::string>& names, std::vector<LightGroup>& groups,
-                         std::string& error) {
-    const std::vector<LightGroup> found = find_light_groups(spec, beauty);
-    groups = names.empty() ? found : std::vector<LightGroup>{};
-    std::vector<LightGroup> known = found;
+std::vector<LightGroup> choose_light_groups(const OIIO::ImageSpec& spec, const std::string& beauty,
+                                            const std::vector<std::string>& names) {
+    std::vector<LightGroup> known = find_light_groups(spec, beauty), groups;
+    if (names.empty())
+        return known;
     for (const AovLayer& layer : aov_layers(spec))
         if (layer.has_rgb() && !layer.plain)
             known.push_back({layer.token, layer.name, {layer.rgb[0], layer.rgb[1], layer.rgb[2]}});
@@ -83,17 +84,14 @@ bool choose_light_groups(const OIIO::ImageSpec& spec, const std::string& beauty,
             std::vector<std::string> valid;
             for (const LightGroup& group : known)
                 valid.push_back(group.name);
-            error = unknown_name("light group", name, valid);
-            return false;
+            throw Refusal(unknown_name("light group", name, valid));
         }
         const auto same = [&](const LightGroup& g) { return g.layer == it->layer; };
-        if (std::any_of(groups.begin(), groups.end(), same)) {
-            error = "light group \"" + name + "\" is given twice";
-            return false;
-        }
+        if (std::any_of(groups.begin(), groups.end(), same))
+            throw Refusal("light group \"" + name + "\" is given twice");
         groups.push_back(*it);
     }
-    return true;
+    return groups;
 }
 
 } // namespace tonetool

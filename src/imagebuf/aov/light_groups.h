@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The layers that hold the light of one group of lights each.
 #pragma once
 
@@ -19,8 +20,7 @@ std::vector<LightGroup> find_light_groups(const OIIO::ImageSpec& spec, const std
 
 /// The groups of these names, or the layers; all that are found if no name is given. One that is
 /// not there, or twice, is an error; finding none is not.
-bool choose_light_groups(const OIIO::ImageSpec& spec, const std::string& beauty,
-                         const std::vector<std::string>& names, std::vector<LightGroup>& groups,
-                         std::string& error);
+std::vector<LightGroup> choose_light_groups(const OIIO::ImageSpec& spec, const std::string& beauty,
+                                            const std::vector<std::string>& names);
 
 } // namespace tonetool

@@ -1,9 +1,12 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Which part of a file of several pictures is looked at.
 #include <OpenImageIO/strutil.h>
 #include <algorithm>
 
 #include "imagebuf/aov/color_names.h"
+#include "imagebuf/pixels/guard.h"
 #include "imagebuf/pixels/names.h"
+#include "metrics/refusal.h"
 #include "tonetool/parts.h"
 
 namespace tonetool {
@@ -94,9 +97,9 @@ std::string list(const std::vector<Picture>& pictures) {
 // How well a part answers to a name: 3 exactly, 2 in any case, 1 by its view or the last part of a
 // layer's name, 0 not at all.
 int rank_of(const ImageSpec& spec, const std::string& name) {
-    ColorChoice choice;
-    std::string ignored;
-    if (!ToneAlgo::find_color(spec, {name, ""}, choice, ignored))
+    ColorChoice ignored;
+    std::string untold;
+    if (!ToneAlgo::find_color(spec, {name, ""}, ignored, untold))
         return 0;
     std::vector<std::string> names = ToneAlgo::color_layers(spec);
     names.emplace_back(spec.get_string_attribute("oiio:subimagename"));
@@ -120,8 +123,8 @@ std::vector<int> beauties_of(const std::vector<Picture>& pictures, const std::ve
     return found.size() == 1 ? found : parts;
 }
 
-bool find_named(const std::vector<ImageSpec>& parts, const PixelOptions& options,
-                const std::vector<Picture>& pictures, PartChoice& choice, std::string& error) {
+int find_named(const std::vector<ImageSpec>& parts, const PixelOptions& options,
+               const std::vector<Picture>& pictures) {
     int best = 1;
     std::vector<int> found;
     for (size_t i = 0; i < parts.size(); ++i) {
@@ -133,15 +136,13 @@ bool find_named(const std::vector<ImageSpec>& parts, const PixelOptions& options
             found.push_back(int(i));
     }
     found = beauties_of(pictures, found);
-    if (found.size() == 1) {
-        choice.part = found[0];
-        return true;
-    }
-    error = found.empty() ? "no colour layer or part \"" + options.layer + "\"; there are: "
-                          : std::to_string(found.size()) +
-                                " parts could be meant by layer=" + options.layer + "; there are: ";
-    error += list(pictures);
-    return false;
+    if (found.empty())
+        throw Refusal("no colour layer or part \"" + options.layer +
+                      "\"; there are: " + list(pictures));
+    if (found.size() > 1)
+        throw Refusal(std::to_string(found.size()) + " parts could be meant by layer=" +
+                      options.layer + "; there are: " + list(pictures));
+    return found[0];
 }
 
 // The first of the pictures that `fits`, or null.
@@ -151,6 +152,30 @@ const Picture* first(const std::vector<Picture>& pictures, const Test& fits) {
     return found == pictures.end() ? nullptr : &*found;
 }
 
+PartChoice chosen_part(const std::vector<ImageSpec>& parts, const PixelOptions& options) {
+    PartChoice choice;
+    const std::vector<Picture> pictures = pictures_of(parts);
+    if (!options.layer.empty() && parts.size() > 1)
+        choice.part = find_named(parts, options, pictures);
+    if (!options.layer.empty() || pictures.empty())
+        return choice; // find_color() says what the only part, or the first, lacks
+    const Picture* chosen =
+        first(pictures, [](const Picture& one) { return one.beauty && !one.data; });
+    if (!chosen)
+        chosen = first(pictures, [](const Picture& one) { return !one.data; });
+    if (!chosen && parts.size() > 1)
+        throw Refusal("no part that is not data by its name; pass layer= one of: " +
+                      list(pictures));
+    if (!chosen)
+        return choice;
+    choice.part = chosen->part;
+    choice.picture = chosen->shown;
+    for (const Picture& one : pictures)
+        if (!one.data && (one.part != chosen->part || one.view != chosen->view))
+            choice.left_out.push_back(one.shown);
+    return choice;
+}
+
 } // namespace
 
 namespace ToneAlgo {
@@ -158,27 +183,7 @@ namespace ToneAlgo {
 bool find_part(const std::vector<ImageSpec>& parts, const PixelOptions& options, PartChoice& choice,
                std::string& error) {
     choice = {};
-    const std::vector<Picture> pictures = pictures_of(parts);
-    if (!options.layer.empty() && parts.size() > 1)
-        return find_named(parts, options, pictures, choice, error);
-    if (!options.layer.empty() || pictures.empty())
-        return true; // find_color() says what the only part, or the first, lacks
-    const Picture* chosen =
-        first(pictures, [](const Picture& one) { return one.beauty && !one.data; });
-    if (!chosen)
-        chosen = first(pictures, [](const Picture& one) { return !one.data; });
-    if (!chosen && parts.size() > 1) {
-        error = "no part that is not data by its name; pass layer= one of: " + list(pictures);
-        return false;
-    }
-    if (!chosen)
-        return true;
-    choice.part = chosen->part;
-    choice.picture = chosen->shown;
-    for (const Picture& one : pictures)
-        if (!one.data && (one.part != chosen->part || one.view != chosen->view))
-            choice.left_out.push_back(one.shown);
-    return true;
+    return contained(error, [&] { choice = chosen_part(parts, options); });
 }
 
 } // namespace ToneAlgo

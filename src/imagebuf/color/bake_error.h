@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // How far a baked view is from OpenColorIO on the pixels that are looked at through it.
 #pragma once
 

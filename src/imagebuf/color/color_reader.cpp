@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "imagebuf/color/color_reader.h"
 
 #include <algorithm>
@@ -8,6 +9,7 @@
 
 #include "imagebuf/pixels/allocation.h"
 #include "imagebuf/pixels/parallel.h"
+#include "metrics/refusal.h"
 
 namespace tonetool {
 namespace {
@@ -81,11 +83,10 @@ void to_rec709(const ColorSpace& space, double alpha, double (&v)[3]) {
 
 } // namespace
 
-bool ColorReader::open(const ImageBuf& image, const PixelOptions& options, ROI region,
-                       bool want_alpha, int nthreads, std::string& error) {
+void ColorReader::open(const ImageBuf& image, const PixelOptions& options, ROI region,
+                       bool want_alpha, int nthreads) {
     const OIIO::ImageSpec spec = deciding_spec(image);
-    if (!find_picture(spec, options, m_choice, m_space, error))
-        return false;
+    find_picture(spec, options, m_choice, m_space);
     m_region = region;
     m_window = OIIO::roi_intersection(image.roi(), region);
     m_alpha = want_alpha;
@@ -102,7 +103,7 @@ bool ColorReader::open(const ImageBuf& image, const PixelOptions& options, ROI r
                                ? int64_t(m_window.width()) * m_window.height()
                                : 0;
     m_uncovered = int64_t(region.width()) * region.height() - inside;
-    return m_source.open(image, runs, error);
+    m_source.open(image, runs);
 }
 
 size_t ColorReader::row_bytes() const {
@@ -126,14 +127,15 @@ ColorPlanes ColorReader::planes() const {
     return out;
 }
 
-bool ColorReader::read(int begin, int end, ColorPlanes& planes, std::string& error) {
+void ColorReader::read(int begin, int end, ColorPlanes& planes) {
     const int from = std::clamp(planes.end, begin, end);
     const size_t drop = begin > planes.begin ? planes.at(std::min(begin, planes.end)) : 0;
     const size_t kept = size_t(from - begin) * size_t(planes.width());
     const size_t n = size_t(end - begin) * size_t(planes.width());
-    if (!has_memory(uint64_t(end - begin) * row_bytes(), error)) {
-        error = m_source.named(error);
-        return false;
+    try {
+        expect_memory(uint64_t(end - begin) * row_bytes());
+    } catch (const TooLarge& failure) {
+        throw Refusal(m_source.named(failure.what()));
     }
     const auto move_rows = [&](auto& array) {
         array.keep(drop, kept);
@@ -154,40 +156,34 @@ bool ColorReader::read(int begin, int end, ColorPlanes& planes, std::string& err
         move_written(planes.alpha);
     planes.begin = begin;
     planes.end = end;
-    return fill(from, end, planes, error);
+    fill(from, end, planes);
 }
 
-bool ColorReader::fill(int begin, int end, ColorPlanes& planes, std::string& error) {
-    if (m_source.from_file())
-        return fill_from_file(begin, end, planes, error);
+void ColorReader::fill(int begin, int end, ColorPlanes& planes) {
+    if (m_source.from_file()) {
+        fill_from_file(begin, end, planes);
+        return;
+    }
     std::mutex lock;
-    bool good = true;
     const int tasks = (end - begin + kRowsInMemory - 1) / kRowsInMemory;
     make_parallel(m_nthreads)(tasks, [&](int64_t task) {
         const int first = begin + int(task) * kRowsInMemory;
         const int last = std::min(first + kRowsInMemory, end);
         Stage stage;
-        std::string why;
         ColorCounts counts;
-        const bool fetched = fetch(first, last, stage, why);
-        for (int y = first; fetched && y < last; ++y)
+        fetch(first, last, stage);
+        for (int y = first; y < last; ++y)
             clean_row(y, stage, planes, counts);
         const std::lock_guard<std::mutex> hold(lock);
         planes.counts.add(counts);
-        if (!fetched) {
-            good = false;
-            error = why;
-        }
     });
-    return good;
 }
 
-bool ColorReader::fill_from_file(int begin, int end, ColorPlanes& planes, std::string& error) {
+void ColorReader::fill_from_file(int begin, int end, ColorPlanes& planes) {
     std::mutex lock;
     for (int first = begin; first < end;) {
         const int last = std::min(first + m_source.rows_at_once(first, step_bytes()), end);
-        if (!fetch(first, last, m_stage, error))
-            return false;
+        fetch(first, last, m_stage);
         make_parallel(m_nthreads)(last - first, [&](int64_t row) {
             ColorCounts counts;
             clean_row(first + int(row), m_stage, planes, counts);
@@ -200,20 +196,17 @@ bool ColorReader::fill_from_file(int begin, int end, ColorPlanes& planes, std::s
         m_source.rest();
     if (m_frugal || end == m_region.yend)
         m_stage = {};
-    return true;
 }
 
-bool ColorReader::fetch(int begin, int end, Stage& stage, std::string& error) {
+void ColorReader::fetch(int begin, int end, Stage& stage) {
     stage.begin = std::max(begin, m_window.ybegin);
     const int last = std::min(end, m_window.yend);
     stage.runs.resize(m_source.runs().size());
     for (size_t run = 0; run < stage.runs.size() && stage.begin < last; ++run) {
         const size_t row = size_t(m_source.width()) * size_t(m_source.runs()[run].count());
         stage.runs[run].resize(row * size_t(last - stage.begin));
-        if (!m_source.read(stage.begin, last, run, stage.runs[run].data(), error))
-            return false;
+        m_source.read(stage.begin, last, run, stage.runs[run].data());
     }
-    return true;
 }
 
 const float* ColorReader::staged(const Stage& stage, int y, size_t which) const {
@@ -322,13 +315,13 @@ void ColorReader::Row::blacken(size_t from, size_t to) const {
         std::fill(alpha + from, alpha + to, 0.0f);
 }
 
-bool read_planes(const ImageBuf& image, const PixelOptions& options, ROI region, bool want_alpha,
-                 int nthreads, ColorPlanes& out, std::string& error) {
+ColorPlanes read_planes(const ImageBuf& image, const PixelOptions& options, ROI region,
+                        bool want_alpha, int nthreads) {
     ColorReader reader;
-    if (!reader.open(image, options, region, want_alpha, nthreads, error))
-        return false;
-    out = reader.planes();
-    return reader.read(region.ybegin, region.yend, out, error);
+    reader.open(image, options, region, want_alpha, nthreads);
+    ColorPlanes out = reader.planes();
+    reader.read(region.ybegin, region.yend, out);
+    return out;
 }
 
 } // namespace tonetool

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // From the rows of an ImageBuf to planes of colour.
 #pragma once
 
@@ -21,8 +22,8 @@ public:
     /// open().
     void watch_alpha() { m_watch = true; }
     /// Looks at the header only. The image must live as long as this does.
-    bool open(const OIIO::ImageBuf& image, const PixelOptions& options, OIIO::ROI region,
-              bool want_alpha, int nthreads, std::string& error);
+    void open(const OIIO::ImageBuf& image, const PixelOptions& options, OIIO::ROI region,
+              bool want_alpha, int nthreads);
 
     const ColorChoice& choice() const { return m_choice; }
     const OIIO::ROI& window() const { return m_window; }
@@ -37,7 +38,7 @@ public:
     /// Planes that hold no row yet.
     ColorPlanes planes() const;
     /// Makes `planes` hold these rows: those that it has stay, the others are read.
-    bool read(int begin, int end, ColorPlanes& planes, std::string& error);
+    void read(int begin, int end, ColorPlanes& planes);
 
 private:
     // Rows as they come from the source, one buffer per run of channels.
@@ -56,9 +57,9 @@ private:
         void blacken(size_t from, size_t to) const;
     };
 
-    bool fill(int begin, int end, ColorPlanes& planes, std::string& error);
-    bool fill_from_file(int begin, int end, ColorPlanes& planes, std::string& error);
-    bool fetch(int begin, int end, Stage& stage, std::string& error);
+    void fill(int begin, int end, ColorPlanes& planes);
+    void fill_from_file(int begin, int end, ColorPlanes& planes);
+    void fetch(int begin, int end, Stage& stage);
     void clean_row(int y, const Stage& stage, ColorPlanes& planes, ColorCounts& counts) const;
     void clean(const Row& row, size_t from, size_t to, int y, const Stage& stage,
                ColorCounts& counts) const;
@@ -86,7 +87,7 @@ private:
 };
 
 /// The whole region at once.
-bool read_planes(const OIIO::ImageBuf& image, const PixelOptions& options, OIIO::ROI region,
-                 bool want_alpha, int nthreads, ColorPlanes& out, std::string& error);
+ColorPlanes read_planes(const OIIO::ImageBuf& image, const PixelOptions& options, OIIO::ROI region,
+                        bool want_alpha, int nthreads);
 
 } // namespace tonetool

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A tone curve of the public options as the numbers that kernels run on.
 #pragma once
 
@@ -21,7 +22,7 @@ struct CurvePlan {
 };
 
 /// With HDR-FLIP's defaults if `flip`. Each name and value is checked here, once.
-bool plan_curve(const CurveOptions& options, bool flip, CurvePlan& plan, std::string& error);
+CurvePlan plan_curve(const CurveOptions& options, bool flip);
 
 /// Whether a curve of the registry has a parameter of that name.
 bool has_parameter(const CurveOptions& options, const std::string& name);

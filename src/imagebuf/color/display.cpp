@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The public functions of include/tonetool/display.h.
 #include "tonetool/display.h"
 
@@ -12,6 +13,7 @@
 #include "imagebuf/pixels/parallel.h"
 #include "imagebuf/pixels/planes.h"
 #include "imagebuf/pixels/row_source.h"
+#include "metrics/refusal.h"
 
 namespace tonetool {
 namespace {
@@ -38,9 +40,8 @@ float unit_value(float v) {
     return std::isnan(v) ? 0.0f : std::clamp(v, 0.0f, 1.0f);
 }
 
-bool copy_part(ImageBuf& out, const ImageBuf& src, ROI roi, int nthreads, std::string& error) {
-    ROI part;
-    return part_of(src, roi, part, error) && copy_pixels(out, src, part, nthreads, error);
+ImageBuf copy_part(const ImageBuf& src, ROI roi, int nthreads) {
+    return copy_pixels(src, part_of(src, roi), nthreads);
 }
 
 void encode_pixels(ImageBuf& image, int nthreads) {
@@ -49,44 +50,40 @@ void encode_pixels(ImageBuf& image, int nthreads) {
     retag(image.specmod(), "sRGB");
 }
 
-bool is_linear(const ImageBuf& image, std::string& error) {
-    ColorSpace space;
-    std::string untold;
-    if (!find_space(deciding_spec(image), "", space, untold) || !space.encoded())
-        return true;
-    error = side_name("source", image) + "is sRGB-encoded already";
-    return false;
+// An image whose space nobody knows is taken as it is.
+bool is_encoded(const ImageBuf& image) {
+    try {
+        return find_space(deciding_spec(image), "").encoded();
+    } catch (const Refusal&) {
+        return false;
+    }
 }
 
-bool encode(ImageBuf& dst, const ImageBuf& src, ROI roi, int nthreads, std::string& error) {
-    ImageBuf out;
-    if (!check_readable(src, "source", error) || !is_linear(src, error) ||
-        !copy_part(out, src, roi, nthreads, error))
-        return false;
+void check_linear(const ImageBuf& image) {
+    if (is_encoded(image))
+        throw Refusal(side_name("source", image) + "is sRGB-encoded already");
+}
+
+void encode(ImageBuf& dst, const ImageBuf& src, ROI roi, int nthreads) {
+    check_readable(src, "source");
+    check_linear(src);
+    ImageBuf out = copy_part(src, roi, nthreads);
     encode_pixels(out, nthreads);
     dst = std::move(out);
-    return true;
 }
 
 // `map(out, values)` colours values within [0,1] in linear light.
 template <class Map>
-bool colored(ImageBuf& dst, const ImageBuf& src, int channel, ROI roi, int nthreads,
-             std::string& error, const Map& map) {
-    if (!check_readable(src, "source", error))
-        return false;
-    if (channel < -1 || channel >= src.nchannels() || (channel == -1 && src.nchannels() < 3)) {
-        error = OIIO::Strutil::fmt::format("needs channel {}; the image has {}", channel,
-                                           src.nchannels());
-        return false;
-    }
-    ImageBuf values, linear;
-    if (!copy_part(values, src, roi, nthreads, error))
-        return false;
+void colored(ImageBuf& dst, const ImageBuf& src, int channel, ROI roi, int nthreads,
+             const Map& map) {
+    check_readable(src, "source");
+    if (channel < -1 || channel >= src.nchannels() || (channel == -1 && src.nchannels() < 3))
+        throw Refusal(OIIO::Strutil::fmt::format("needs channel {}; the image has {}", channel,
+                                                 src.nchannels()));
+    ImageBuf linear, values = copy_part(src, roi, nthreads);
     map_values(values, -1, nthreads, unit_value);
-    if (!map(linear, values)) {
-        error = linear.geterror();
-        return false;
-    }
+    if (!map(linear, values))
+        throw Refusal(linear.geterror());
     linear.set_roi_full(src.roi_full());
     OIIO::ImageSpec& spec = linear.specmod();
     spec.channelnames = {"R", "G", "B"};
@@ -94,7 +91,6 @@ bool colored(ImageBuf& dst, const ImageBuf& src, int channel, ROI roi, int nthre
     spec.erase_attribute("chromaticities");
     encode_pixels(linear, nthreads);
     dst = std::move(linear);
-    return true;
 }
 
 } // namespace
@@ -103,31 +99,26 @@ namespace ToneAlgo {
 
 bool color_map(ImageBuf& dst, const ImageBuf& src, const std::string& map, int channel, ROI roi,
                int nthreads) {
-    return guarded(dst, "color_map", [&](std::string& error) {
+    return guarded(dst, "color_map", [&] {
         const auto names = color_maps();
-        if (std::find(names.begin(), names.end(), map) == names.end()) {
-            error = unknown_name("colour map", map, names);
-            return false;
-        }
-        return colored(dst, src, channel, roi, nthreads, error,
-                       [&](ImageBuf& out, const ImageBuf& values) {
-                           return IBA::color_map(out, values, channel, map, {}, nthreads);
-                       });
+        if (std::find(names.begin(), names.end(), map) == names.end())
+            throw Refusal(unknown_name("colour map", map, names));
+        colored(dst, src, channel, roi, nthreads, [&](ImageBuf& out, const ImageBuf& values) {
+            return IBA::color_map(out, values, channel, map, {}, nthreads);
+        });
     });
 }
 
 bool color_map(ImageBuf& dst, const ImageBuf& src, const std::vector<float>& triples, int channel,
                ROI roi, int nthreads) {
-    return guarded(dst, "color_map", [&](std::string& error) {
-        if (triples.size() < 6 || triples.size() % 3 != 0) {
-            error = std::to_string(triples.size()) + " numbers: must be two or more RGB triples";
-            return false;
-        }
-        return colored(dst, src, channel, roi, nthreads, error,
-                       [&](ImageBuf& out, const ImageBuf& values) {
-                           return IBA::color_map(out, values, channel, int(triples.size() / 3), 3,
-                                                 triples, {}, nthreads);
-                       });
+    return guarded(dst, "color_map", [&] {
+        if (triples.size() < 6 || triples.size() % 3 != 0)
+            throw Refusal(std::to_string(triples.size()) +
+                          " numbers: must be two or more RGB triples");
+        colored(dst, src, channel, roi, nthreads, [&](ImageBuf& out, const ImageBuf& values) {
+            return IBA::color_map(out, values, channel, int(triples.size() / 3), 3, triples, {},
+                                  nthreads);
+        });
     });
 }
 
@@ -136,8 +127,7 @@ std::vector<std::string> color_maps() {
 }
 
 bool encode_srgb(ImageBuf& dst, const ImageBuf& src, ROI roi, int nthreads) {
-    return guarded(dst, "encode_srgb",
-                   [&](std::string& error) { return encode(dst, src, roi, nthreads, error); });
+    return guarded(dst, "encode_srgb", [&] { encode(dst, src, roi, nthreads); });
 }
 
 } // namespace ToneAlgo

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "imagebuf/color/luminance_plane.h"
 
 #include <algorithm>
@@ -32,8 +33,9 @@ size_t luminance_bytes(const OIIO::ROI& region) {
     return size_t(region.width()) * size_t(region.height()) * sizeof(float);
 }
 
-bool read_luminance(ColorReader& reader, ColorPlanes& planes, int nthreads,
-                    PagedArray<float>& plane, std::string& error, LuminanceRow luminances) {
+PagedArray<float> read_luminance(ColorReader& reader, ColorPlanes& planes, int nthreads,
+                                 LuminanceRow luminances) {
+    PagedArray<float> plane;
     const OIIO::ROI& region = planes.region;
     const auto parallel = make_parallel(nthreads);
     plane.resize(luminance_bytes(region) / sizeof(float));
@@ -50,15 +52,14 @@ bool read_luminance(ColorReader& reader, ColorPlanes& planes, int nthreads,
     } else {
         for (int y = region.ybegin; y < region.yend; y += kLuminanceRows) {
             const int end = std::min(y + kLuminanceRows, region.yend);
-            if (!reader.read(y, end, planes, error))
-                return false;
+            reader.read(y, end, planes);
             measure(y, end);
         }
         ColorPlanes empty = reader.planes();
         empty.counts = planes.counts;
         planes = std::move(empty);
     }
-    return true;
+    return plane;
 }
 
 } // namespace tonetool

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Luminances of a region, read band by band.
 #pragma once
 
@@ -16,9 +17,8 @@ using LuminanceRow = void (*)(const float* r, const float* g, const float* b, fl
 /// The luminances of a region, row by row; NaN where the image does not cover it or is not finite.
 /// Planes that hold the whole region are used as they are; others are read through from the top and
 /// end up empty, with the counts of all pixels. Holds 4 bytes per pixel beside a band.
-bool read_luminance(ColorReader& reader, ColorPlanes& planes, int nthreads,
-                    PagedArray<float>& luminance, std::string& error,
-                    LuminanceRow luminances = metrics::luminance_row);
+PagedArray<float> read_luminance(ColorReader& reader, ColorPlanes& planes, int nthreads,
+                                 LuminanceRow luminances = metrics::luminance_row);
 
 /// Bytes of the plane of luminances.
 size_t luminance_bytes(const OIIO::ROI& region);

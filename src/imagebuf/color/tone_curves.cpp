@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The registry of tone curves as the public header shows it.
 #include "imagebuf/color/curve_plan.h"
 #include "imagebuf/pixels/guard.h"
@@ -21,12 +22,9 @@ ToneCurveInfo info_of(const tonemap::Curve& curve) {
     for (const auto& p : curve.parameters)
         info.parameters.push_back(
             {p.name, p.help, p.value, p.low, p.high, p.flip_value.value_or(p.value)});
-    CurvePlan plan;
-    std::string error;
     CurveOptions options;
     options.name = curve.name;
-    if (plan_curve(options, false, plan, error))
-        info.coefficients = plan.coeffs();
+    info.coefficients = plan_curve(options, false).coeffs();
     return info;
 }
 
@@ -47,14 +45,11 @@ std::vector<std::string> tone_curve_names() {
 
 bool tone_curve_response(std::vector<double>& response, const CurveOptions& curve,
                          const std::vector<double>& values, std::string& error) {
-    return contained(error, [&](std::string& why) {
-        CurvePlan plan;
-        if (!plan_curve(curve, false, plan, why))
-            return false;
+    return contained(error, [&] {
+        const CurvePlan plan = plan_curve(curve, false);
         response.clear();
         for (double x : values)
             response.push_back(kernels::curve_reference(plan.numbers, x));
-        return true;
     });
 }
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Rows of an image on their way through a tone curve or a view, and back.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "imagebuf/color/view.h"
 
 #include <OpenImageIO/sysutil.h>
@@ -7,6 +8,7 @@
 #include "imagebuf/pixels/colorimetry.h"
 #include "imagebuf/pixels/guard.h"
 #include "imagebuf/pixels/names.h"
+#include "metrics/refusal.h"
 
 namespace tonetool {
 namespace {
@@ -24,39 +26,32 @@ std::string valid_sources(const ChosenView& chosen) {
     return "; pass from= one of: " + OIIO::Strutil::join(scene_spaces(chosen), ", ");
 }
 
-bool space_of_image(const ChosenView& chosen, const OIIO::ImageSpec& header, std::string& from,
-                    std::string& error) {
-    from = tagged_space(chosen, header);
-    if (!from.empty())
-        return true;
-    ColorSpace space;
-    if (!find_space(header, "", space, error)) {
-        // Its own names are not those of the configuration.
-        error.resize(std::min(error.size(), error.find("; pass from=")));
-        error += valid_sources(chosen);
-        return false;
-    }
+std::string space_of_image(const ChosenView& chosen, const OIIO::ImageSpec& header) {
+    if (const std::string tagged = tagged_space(chosen, header); !tagged.empty())
+        return tagged;
+    const auto with_its_own_names = [&](const std::string& why) {
+        return why.substr(0, why.find("; pass from=")) + valid_sources(chosen);
+    };
+    const ColorSpace space =
+        refusing_as(with_its_own_names, [&] { return find_space(header, ""); });
     const std::vector<std::string> names = interchange_names(space.name);
-    from = find_scene_space(chosen, names);
-    if (!from.empty())
-        return true;
+    if (const std::string found = find_scene_space(chosen, names); !found.empty())
+        return found;
     const std::string tried =
         names.empty() ? "" : " (looked for " + OIIO::Strutil::join(names, ", ") + ")";
-    error = "configuration \"" + chosen.file + "\" has no space for an image of colour space " +
-            space.name + tried + valid_sources(chosen);
-    return false;
+    throw Refusal("configuration \"" + chosen.file +
+                  "\" has no space for an image of colour space " + space.name + tried +
+                  valid_sources(chosen));
 }
 
-bool find_source(const ChosenView& chosen, const std::string& wanted, const OIIO::ImageSpec& header,
-                 std::string& from, std::string& error) {
+std::string find_source(const ChosenView& chosen, const std::string& wanted,
+                        const OIIO::ImageSpec& header) {
     if (wanted.empty())
-        return space_of_image(chosen, header, from, error);
+        return space_of_image(chosen, header);
     const auto space = known_space(chosen, wanted);
-    if (space)
-        from = space->getName();
-    else
-        error = unknown_name("colour space", wanted, scene_spaces(chosen));
-    return space != nullptr;
+    if (!space)
+        throw Refusal(unknown_name("colour space", wanted, scene_spaces(chosen)));
+    return space->getName();
 }
 
 } // namespace
@@ -69,24 +64,18 @@ struct ViewTransform::State {
     ocio::ConstCPUProcessorRcPtr processor;
 };
 
-bool ViewTransform::open(const ViewOptions& options, const std::string& from,
-                         const OIIO::ImageSpec& header, std::string& error) {
-    return contained(error, [&](std::string& why) {
-        const QuietOcio quiet;
-        ChosenView chosen;
-        std::string source;
-        if (!choose_view(options, chosen, why) || !find_source(chosen, from, header, source, why))
-            return false;
-        const auto state = std::make_shared<State>();
-        if (!make_processor(chosen, through_view(chosen, source), state->processor, why))
-            return false;
-        m_state = state;
-        m_display = chosen.display;
-        m_view = chosen.view;
-        m_space = chosen.space;
-        m_from = source;
-        return true;
-    });
+void ViewTransform::open(const ViewOptions& options, const std::string& from,
+                         const OIIO::ImageSpec& header) {
+    const QuietOcio quiet;
+    const ChosenView chosen = choose_view(options);
+    const std::string source = find_source(chosen, from, header);
+    const auto state = std::make_shared<State>();
+    state->processor = make_processor(chosen, through_view(chosen, source));
+    m_state = state;
+    m_display = chosen.display;
+    m_view = chosen.view;
+    m_space = chosen.space;
+    m_from = source;
 }
 
 void ViewTransform::apply(float* rgb, ptrdiff_t count) const {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Displays and views of OpenColorIO configurations. Nothing but view*.cpp
 // and lut*.cpp knows OpenColorIO.
 #pragma once
@@ -23,8 +24,7 @@ public:
     /// or role) of the configuration; empty: that which `oiio:ColorSpace` names there, else the
     /// image's own under one of its known names. Chromaticities are believed over a tag that says
     /// only "Linear"; stock oiiotool 2.4.7 looks that word up in the configuration.
-    bool open(const ViewOptions& options, const std::string& from, const OIIO::ImageSpec& header,
-              std::string& error);
+    void open(const ViewOptions& options, const std::string& from, const OIIO::ImageSpec& header);
 
     const std::string& display() const { return m_display; }
     const std::string& view() const { return m_view; }
@@ -61,7 +61,7 @@ using LightSource = std::function<void(float* rgb, ptrdiff_t count)>;
 /// A view from linear Rec.709 scene light to linear Rec.709 display light, 1 the display's white.
 class DisplayLight {
 public:
-    bool open(const DisplayLightOptions& options, std::string& error);
+    void open(const DisplayLightOptions& options);
 
     std::string name() const; ///< "display/view"
     LightSource source() const;

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The light of a view in a table, and how far that is from the view.
 #include <algorithm>
 #include <atomic>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "imagebuf/color/view_config.h"
 
 #include <OpenImageIO/filesystem.h>
@@ -10,6 +11,7 @@
 
 #include "imagebuf/color/view.h"
 #include "imagebuf/pixels/names.h"
+#include "metrics/refusal.h"
 
 namespace tonetool {
 namespace {
@@ -67,7 +69,7 @@ std::string loading_error(const std::string& file, const char* what) {
     return OIIO::Strutil::starts_with(text, start) ? text.substr(start.size()) : text;
 }
 
-bool choose_display(const std::string& wanted, ChosenView& chosen, std::string& error) {
+void choose_display(const std::string& wanted, ChosenView& chosen) {
     const ocio::Config& config = *chosen.config;
     Names active, all;
     for (int i = 0; i < config.getNumDisplays(); ++i)
@@ -76,13 +78,12 @@ bool choose_display(const std::string& wanted, ChosenView& chosen, std::string& 
         all.emplace_back(config.getDisplayAll(i));
     chosen.display = wanted.empty() ? config.getDefaultDisplay() : wanted;
     if (chosen.display.empty())
-        error = "configuration \"" + chosen.file + "\" has no displays";
-    else if (!find_name(all, chosen.display))
-        error = unknown_name("display", chosen.display, active);
-    return error.empty();
+        throw Refusal("configuration \"" + chosen.file + "\" has no displays");
+    if (!find_name(all, chosen.display))
+        throw Refusal(unknown_name("display", chosen.display, active));
 }
 
-bool choose_view_of_display(const std::string& wanted, ChosenView& chosen, std::string& error) {
+void choose_view_of_display(const std::string& wanted, ChosenView& chosen) {
     const ocio::Config& config = *chosen.config;
     const char* display = chosen.display.c_str();
     Names active, all;
@@ -94,31 +95,27 @@ bool choose_view_of_display(const std::string& wanted, ChosenView& chosen, std::
             all.emplace_back(config.getView(type, display, i));
     chosen.view = wanted.empty() ? config.getDefaultView(display) : wanted;
     if (chosen.view.empty())
-        error = "display \"" + chosen.display + "\" has no views";
-    else if (!find_name(all, chosen.view))
-        error =
-            unknown_name("view", chosen.view, active) + " (of display \"" + chosen.display + "\")";
-    return error.empty();
+        throw Refusal("display \"" + chosen.display + "\" has no views");
+    if (!find_name(all, chosen.view))
+        throw Refusal(unknown_name("view", chosen.view, active) + " (of display \"" +
+                      chosen.display + "\")");
 }
 
 // The space of the view's result; shared views may mean that of each display.
-bool find_result_space(ChosenView& chosen, std::string& error) {
+void find_result_space(ChosenView& chosen) {
     const std::string name =
         chosen.config->getDisplayViewColorSpaceName(chosen.display.c_str(), chosen.view.c_str());
     chosen.space = name == ocio::OCIO_VIEW_USE_DISPLAY_NAME ? chosen.display : name;
     const auto space = known_space(chosen, chosen.space);
-    if (!space) {
-        error = format("view \"{}\" of display \"{}\" wants the colour space \"{}\", which "
-                       "configuration \"{}\" does not have",
-                       chosen.view, chosen.display, chosen.space, chosen.file);
-        return false;
-    }
+    if (!space)
+        throw Refusal(format("view \"{}\" of display \"{}\" wants the colour space \"{}\", which "
+                             "configuration \"{}\" does not have",
+                             chosen.view, chosen.display, chosen.space, chosen.file));
     chosen.space = space->getName();
     chosen.display_space = space->getReferenceSpaceType() == ocio::REFERENCE_SPACE_DISPLAY;
-    return true;
 }
 
-bool check_looks(const std::string& looks, const ChosenView& chosen, std::string& error) {
+void check_looks(const std::string& looks, const ChosenView& chosen) {
     Names known;
     for (int i = 0; i < chosen.config->getNumLooks(); ++i)
         known.emplace_back(chosen.config->getLookNameByIndex(i));
@@ -132,14 +129,11 @@ bool check_looks(const std::string& looks, const ChosenView& chosen, std::string
         if (look.empty())
             continue;
         any = true;
-        if (!chosen.config->getLook(look.c_str())) {
-            error = unknown_name("look", look, known);
-            return false;
-        }
+        if (!chosen.config->getLook(look.c_str()))
+            throw Refusal(unknown_name("look", look, known));
     }
     if (!any)
-        error = "looks \"" + looks + "\" name no look";
-    return any;
+        throw Refusal("looks \"" + looks + "\" name no look");
 }
 
 // A view of the same making in an edited configuration. Stock oiiotool 2.4.7 drops looks silently.
@@ -190,19 +184,17 @@ Names variables_of(const ocio::Config& config, std::string& text) {
 }
 
 // OpenColorIO takes any name and lets it be.
-bool check_context(const ViewOptions& options, const ocio::Config& config, const std::string& start,
-                   std::string& error) {
+void check_context(const ViewOptions& options, const ocio::Config& config,
+                   const std::string& start) {
     if (options.context.empty())
-        return true;
+        return;
     std::string text;
     const Names known = variables_of(config, text);
     for (const auto& [name, value] : options.context)
         text += " " + value; // which may refer to others
     for (const auto& [name, value] : options.context) {
-        if (name.empty()) {
-            error = "a context variable of value \"" + value + "\" has no name";
-            return false;
-        }
+        if (name.empty())
+            throw Refusal("a context variable of value \"" + value + "\" has no name");
         const bool declared = std::find(known.begin(), known.end(), name) != known.end();
         const auto used = [&, n = name](const std::string& in) {
             return text.find(in) != std::string::npos;
@@ -210,42 +202,35 @@ bool check_context(const ViewOptions& options, const ocio::Config& config, const
         // "$SHOT_v2" is SHOT, too, where that is the longest name that is set.
         if (declared || used("$" + name) || used("${" + name + "}") || used("%" + name + "%"))
             continue;
-        error = start + unknown_name("context variable", name, known);
-        return false;
+        throw Refusal(start + unknown_name("context variable", name, known));
     }
-    return true;
 }
 
 } // namespace
 
-bool open_config(const ViewOptions& options, ChosenView& chosen, std::string& error) {
+ChosenView open_config(const ViewOptions& options) {
+    ChosenView chosen;
     chosen.file = config_file(options);
     const std::string named = options.config.empty() ? " (from the environment variable OCIO)" : "";
-    if (chosen.file.empty()) {
-        error =
-            "no configuration of OpenColorIO: name a file, or set the environment variable OCIO";
-        return false;
-    }
+    if (chosen.file.empty())
+        throw Refusal(
+            "no configuration of OpenColorIO: name a file, or set the environment variable OCIO");
     const std::string start = "configuration \"" + chosen.file + "\"" + named + ": ";
     const bool built_in = OIIO::Strutil::contains(chosen.file, "://");
-    if (!built_in && !OIIO::Filesystem::is_regular(chosen.file)) {
-        error =
-            start + (OIIO::Filesystem::exists(chosen.file) ? "is not a file" : "does not exist");
-        return false;
-    }
+    if (!built_in && !OIIO::Filesystem::is_regular(chosen.file))
+        throw Refusal(start +
+                      (OIIO::Filesystem::exists(chosen.file) ? "is not a file" : "does not exist"));
     try {
         chosen.config = ocio::Config::CreateFromFile(chosen.file.c_str());
     } catch (const ocio::Exception& e) {
-        error = start + loading_error(chosen.file, e.what());
-        return false;
+        throw Refusal(start + loading_error(chosen.file, e.what()));
     }
-    if (!check_context(options, *chosen.config, start, error))
-        return false;
+    check_context(options, *chosen.config, start);
     const ocio::ContextRcPtr context = chosen.config->getCurrentContext()->createEditableCopy();
     for (const auto& [name, value] : options.context)
         context->setStringVar(name.c_str(), value.c_str());
     chosen.context = context;
-    return true;
+    return chosen;
 }
 
 QuietOcio::QuietOcio() {
@@ -262,18 +247,17 @@ QuietOcio::~QuietOcio() {
         ocio::SetLoggingLevel(g_level);
 }
 
-bool choose_view(const ViewOptions& options, ChosenView& chosen, std::string& error) {
-    chosen = {};
-    if (!open_config(options, chosen, error) || !choose_display(options.display, chosen, error) ||
-        !choose_view_of_display(options.view, chosen, error) || !find_result_space(chosen, error))
-        return false;
+ChosenView choose_view(const ViewOptions& options) {
+    ChosenView chosen = open_config(options);
+    choose_display(options.display, chosen);
+    choose_view_of_display(options.view, chosen);
+    find_result_space(chosen);
     chosen.looked_at = chosen.view;
-    if (options.looks.empty())
-        return true;
-    if (!check_looks(options.looks, chosen, error))
-        return false;
-    add_looks(options.looks, chosen);
-    return true;
+    if (!options.looks.empty()) {
+        check_looks(options.looks, chosen);
+        add_looks(options.looks, chosen);
+    }
+    return chosen;
 }
 
 ocio::ConstTransformRcPtr through_view(const ChosenView& chosen, const std::string& from) {
@@ -284,17 +268,14 @@ ocio::ConstTransformRcPtr through_view(const ChosenView& chosen, const std::stri
     return transform;
 }
 
-bool make_processor(const ChosenView& chosen, const ocio::ConstTransformRcPtr& transform,
-                    ocio::ConstCPUProcessorRcPtr& processor, std::string& error) {
+ocio::ConstCPUProcessorRcPtr make_processor(const ChosenView& chosen,
+                                            const ocio::ConstTransformRcPtr& transform) {
     try {
-        processor =
-            chosen.config->getProcessor(chosen.context, transform, ocio::TRANSFORM_DIR_FORWARD)
-                ->getDefaultCPUProcessor();
-        return true;
+        return chosen.config->getProcessor(chosen.context, transform, ocio::TRANSFORM_DIR_FORWARD)
+            ->getDefaultCPUProcessor();
     } catch (const ocio::Exception& e) {
-        error = format("view \"{}\" of display \"{}\", configuration \"{}\": {}", chosen.view,
-                       chosen.display, chosen.file, one_line(e.what()));
-        return false;
+        throw Refusal(format("view \"{}\" of display \"{}\", configuration \"{}\": {}", chosen.view,
+                             chosen.display, chosen.file, one_line(e.what())));
     }
 }
 

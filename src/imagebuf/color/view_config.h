@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A view of an OpenColorIO configuration, chosen and checked. Only view*.cpp and
 // lut*.cpp include this.
 #pragma once
@@ -34,16 +35,16 @@ struct ChosenView {
 };
 
 /// Opens the configuration alone, with the context variables, which it must use.
-bool open_config(const ViewOptions& options, ChosenView& chosen, std::string& error);
+ChosenView open_config(const ViewOptions& options);
 
-bool choose_view(const ViewOptions& options, ChosenView& chosen, std::string& error);
+ChosenView choose_view(const ViewOptions& options);
 
 /// From a colour space of the configuration through the view.
 ocio::ConstTransformRcPtr through_view(const ChosenView& chosen, const std::string& from);
 
 /// A processor as stock programs run it.
-bool make_processor(const ChosenView& chosen, const ocio::ConstTransformRcPtr& transform,
-                    ocio::ConstCPUProcessorRcPtr& processor, std::string& error);
+ocio::ConstCPUProcessorRcPtr make_processor(const ChosenView& chosen,
+                                            const ocio::ConstTransformRcPtr& transform);
 
 /// The first of these names that the configuration knows as a space of scene light; else empty.
 std::string find_scene_space(const ChosenView& chosen, const std::vector<std::string>& names);

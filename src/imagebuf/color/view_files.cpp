@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The files that an OpenColorIO configuration refers to.
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/strutil.h>
@@ -151,12 +152,11 @@ std::vector<std::string> ToneAlgo::lut_references(const std::string& file) {
 
 bool ToneAlgo::color_config_files(const std::string& config, std::vector<std::string>& files,
                                   std::string& error) {
-    return contained(error, [&](std::string&) {
+    return contained(error, [&] {
         const QuietOcio quiet;
         const std::set<std::string> found =
             FileWalk(ocio::Config::CreateFromFile(config.c_str())).files();
         files.assign(found.begin(), found.end());
-        return true;
     });
 }
 

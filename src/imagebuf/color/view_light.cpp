@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Display light of a view: what its code values shine on the display, in Rec.709.
 #include "imagebuf/color/view_light.h"
 
@@ -5,8 +6,10 @@
 #include <cmath>
 
 #include "imagebuf/color/view_config.h"
+#include "imagebuf/options/flip_options.h"
 #include "imagebuf/pixels/colorimetry.h"
 #include "imagebuf/pixels/guard.h"
+#include "metrics/refusal.h"
 
 namespace tonetool {
 namespace {
@@ -17,13 +20,10 @@ constexpr ptrdiff_t kPixelsAtOnce = 512;
 // Display light of code value 1, above which a display is of high dynamic range: SDR is 1, HLG 10,
 // PQ 100. OpenColorIO's displays have a luminance of 1 for 100 cd/m2.
 constexpr double kSdrLight = 1.5, kReferenceWhite = 100;
-constexpr double kLeastPeak = 1, kMostPeak = 10000;
 constexpr const char* kReference = "tonetool display reference";
-constexpr const char* kEncodings[] = {"srgb", "rec1886", "gamma2.2", "gamma2.6", "linear"};
 
 std::string encodings() {
-    return OIIO::Strutil::join(
-        std::vector<std::string>(std::begin(kEncodings), std::end(kEncodings)), ", ");
+    return OIIO::Strutil::join(kViewEncodings, ", ");
 }
 
 ocio::TransformRcPtr power(double exponent) {
@@ -71,85 +71,61 @@ ocio::TransformRcPtr to_display_reference(ChosenView& chosen) {
     return transform;
 }
 
-bool check_peak(const ChosenView& chosen, const ocio::TransformRcPtr& to_reference,
-                std::string& error) {
-    ocio::ConstCPUProcessorRcPtr processor;
-    if (!make_processor(chosen, to_reference, processor, error))
-        return false;
+void check_peak(const ChosenView& chosen, const ocio::TransformRcPtr& to_reference) {
+    const auto processor = make_processor(chosen, to_reference);
     float white[3] = {1, 1, 1};
     processor->applyRGB(white);
-    if (white[1] > 0 && double(white[1]) <= kSdrLight)
-        return true;
-    error = format("display \"{}\" is of high dynamic range: its code value 1 is light of {:.5g} "
-                   "cd/m2, and HDR-FLIP compares light up to a white; pass peak=, the cd/m2 that "
-                   "count as 1 ({} to {}; 100 is the white of an SDR view), or choose an SDR view",
-                   chosen.display, double(white[1]) * kReferenceWhite, kLeastPeak, kMostPeak);
-    return false;
+    if (!(white[1] > 0 && double(white[1]) <= kSdrLight))
+        throw Refusal(format(
+            "display \"{}\" is of high dynamic range: its code value 1 is light of {:.5g} "
+            "cd/m2, and HDR-FLIP compares light up to a white; pass peak=, the cd/m2 that "
+            "count as 1 ({} to {}; 100 is the white of an SDR view), or choose an SDR view",
+            chosen.display, double(white[1]) * kReferenceWhite, kPeakRange.low, kPeakRange.high));
 }
 
 // Appends what turns the view's code values into light.
-bool add_display(const DisplayLightOptions& options, ChosenView& chosen,
-                 const ocio::GroupTransformRcPtr& group, std::string& error) {
+void add_display(const DisplayLightOptions& options, ChosenView& chosen,
+                 const ocio::GroupTransformRcPtr& group) {
     const double scale = options.peak ? kReferenceWhite / *options.peak : 1;
     if (!options.encoding.empty()) {
         const auto decode = decoding(options.encoding);
-        if (!decode) {
-            error = "unknown encoding \"" + options.encoding + "\"; valid: " + encodings();
-            return false;
-        }
+        if (!decode)
+            throw Refusal("unknown encoding \"" + options.encoding + "\"; valid: " + encodings());
         group->appendTransform(decode);
         const Matrix3 same{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
         group->appendTransform(matrix_transform(same, scale));
-        return true;
+        return;
     }
-    if (!chosen.display_space) {
-        error = format("view \"{}\" of display \"{}\" ends in \"{}\", a scene-referred colour "
-                       "space, which does not say what light its code values are; pass encoding= "
-                       "one of: {}",
-                       chosen.view, chosen.display, chosen.space, encodings());
-        return false;
-    }
+    if (!chosen.display_space)
+        throw Refusal(
+            format("view \"{}\" of display \"{}\" ends in \"{}\", a scene-referred colour "
+                   "space, which does not say what light its code values are; pass encoding= "
+                   "one of: {}",
+                   chosen.view, chosen.display, chosen.space, encodings()));
     const auto to_reference = to_display_reference(chosen);
-    if (!options.peak && !check_peak(chosen, to_reference, error))
-        return false;
+    if (!options.peak)
+        check_peak(chosen, to_reference);
     group->appendTransform(to_reference);
     group->appendTransform(matrix_transform(xyz_to_rec709(), scale));
-    return true;
 }
 
 // Appends the view, from linear Rec.709.
-bool add_view(const ChosenView& chosen, const std::string& from,
-              const ocio::GroupTransformRcPtr& group, std::string& error) {
+void add_view(const ChosenView& chosen, const std::string& from,
+              const ocio::GroupTransformRcPtr& group) {
     const SceneBridge bridge = find_bridge(chosen, from);
-    if (bridge.space.empty()) {
-        error =
+    if (bridge.space.empty())
+        throw Refusal(
             format("configuration \"{}\" does not say which space is linear Rec.709: it needs a "
                    "scene-referred colour space with one of the names or aliases {}, or the "
                    "role {} (ACES2065-1) or {}; or pass from=, one of its spaces: {}",
                    chosen.file, OIIO::Strutil::join(interchange_names("rec709"), ", "),
                    ocio::ROLE_INTERCHANGE_SCENE, ocio::ROLE_INTERCHANGE_DISPLAY,
-                   OIIO::Strutil::join(scene_spaces(chosen), ", "));
-        return false;
-    }
+                   OIIO::Strutil::join(scene_spaces(chosen), ", ")));
     const auto to_bridge = matrix_transform(bridge.to_rec709, 1);
     to_bridge->setDirection(ocio::TRANSFORM_DIR_INVERSE);
     group->appendTransform(to_bridge);
     group->appendTransform(
         std::const_pointer_cast<ocio::Transform>(through_view(chosen, bridge.space)));
-    return true;
-}
-
-bool make_light(const DisplayLightOptions& options, ChosenView& chosen,
-                ocio::ConstCPUProcessorRcPtr& processor, std::string& error) {
-    if (options.peak && !(*options.peak >= kLeastPeak && *options.peak <= kMostPeak)) {
-        error = format("peak is {}: must be {} to {} cd/m2", *options.peak, kLeastPeak, kMostPeak);
-        return false;
-    }
-    const auto group = ocio::GroupTransform::Create();
-    return choose_view(options.view, chosen, error) &&
-           add_view(chosen, options.from, group, error) &&
-           add_display(options, chosen, group, error) &&
-           make_processor(chosen, group, processor, error);
 }
 
 } // namespace
@@ -161,17 +137,19 @@ void DisplayLight::State::light(float* rgb, ptrdiff_t count) const {
     processor->apply(pixels);
 }
 
-bool DisplayLight::open(const DisplayLightOptions& options, std::string& error) {
-    return contained(error, [&](std::string& why) {
-        const QuietOcio quiet;
-        ChosenView chosen;
-        const auto state = std::make_shared<State>();
-        if (!make_light(options, chosen, state->processor, why))
-            return false;
-        state->name = chosen.display + "/" + chosen.view;
-        m_state = state;
-        return true;
-    });
+void DisplayLight::open(const DisplayLightOptions& options) {
+    const QuietOcio quiet;
+    if (options.peak && !(*options.peak >= kPeakRange.low && *options.peak <= kPeakRange.high))
+        throw Refusal(format("peak is {}: must be {} to {} cd/m2", *options.peak, kPeakRange.low,
+                             kPeakRange.high));
+    const auto group = ocio::GroupTransform::Create();
+    ChosenView chosen = choose_view(options.view);
+    add_view(chosen, options.from, group);
+    add_display(options, chosen, group);
+    const auto state = std::make_shared<State>();
+    state->processor = make_processor(chosen, group);
+    state->name = chosen.display + "/" + chosen.view;
+    m_state = state;
 }
 
 std::string DisplayLight::name() const {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What view_light.cpp and view_bake.cpp share.
 #pragma once
 

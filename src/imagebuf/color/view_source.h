@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Colour spaces of OpenColorIO configurations as what images are stored in.
 #pragma once
 
@@ -9,6 +10,6 @@
 namespace tonetool {
 
 /// The space that `options.from` names in the configuration `options.config`, to linear Rec.709.
-bool config_space(const PixelOptions& options, ColorSpace& space, std::string& error);
+ColorSpace config_space(const PixelOptions& options);
 
 } // namespace tonetool

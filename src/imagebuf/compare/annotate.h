@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A summary as metadata.
 #pragma once
 

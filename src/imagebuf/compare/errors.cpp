@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The public functions of include/tonetool/errors.h.
 #include "tonetool/errors.h"
 
@@ -6,6 +7,7 @@
 
 #include "imagebuf/compare/annotate.h"
 #include "imagebuf/compare/flip_run.h"
+#include "imagebuf/options/flip_options.h"
 #include "imagebuf/pixels/deliver.h"
 #include "imagebuf/pixels/guard.h"
 
@@ -16,23 +18,6 @@ using metrics::ErrorMetric;
 using OIIO::ImageBuf;
 using OIIO::ROI;
 using OIIO::Strutil::fmt::format;
-
-const ErrorMetric* find_metric(const std::string& name, std::string& error) {
-    const ErrorMetric* metric = metrics::find_error_metric(name);
-    if (!metric)
-        error = "unknown metric \"" + name +
-                "\"; valid: " + OIIO::Strutil::join(ToneAlgo::error_metrics(), ", ");
-    return metric;
-}
-
-// Beyond these the squares leave what a double tells apart.
-bool check_range(double value, const char* name, std::string& error) {
-    constexpr double low = 1e-12, high = 1e12;
-    if (value >= low && value <= high)
-        return true;
-    error = format("{} is {}: must be {} to {}", name, value, low, high);
-    return false;
-}
 
 ErrorSummary summarize(const ErrorMetric& metric, const ErrorOptions& options,
                        FlipSummary&& found) {
@@ -52,25 +37,20 @@ ErrorSummary summarize(const ErrorMetric& metric, const ErrorOptions& options,
     return s;
 }
 
-bool measure(ImageBuf& dst, const ImageBuf& reference, const ImageBuf& test,
-             const ErrorOptions& options, ErrorSummary* summary, ROI roi, int nthreads,
-             std::string& error) {
-    const ErrorMetric* metric = find_metric(options.metric, error);
-    FlipPlan plan;
+void measure(ImageBuf& dst, const ImageBuf& reference, const ImageBuf& test,
+             const ErrorOptions& options, ErrorSummary* summary, ROI roi, int nthreads) {
+    check_options(options);
+    const ErrorMetric& metric = *metrics::find_error_metric(options.metric);
+    const FlipPlan plan =
+        plan_errors(options, {metric.kind, options.eps}, metric.has(metrics::kExposures));
     std::vector<ImageBuf> maps;
     std::vector<FlipResult> results;
-    if (!metric || !check_range(options.eps, "eps", error) ||
-        !check_range(options.peak, "peak", error) ||
-        !plan_errors(options, {metric->kind, options.eps}, metric->has(metrics::kExposures), plan,
-                     error) ||
-        !run_flip(plan, reference, {&test}, {&dst}, roi, nthreads, maps, results, error))
-        return false;
-    ErrorSummary found = summarize(*metric, options, std::move(results[0].summary));
+    run_flip(plan, reference, {&test}, {&dst}, roi, nthreads, maps, results);
+    ErrorSummary found = summarize(metric, options, std::move(results[0].summary));
     annotate(maps[0].specmod(), found);
     deliver(dst, std::move(maps[0]), "Error:");
     if (summary)
         *summary = std::move(found);
-    return true;
 }
 
 } // namespace
@@ -79,9 +59,8 @@ namespace ToneAlgo {
 
 bool error_map(ImageBuf& dst, const ImageBuf& reference, const ImageBuf& test,
                const ErrorOptions& options, ErrorSummary* summary, ROI roi, int nthreads) {
-    return guarded(dst, "error_map", [&](std::string& error) {
-        return measure(dst, reference, test, options, summary, roi, nthreads, error);
-    });
+    return guarded(dst, "error_map",
+                   [&] { measure(dst, reference, test, options, summary, roi, nthreads); });
 }
 
 ImageBuf error_map(const ImageBuf& reference, const ImageBuf& test, const ErrorOptions& options,

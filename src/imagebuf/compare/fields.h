@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The fields that the summaries of comparisons have in common, each written once: what writes
 // attributes, prints lines, keeps the record of a check or makes classes of Python visits them. A
 // visitor is called with a SummaryField and a pointer to the member.

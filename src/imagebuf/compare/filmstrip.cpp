@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The HDR-FLIP paper's Figure 1 as one picture.
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imagebufalgo.h>
@@ -9,6 +10,7 @@
 #include "imagebuf/pixels/guard.h"
 #include "imagebuf/pixels/oiio_compat.h"
 #include "imagebuf/pixels/upright.h"
+#include "metrics/refusal.h"
 #include "tonetool/display.h"
 #include "tonetool/flip.h"
 
@@ -267,13 +269,11 @@ namespace ToneAlgo {
 bool flip_filmstrip(ImageBuf& dst, const ImageBuf& reference, const ImageBuf& test,
                     const HdrFlipOptions& options, const FilmstripOptions& look, FlipResult* result,
                     int nthreads) {
-    return guarded(dst, "flip_filmstrip", [&](std::string& error) {
-        error = look_fault(look);
-        if (!error.empty())
-            return false;
+    return guarded(dst, "flip_filmstrip", [&] {
+        if (const std::string why = look_fault(look); !why.empty())
+            throw Refusal(why);
         FlipResult own;
         dst = Filmstrip(reference, test, options, look, nthreads).draw(result ? *result : own);
-        return true;
     });
 }
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The public functions of include/tonetool/flip.h.
 #include "tonetool/flip.h"
 
@@ -7,6 +8,7 @@
 #include "imagebuf/compare/flip_run.h"
 #include "imagebuf/pixels/deliver.h"
 #include "imagebuf/pixels/guard.h"
+#include "metrics/refusal.h"
 #include "tonemap/curves.h"
 
 namespace tonetool {
@@ -15,46 +17,37 @@ namespace {
 using OIIO::ImageBuf;
 using OIIO::ROI;
 
-// One test: `make_plan(plan, error)` turns the options into numbers.
+// One test: `make_plan()` turns the options into numbers.
 template <class MakePlan>
 bool compare(const char* function, ImageBuf& dst, const ImageBuf& reference, const ImageBuf& test,
              FlipResult* result, ROI roi, int nthreads, const MakePlan& make_plan) {
-    return guarded(dst, function, [&](std::string& error) {
-        FlipPlan plan;
+    return guarded(dst, function, [&] {
+        const FlipPlan plan = make_plan();
         std::vector<ImageBuf> maps;
         std::vector<FlipResult> results;
-        if (!make_plan(plan, error) ||
-            !run_flip(plan, reference, {&test}, {&dst}, roi, nthreads, maps, results, error))
-            return false;
+        run_flip(plan, reference, {&test}, {&dst}, roi, nthreads, maps, results);
         deliver(dst, std::move(maps[0]), "FLIP:");
         if (result)
             *result = std::move(results[0]);
-        return true;
     });
 }
 
-bool compare_all(std::vector<ImageBuf>& dst, const ImageBuf& reference,
+void compare_all(std::vector<ImageBuf>& dst, const ImageBuf& reference,
                  const std::vector<const ImageBuf*>& tests, const HdrFlipOptions& options,
-                 std::vector<FlipResult>* results, ROI roi, int nthreads, std::string& error) {
-    FlipPlan plan;
+                 std::vector<FlipResult>* results, ROI roi, int nthreads) {
     std::vector<ImageBuf> maps;
     std::vector<FlipResult> found;
-    if (tests.empty() || std::count(tests.begin(), tests.end(), nullptr) > 0) {
-        error = tests.empty() ? "there is no test image" : "a test image is a null pointer";
-        return false;
-    }
+    if (tests.empty() || std::count(tests.begin(), tests.end(), nullptr) > 0)
+        throw Refusal(tests.empty() ? "there is no test image" : "a test image is a null pointer");
     dst.resize(tests.size());
     std::vector<ImageBuf*> to;
     for (ImageBuf& map : dst)
         to.push_back(&map);
-    if (!plan_hdr(options, plan, error) ||
-        !run_flip(plan, reference, tests, to, roi, nthreads, maps, found, error))
-        return false;
+    run_flip(plan_hdr(options), reference, tests, to, roi, nthreads, maps, found);
     for (size_t t = 0; t < tests.size(); ++t)
         deliver(dst[t], std::move(maps[t]), "FLIP:");
     if (results)
         *results = std::move(found);
-    return true;
 }
 
 } // namespace
@@ -63,9 +56,8 @@ namespace ToneAlgo {
 
 bool ldr_flip(ImageBuf& dst, const ImageBuf& reference, const ImageBuf& test,
               const FlipOptions& options, FlipResult* result, ROI roi, int nthreads) {
-    return compare(
-        "ldr_flip", dst, reference, test, result, roi, nthreads,
-        [&](FlipPlan& plan, std::string& error) { return plan_ldr(options, plan, error); });
+    return compare("ldr_flip", dst, reference, test, result, roi, nthreads,
+                   [&] { return plan_ldr(options); });
 }
 
 ImageBuf ldr_flip(const ImageBuf& reference, const ImageBuf& test, const FlipOptions& options,
@@ -77,9 +69,8 @@ ImageBuf ldr_flip(const ImageBuf& reference, const ImageBuf& test, const FlipOpt
 
 bool hdr_flip(ImageBuf& dst, const ImageBuf& reference, const ImageBuf& test,
               const HdrFlipOptions& options, FlipResult* result, ROI roi, int nthreads) {
-    return compare(
-        "hdr_flip", dst, reference, test, result, roi, nthreads,
-        [&](FlipPlan& plan, std::string& error) { return plan_hdr(options, plan, error); });
+    return compare("hdr_flip", dst, reference, test, result, roi, nthreads,
+                   [&] { return plan_hdr(options); });
 }
 
 ImageBuf hdr_flip(const ImageBuf& reference, const ImageBuf& test, const HdrFlipOptions& options,
@@ -93,9 +84,8 @@ bool hdr_flip(std::vector<ImageBuf>& dst, const ImageBuf& reference,
               const std::vector<const ImageBuf*>& tests, const HdrFlipOptions& options,
               std::vector<FlipResult>* results, ROI roi, int nthreads) {
     std::string error;
-    if (contained(error, [&](std::string& why) {
-            return compare_all(dst, reference, tests, options, results, roi, nthreads, why);
-        }))
+    if (contained(error,
+                  [&] { compare_all(dst, reference, tests, options, results, roi, nthreads); }))
         return true;
     dst.assign(std::max<size_t>(tests.size(), 1), ImageBuf());
     for (ImageBuf& map : dst)

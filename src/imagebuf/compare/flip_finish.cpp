@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "imagebuf/compare/flip_finish.h"
 
 #include <OpenImageIO/strutil.h>

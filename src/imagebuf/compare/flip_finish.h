@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // From the planes of a comparison, band by band, to its map, summary and pictures.
 #pragma once
 

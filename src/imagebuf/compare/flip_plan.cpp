@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Options of LDR-FLIP and HDR-FLIP to numbers, each checked once.
 #include <OpenImageIO/strutil.h>
 #include <algorithm>
@@ -7,8 +8,10 @@
 #include "flip/filters.h"
 #include "imagebuf/compare/flip_plan.h"
 #include "imagebuf/compare/quantities.h"
+#include "imagebuf/options/flip_options.h"
 #include "kernels/curve_reference.h"
 #include "kernels/curve_rows.h"
+#include "metrics/refusal.h"
 #include "tonemap/rational.h"
 
 namespace tonetool {
@@ -16,31 +19,18 @@ namespace {
 
 using OIIO::Strutil::fmt::format;
 
-bool positive(double value, const char* name, const char* unit, std::string& error) {
-    if (std::isfinite(value) && value > 0)
-        return true;
-    error = format("{} is {}: must be a positive number of {}", name, value, unit);
-    return false;
-}
-
-bool plan_common(const FlipOptions& options, FlipPlan& plan, std::string& error) {
+void plan_common(const FlipOptions& options, FlipPlan& plan) {
     plan.common = options;
-    if (!plan_pool(options.quantities, plan.pool, error))
-        return false;
-    if (!options.ppd && (!positive(options.distance, "distance", "metres", error) ||
-                         !positive(options.width, "width", "metres", error) ||
-                         !positive(options.pixels_across, "pixels", "pixels", error)))
-        return false;
+    plan_pool(options.quantities, plan.pool);
+    check_options(options);
     plan.ppd = options.ppd ? *options.ppd
                            : flip::pixels_per_degree(options.distance, options.width,
                                                      options.pixels_across);
-    if (!(plan.ppd >= flip::kMinPixelsPerDegree && plan.ppd <= flip::kMaxPixelsPerDegree)) {
-        error = format("ppd is {}: must be {} to {} pixels per degree", plan.ppd,
-                       flip::kMinPixelsPerDegree, flip::kMaxPixelsPerDegree);
-        return false;
-    }
+    if (!(plan.ppd >= kPpdRange.low && plan.ppd <= kPpdRange.high))
+        throw Refusal(format("distance, width and pixels make {} pixels per degree: must be {} "
+                             "to {}",
+                             plan.ppd, kPpdRange.low, kPpdRange.high));
     plan.evaluation.taps = flip::lane_taps(flip::make_taps(plan.ppd));
-    return true;
 }
 
 // A quotient does not change when all six are scaled; lanes square large values in float.
@@ -85,53 +75,26 @@ void show_through(const CurvePlan& curve, FlipPlan& plan) {
                               float scale) { curve_rows(numbers, use, in, out, count, scale); };
 }
 
-bool show_through_view(const HdrFlipOptions& options, FlipPlan& plan, std::string& error) {
-    if (!plan.light.open({*options.view, options.encoding, options.peak, options.pixels.from},
-                         error))
-        return false;
+void show_through_view(const HdrFlipOptions& options, FlipPlan& plan) {
+    plan.light.open({*options.view, options.encoding, options.peak, options.pixels.from});
     plan.common.pixels.config = config_file(*options.view);
     plan.common.pixels.context = options.view->context;
     plan.tonemapper = plan.light.name();
     plan.evaluation.rows = options.exact ? plan.light.exact() : plan.light.baked();
     plan.bright = flip::exposure_anchor(
         [&](const std::vector<double>& values) { return plan.light.greys(values); });
-    return true;
 }
 
-bool plan_tone(const HdrFlipOptions& options, FlipPlan& plan, std::string& error) {
-    if (options.view)
-        return show_through_view(options, plan, error);
-    if (!options.encoding.empty() || options.peak || options.exact) {
-        error = "encoding, peak and exact are of views: they need a display and a view";
-        return false;
+void plan_tone(const HdrFlipOptions& options, FlipPlan& plan) {
+    if (options.view) {
+        show_through_view(options, plan);
+        return;
     }
-    if (!plan_curve(options.curve, true, plan.curve, error))
-        return false;
+    if (!options.encoding.empty() || options.peak || options.exact)
+        throw Refusal("encoding, peak and exact are of views: they need a display and a view");
+    plan.curve = plan_curve(options.curve, true);
     plan.tonemapper = plan.curve.name;
     show_through(plan.curve, plan);
-    return true;
-}
-
-bool check_exposures(const HdrFlipOptions& options, std::string& error) {
-    if (options.num_exposures &&
-        (*options.num_exposures < 1 || *options.num_exposures > flip::kMaxExposures)) {
-        error = format("numExposures is {}: must be 1 to {}", *options.num_exposures,
-                       flip::kMaxExposures);
-        return false;
-    }
-    const auto stops = [&](const std::optional<double>& value, const char* name) {
-        if (!value || (*value >= flip::kMinStops && *value <= flip::kMaxStops))
-            return true;
-        error = format("{} is {}: must be {} to {} stops", name, *value, flip::kMinStops,
-                       flip::kMaxStops);
-        return false;
-    };
-    return stops(options.start_exposure, "startExposure") &&
-           stops(options.stop_exposure, "stopExposure") &&
-           (!options.max_luminance ||
-            positive(*options.max_luminance, "maxluminance", "linear light", error)) &&
-           (!options.median_luminance ||
-            positive(*options.median_luminance, "medianluminance", "linear light", error));
 }
 
 bool needs_max(const HdrFlipOptions& o) {
@@ -144,27 +107,33 @@ bool needs_median(const HdrFlipOptions& o) {
 
 } // namespace
 
-bool plan_ldr(const FlipOptions& options, FlipPlan& plan, std::string& error) {
+FlipPlan plan_ldr(const FlipOptions& options) {
+    FlipPlan plan;
     plan.evaluation.stops = {0.0};
-    return plan_common(options, plan, error);
+    plan_common(options, plan);
+    return plan;
 }
 
-bool plan_hdr(const HdrFlipOptions& options, FlipPlan& plan, std::string& error) {
+FlipPlan plan_hdr(const HdrFlipOptions& options) {
+    FlipPlan plan;
     plan.hdr = true;
     plan.hdr_options = options;
-    return plan_common(options, plan, error) && plan_tone(options, plan, error) &&
-           check_exposures(options, error);
+    plan_common(options, plan);
+    plan_tone(options, plan);
+    check_options(options);
+    return plan;
 }
 
-bool plan_errors(const ErrorOptions& options, const metrics::PixelError& pixel_error, bool exposed,
-                 FlipPlan& plan, std::string& error) {
+FlipPlan plan_errors(const ErrorOptions& options, const metrics::PixelError& pixel_error,
+                     bool exposed) {
     HdrFlipOptions all;
     static_cast<PairOptions&>(all) = options;
     all.start_exposure = options.start_exposure;
     all.stop_exposure = options.stop_exposure;
     all.num_exposures = options.num_exposures;
+    FlipPlan plan = exposed ? plan_hdr(all) : plan_ldr(all);
     plan.pixel_error = pixel_error;
-    return exposed ? plan_hdr(all, plan, error) : plan_ldr(all, plan, error);
+    return plan;
 }
 
 bool needs_luminance(const FlipPlan& plan) {
@@ -173,21 +142,18 @@ bool needs_luminance(const FlipPlan& plan) {
            ((needs_max(o) && !o.max_luminance) || (needs_median(o) && !o.median_luminance));
 }
 
-bool choose_exposures(const FlipPlan& plan, const metrics::ExposureStats& stats,
-                      Exposures& exposures, std::string& error) {
-    if (!plan.hdr) {
-        exposures.stops = plan.evaluation.stops;
-        return true;
-    }
+Exposures choose_exposures(const FlipPlan& plan, const metrics::ExposureStats& stats) {
+    Exposures exposures;
+    exposures.stops = plan.evaluation.stops;
+    if (!plan.hdr)
+        return exposures;
     const HdrFlipOptions& o = plan.hdr_options;
     const bool need_max = needs_max(o), need_median = needs_median(o);
     double maximum = o.max_luminance.value_or(0), median = o.median_luminance.value_or(0);
     if (needs_luminance(plan)) {
-        if (stats.max <= 0) {
-            error = "the reference is black, so its exposures cannot be measured: pass "
-                    "startExposure and stopExposure (or maxluminance and medianluminance)";
-            return false;
-        }
+        if (stats.max <= 0)
+            throw Refusal("the reference is black, so its exposures cannot be measured: pass "
+                          "startExposure and stopExposure (or maxluminance and medianluminance)");
         exposures.median_of_lit = need_median && !o.median_luminance && stats.median <= 0;
         maximum = o.max_luminance.value_or(stats.max);
         median =
@@ -195,23 +161,20 @@ bool choose_exposures(const FlipPlan& plan, const metrics::ExposureStats& stats,
     }
     exposures.max_luminance = need_max ? maximum : 0;
     exposures.median_luminance = need_median ? median : 0;
-    return flip::make_exposures(
-        plan.bright, {o.start_exposure, o.stop_exposure, o.num_exposures, maximum, median},
-        exposures.stops, error);
+    exposures.stops = flip::make_exposures(
+        plan.bright, {o.start_exposure, o.stop_exposure, o.num_exposures, maximum, median});
+    return exposures;
 }
 
-bool check_curve(const FlipPlan& plan, const Exposures& exposures, double largest,
-                 std::string& error) {
+void check_curve(const FlipPlan& plan, const Exposures& exposures, double largest) {
     const std::vector<double>& coeffs = plan.hdr_options.curve.coeffs;
     if (!plan.hdr || plan.hdr_options.view || coeffs.empty())
-        return true;
+        return;
     const double exposed =
         std::min(largest * std::exp2(exposures.stops.back()), double(kernels::kLargestExposed));
     const std::string fault = tonemap::curve_fault(plan.evaluation.curve.k, exposed);
-    if (fault.empty())
-        return true;
-    error = "coeffs " + OIIO::Strutil::join(coeffs, ",") + ": " + fault;
-    return false;
+    if (!fault.empty())
+        throw Refusal("coeffs " + OIIO::Strutil::join(coeffs, ",") + ": " + fault);
 }
 
 } // namespace tonetool

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Options of LDR-FLIP and HDR-FLIP as the numbers the algorithm runs on.
 #pragma once
 
@@ -37,11 +38,11 @@ struct FlipPlan {
     bool alpha() const { return common.alpha == AlphaPolicy::Error; }
 };
 
-bool plan_ldr(const FlipOptions& options, FlipPlan& plan, std::string& error);
-bool plan_hdr(const HdrFlipOptions& options, FlipPlan& plan, std::string& error);
+FlipPlan plan_ldr(const FlipOptions& options);
+FlipPlan plan_hdr(const HdrFlipOptions& options);
 /// `pixel_error` instead of FLIP, if `exposed` at the exposures that HDR-FLIP would take.
-bool plan_errors(const ErrorOptions& options, const metrics::PixelError& pixel_error, bool exposed,
-                 FlipPlan& plan, std::string& error);
+FlipPlan plan_errors(const ErrorOptions& options, const metrics::PixelError& pixel_error,
+                     bool exposed);
 
 /// The exposures of one comparison and what they were derived from.
 struct Exposures {
@@ -56,12 +57,10 @@ bool needs_luminance(const FlipPlan& plan);
 
 /// Exposures for a reference of these statistics, which are looked at only where they are needed.
 /// LDR-FLIP gets stop 0 alone.
-bool choose_exposures(const FlipPlan& plan, const metrics::ExposureStats& stats,
-                      Exposures& exposures, std::string& error);
+Exposures choose_exposures(const FlipPlan& plan, const metrics::ExposureStats& stats);
 
 /// A user's coefficients must be sound up to `largest`, the largest component of any image, at the
 /// last exposure.
-bool check_curve(const FlipPlan& plan, const Exposures& exposures, double largest,
-                 std::string& error);
+void check_curve(const FlipPlan& plan, const Exposures& exposures, double largest);
 
 } // namespace tonetool

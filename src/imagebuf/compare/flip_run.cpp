@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "imagebuf/compare/flip_run.h"
 
 #include <algorithm>
@@ -11,6 +12,7 @@
 #include "imagebuf/pixels/parallel.h"
 #include "metrics/errors.h"
 #include "metrics/luminance.h"
+#include "metrics/refusal.h"
 
 namespace tonetool {
 namespace {
@@ -24,11 +26,8 @@ struct Side {
     ColorPlanes planes;
     std::string name; ///< how errors begin
 
-    bool read(int begin, int end, std::string& error) {
-        if (reader.read(begin, end, planes, error))
-            return true;
-        error = with_side(name, error);
-        return false;
+    void read(int begin, int end) {
+        of_side(name, [&] { reader.read(begin, end, planes); });
     }
 };
 
@@ -43,54 +42,47 @@ public:
           m_reach(plan.pixel_error ? 0 : flip::filter_radius(plan.evaluation.taps)) {}
 
     /// `held`: bytes that earlier groups have made.
-    bool run(const FittedTest* fitted, const std::vector<ImageBuf*>& dst, const ROI& roi,
-             uint64_t held, std::vector<ImageBuf>& maps, std::vector<FlipResult>& results,
-             std::string& error) {
+    void run(const FittedTest* fitted, const std::vector<ImageBuf*>& dst, const ROI& roi,
+             uint64_t held, std::vector<ImageBuf>& maps, std::vector<FlipResult>& results) {
         m_fitted = fitted;
         m_held = held;
-        if (!clip(roi, error) || !open(dst.size(), error) || !measure(error))
-            return false;
+        clip(roi);
+        open(dst.size());
+        measure();
         std::vector<FlipMaps> filled;
         filled.reserve(dst.size());
         for (ImageBuf* map : dst)
             filled.emplace_back(m_plan, m_exposures, m_roi, m_image.roi_full(), *map, m_nthreads);
         for (int begin = m_region.ybegin; begin < m_region.yend;) {
             const int end = m_bands.end_of(begin);
-            if (!run_band(begin, end, filled, error))
-                return false;
+            run_band(begin, end, filled);
             begin = end;
         }
         for (size_t t = 0; t < dst.size(); ++t) {
-            Found found{m_both[t], 0, m_fitted[t].notes()};
-            if (!count_ignored_alpha(t, found.alpha_ignored, error))
-                return false;
+            const Found found{m_both[t], ignored_alpha(t), m_fitted[t].notes()};
             filled[t].finish(m_reference.planes, m_tests[t].planes, found, maps.emplace_back(),
                              results.emplace_back());
         }
-        return true;
     }
 
     uint64_t map_bytes_made() const { return m_needs.map_row * uint64_t(m_roi.height()); }
 
 private:
-    bool clip(const ROI& roi, std::string& error) {
+    void clip(const ROI& roi) {
         m_region = m_fitted[0].region();
         m_roi = roi.defined() ? OIIO::roi_intersection(roi, m_region) : m_region;
-        if (m_roi.width() > 0 && m_roi.height() > 0)
-            return true;
-        error = "the region of interest holds no pixel of the images";
-        return false;
+        if (m_roi.width() <= 0 || m_roi.height() <= 0)
+            throw Refusal("the region of interest holds no pixel of the images");
     }
 
-    bool open(size_t count, std::string& error) {
+    void open(size_t count) {
         m_reference.name = side_name("reference", m_image);
         if (!m_plan.alpha())
             m_reference.reader.watch_alpha();
-        if (!m_reference.reader.open(m_image, m_plan.common.pixels, m_region, m_plan.alpha(),
-                                     m_nthreads, error)) {
-            error = with_side(m_reference.name, error);
-            return false;
-        }
+        of_side(m_reference.name, [&] {
+            m_reference.reader.open(m_image, m_plan.common.pixels, m_region, m_plan.alpha(),
+                                    m_nthreads);
+        });
         m_reference.planes = m_reference.reader.planes();
         m_tests.resize(count);
         m_both.assign(count, {});
@@ -98,28 +90,22 @@ private:
             m_tests[t].name = m_fitted[t].name();
             if (!m_plan.alpha())
                 m_tests[t].reader.watch_alpha();
-            if (!m_fitted[t].open_reader(m_plan.alpha(), m_nthreads, m_tests[t].reader, error))
-                return false;
+            m_fitted[t].open_reader(m_plan.alpha(), m_nthreads, m_tests[t].reader);
             m_tests[t].planes = m_fitted[t].planes(m_tests[t].reader);
-            if (m_plan.alpha() && m_reference.planes.choice.a < 0 &&
-                m_tests[t].planes.choice.a < 0) {
-                error = "alpha=error, but neither image has an alpha channel";
-                return false;
-            }
-            if (!check_covered(m_reference.planes, "the reference", error) ||
-                !check_covered(m_tests[t].planes, "the test", error))
-                return false;
+            if (m_plan.alpha() && m_reference.planes.choice.a < 0 && m_tests[t].planes.choice.a < 0)
+                throw Refusal("alpha=error, but neither image has an alpha channel");
+            check_covered(m_reference.planes, "the reference");
+            check_covered(m_tests[t].planes, "the test");
         }
-        return true;
     }
 
     // The pixels are looked at once more only where something tells the two apart.
-    bool count_ignored_alpha(size_t test, int64_t& count, std::string& error) const {
+    int64_t ignored_alpha(size_t test) const {
         if (m_plan.alpha() || m_fitted[test].resized() ||
             m_reference.planes.counts.alpha_digest == m_tests[test].planes.counts.alpha_digest)
-            return true;
+            return 0;
         return count_alpha_differences(m_image, m_reference.planes.choice, m_fitted[test].image(),
-                                       m_fitted[test].choice(), m_roi, count, error);
+                                       m_fitted[test].choice(), m_roi);
     }
 
     bool keeps_each() const { return m_plan.hdr && m_plan.hdr_options.want_exposures; }
@@ -132,7 +118,7 @@ private:
         return evaluation;
     }
 
-    bool make_bands(size_t exposures, std::string& error) {
+    void make_bands(size_t exposures) {
         m_needs = {};
         m_needs.reach = m_reach;
         m_needs.band_rows = m_plan.band_rows;
@@ -154,40 +140,34 @@ private:
             m_needs.measuring = luminance_bytes(m_region) +
                                 m_reference.reader.row_bytes() * kLuminanceRows +
                                 m_reference.reader.frugal_bytes();
-        if (!m_bands.plan(m_plan.common.memory, m_needs, m_region, m_roi, error))
-            return false;
+        m_bands.plan(m_plan.common.memory, m_needs, m_region, m_roi);
         for (size_t i = 0; !m_bands.one() && i <= m_tests.size(); ++i)
             (i == 0 ? m_reference.reader : m_tests[i - 1].reader).be_frugal();
-        return true;
     }
 
     // The exposures, and what is compared if it fits.
-    bool measure(std::string& error) {
+    void measure() {
         constexpr size_t usual_exposures = 16;
-        if (!make_bands(size_t(m_plan.hdr_options.num_exposures.value_or(usual_exposures)), error))
-            return false;
-        if (m_bands.one() && !read(m_region.ybegin, m_region.yend, error))
-            return false;
+        make_bands(size_t(m_plan.hdr_options.num_exposures.value_or(usual_exposures)));
+        if (m_bands.one())
+            read(m_region.ybegin, m_region.yend);
         metrics::ExposureStats stats;
-        if (needs_luminance(m_plan) && !measure_reference(stats, error))
-            return false;
-        if (!choose_exposures(m_plan, stats, m_exposures, error) ||
-            !make_bands(m_exposures.stops.size(), error))
-            return false;
+        if (needs_luminance(m_plan))
+            stats = measured_reference();
+        m_exposures = choose_exposures(m_plan, stats);
+        make_bands(m_exposures.stops.size());
         if (!m_bands.one())
             start_again();
-        return true;
     }
 
-    bool measure_reference(metrics::ExposureStats& stats, std::string& error) {
-        PagedArray<float> luminance;
-        if (!read_luminance(m_reference.reader, m_reference.planes, m_nthreads, luminance, error)) {
-            error = with_side(m_reference.name, error);
-            return false;
-        }
-        stats = metrics::exposure_statistics(luminance.data(), m_region.width(), m_region.height(),
-                                             make_parallel(m_nthreads));
-        return check_finite(m_reference.planes, "the reference", error);
+    metrics::ExposureStats measured_reference() {
+        const auto luminance = of_side(m_reference.name, [&] {
+            return read_luminance(m_reference.reader, m_reference.planes, m_nthreads);
+        });
+        const auto stats = metrics::exposure_statistics(
+            luminance.data(), m_region.width(), m_region.height(), make_parallel(m_nthreads));
+        check_finite(m_reference.planes, "the reference");
+        return stats;
     }
 
     void start_again() {
@@ -197,28 +177,20 @@ private:
     }
 
     // Rows of all images: of several files at the same time where memory is no matter.
-    bool read(int begin, int end, std::string& error) {
-        std::vector<std::string> errors(m_tests.size() + 1);
-        std::vector<std::function<void()>> tasks;
-        for (size_t i = 0; i < errors.size(); ++i)
-            tasks.emplace_back([this, begin, end, i, &errors] {
-                Side& side = i == 0 ? m_reference : m_tests[i - 1];
-                side.read(begin, end, errors[i]);
-            });
+    void read(int begin, int end) {
+        std::vector<std::function<void()>> tasks{[=] { m_reference.read(begin, end); }};
+        for (Side& test : m_tests)
+            tasks.emplace_back([=, &test] { test.read(begin, end); });
         run_beside(tasks, m_bands.one() ? m_nthreads : 1);
-        for (const std::string& why : errors)
-            if (error.empty())
-                error = why;
-        return error.empty();
     }
 
-    bool run_band(int begin, int end, std::vector<FlipMaps>& maps, std::string& error) {
+    void run_band(int begin, int end, std::vector<FlipMaps>& maps) {
         const int had = m_reference.planes.end;
-        if (!m_reference.planes.whole() && !read(std::max(begin - m_reach, m_region.ybegin),
-                                                 std::min(end + m_reach, m_region.yend), error))
-            return false;
-        if (m_reference.planes.end == m_region.yend && !is_sound(error))
-            return false;
+        if (!m_reference.planes.whole())
+            read(std::max(begin - m_reach, m_region.ybegin),
+                 std::min(end + m_reach, m_region.yend));
+        if (m_reference.planes.end == m_region.yend)
+            check_sound();
         const int fresh = m_bands.one() ? m_region.ybegin : had;
         // A reference with non-finite pixels is mended differently for each test.
         const size_t step = m_reference.planes.counts.nonfinite > 0 ? 1 : m_tests.size();
@@ -232,7 +204,6 @@ private:
             if (m_tests.size() > 1)
                 unmend(m_reference.planes);
         }
-        return true;
     }
 
     void mend(size_t test, int fresh) {
@@ -258,15 +229,14 @@ private:
     }
 
     // Everything has been read: whether there was something to compare.
-    bool is_sound(std::string& error) const {
+    void check_sound() const {
         double largest = m_reference.planes.counts.largest;
         for (const Side& test : m_tests) {
-            if (!check_finite(m_reference.planes, "the reference", error) ||
-                !check_finite(test.planes, "the test", error))
-                return false;
+            check_finite(m_reference.planes, "the reference");
+            check_finite(test.planes, "the test");
             largest = std::max(largest, double(test.planes.counts.largest));
         }
-        return check_curve(m_plan, m_exposures, largest, error);
+        check_curve(m_plan, m_exposures, largest);
     }
 
     void evaluate(size_t from, size_t count, int begin, int end, std::vector<FlipMaps>& maps) {
@@ -321,15 +291,13 @@ private:
 
 } // namespace
 
-bool run_flip(const FlipPlan& plan, const ImageBuf& reference,
+void run_flip(const FlipPlan& plan, const ImageBuf& reference,
               const std::vector<const ImageBuf*>& tests, const std::vector<ImageBuf*>& dst, ROI roi,
-              int nthreads, std::vector<ImageBuf>& maps, std::vector<FlipResult>& results,
-              std::string& error) {
+              int nthreads, std::vector<ImageBuf>& maps, std::vector<FlipResult>& results) {
     std::vector<FittedTest> fitted(tests.size());
     bool one_region = true;
     for (size_t t = 0; t < tests.size(); ++t) {
-        if (!fitted[t].open(reference, *tests[t], plan.common, nthreads, error))
-            return false;
+        fitted[t].open(reference, *tests[t], plan.common, nthreads);
         one_region = one_region && same_window(fitted[t].region(), fitted[0].region());
     }
     const size_t step = one_region ? tests.size() : 1;
@@ -338,11 +306,9 @@ bool run_flip(const FlipPlan& plan, const ImageBuf& reference,
         Group group(plan, reference, nthreads);
         const std::vector<ImageBuf*> to(dst.begin() + ptrdiff_t(t),
                                         dst.begin() + ptrdiff_t(t + step));
-        if (!group.run(&fitted[t], to, roi, held, maps, results, error))
-            return false;
+        group.run(&fitted[t], to, roi, held, maps, results);
         held += group.map_bytes_made();
     }
-    return true;
 }
 
 } // namespace tonetool

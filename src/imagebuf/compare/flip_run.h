@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Comparisons of ImageBufs: read, run, finish.
 #pragma once
 
@@ -10,12 +11,11 @@
 namespace tonetool {
 
 /// Compares the tests with the reference; `maps` and `results` get one element per test, in order.
-/// A map is computed in the pixels of its `dst` where these can take it. False with a reason: none
-/// of them is to be used.
-bool run_flip(const FlipPlan& plan, const OIIO::ImageBuf& reference,
+/// A map is computed in the pixels of its `dst` where these can take it. After a Refusal none of
+/// them is to be used.
+void run_flip(const FlipPlan& plan, const OIIO::ImageBuf& reference,
               const std::vector<const OIIO::ImageBuf*>& tests,
               const std::vector<OIIO::ImageBuf*>& dst, OIIO::ROI roi, int nthreads,
-              std::vector<OIIO::ImageBuf>& maps, std::vector<FlipResult>& results,
-              std::string& error);
+              std::vector<OIIO::ImageBuf>& maps, std::vector<FlipResult>& results);
 
 } // namespace tonetool

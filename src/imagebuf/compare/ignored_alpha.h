@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Alpha that a comparison does not look at.
 #pragma once
 
@@ -11,8 +12,8 @@ namespace tonetool {
 
 /// How many pixels that both images cover differ in alpha by more than rounding to the data types
 /// of their files explains; an image without alpha is opaque.
-bool count_alpha_differences(const OIIO::ImageBuf& reference, const ColorChoice& of_reference,
-                             const OIIO::ImageBuf& test, const ColorChoice& of_test,
-                             const OIIO::ROI& region, int64_t& count, std::string& error);
+int64_t count_alpha_differences(const OIIO::ImageBuf& reference, const ColorChoice& of_reference,
+                                const OIIO::ImageBuf& test, const ColorChoice& of_test,
+                                const OIIO::ROI& region);
 
 } // namespace tonetool

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "imagebuf/compare/pair.h"
 
 #include <Imath/half.h>
@@ -14,6 +15,7 @@
 #include "imagebuf/pixels/names.h"
 #include "imagebuf/pixels/oiio_compat.h"
 #include "imagebuf/pixels/upright.h"
+#include "metrics/refusal.h"
 
 namespace tonetool {
 namespace {
@@ -101,13 +103,12 @@ bool same_numbers(uint64_t a, uint64_t b) {
     return same(a >> 32, b >> 32) && same(a, b);
 }
 
-bool resize_fits(const ROI& from, const ROI& to, const PairOptions& options, std::string& error) {
+void check_resize_fits(const ROI& from, const ROI& to, const PairOptions& options) {
     const uint64_t least = kSetAside + resize_bytes(from, to, options.alpha == AlphaPolicy::Error);
-    if (options.memory == 0 || least <= options.memory)
-        return true;
-    error = "memory is " + size_text(options.memory) +
-            ": resizing takes the whole test image, which needs at least " + size_text(least);
-    return false;
+    if (options.memory > 0 && least > options.memory)
+        throw Refusal("memory is " + size_text(options.memory) +
+                      ": resizing takes the whole test image, which needs at least " +
+                      size_text(least));
 }
 
 } // namespace
@@ -124,84 +125,72 @@ bool same_window(const ROI& a, const ROI& b) {
     return a.xbegin == b.xbegin && a.xend == b.xend && a.ybegin == b.ybegin && a.yend == b.yend;
 }
 
-bool check_orientation(const ImageBuf& reference, const ImageBuf& test, std::string& error) {
+void check_orientation(const ImageBuf& reference, const ImageBuf& test) {
     const int r = orientation_of(reference.spec()), t = orientation_of(test.spec());
-    if (r == t)
-        return true;
-    error = OIIO::Strutil::fmt::format(
-        "the Orientation of the reference is {}, that of the test {}: the pictures are not turned "
-        "alike; turn them upright first (--autoorient before the files, --reorient behind one, or "
-        "ImageBufAlgo::reorient)",
-        r, t);
-    return false;
+    if (r != t)
+        throw Refusal(OIIO::Strutil::fmt::format("the Orientation of the reference is {}, that of "
+                                                 "the test {}: the pictures are not turned "
+                                                 "alike; turn them upright first (--autoorient "
+                                                 "before the files, --reorient behind one, or "
+                                                 "ImageBufAlgo::reorient)",
+                                                 r, t));
 }
 
-bool compared_region(const ImageBuf& reference, const ImageBuf& test, SizePolicy size, ROI& region,
-                     std::string& error) {
+ROI compared_region(const ImageBuf& reference, const ImageBuf& test, SizePolicy size) {
     const ROI ref_full = reference.roi_full(), test_full = test.roi_full();
-    if (size != SizePolicy::Crop && !same_window(ref_full, test_full)) {
-        error = "the reference's display window is " + window_text(ref_full) + ", the test's " +
-                window_text(test_full) + "; they must be the same, or ask for resize= or crop=";
-        return false;
-    }
-    region = plane_of(OIIO::roi_union(reference.roi(), test.roi()));
+    if (size != SizePolicy::Crop && !same_window(ref_full, test_full))
+        throw Refusal("the reference's display window is " + window_text(ref_full) +
+                      ", the test's " + window_text(test_full) +
+                      "; they must be the same, or ask for resize= or crop=");
+    ROI region = plane_of(OIIO::roi_union(reference.roi(), test.roi()));
     if (size == SizePolicy::Crop) {
         region = OIIO::roi_intersection(region, plane_of(ref_full));
         region = OIIO::roi_intersection(region, plane_of(test_full));
     }
-    if (region.xbegin >= region.xend || region.ybegin >= region.yend) {
-        error = "nothing to compare: the display windows " + window_text(ref_full) + " and " +
-                window_text(test_full) + " do not overlap";
-        return false;
-    }
+    if (region.xbegin >= region.xend || region.ybegin >= region.yend)
+        throw Refusal("nothing to compare: the display windows " + window_text(ref_full) + " and " +
+                      window_text(test_full) + " do not overlap");
     // In double: corrupt windows overflow everything else.
     const double pixels =
         (double(region.xend) - region.xbegin) * (double(region.yend) - region.ybegin);
-    if (pixels <= kMostPixels)
-        return true;
-    error = OIIO::Strutil::fmt::format("the union of the data windows has {} pixels, more than {}; "
+    if (!(pixels <= kMostPixels))
+        throw Refusal(
+            OIIO::Strutil::fmt::format("the union of the data windows has {} pixels, more than {}; "
                                        "crop=1 compares the display window only",
-                                       pixels, kMostPixels);
-    return false;
+                                       pixels, kMostPixels));
+    return region;
 }
 
-bool FittedTest::open(const ImageBuf& reference, const ImageBuf& test, const PairOptions& options,
-                      int nthreads, std::string& error) {
-    if (!check_readable(reference, "reference", error) || !check_readable(test, "test", error))
-        return false;
+void FittedTest::open(const ImageBuf& reference, const ImageBuf& test, const PairOptions& options,
+                      int nthreads) {
+    check_readable(reference, "reference");
+    check_readable(test, "test");
     m_test = m_came = &test;
     m_pixels = options.pixels;
     ColorChoice of_reference;
     for (const ImageBuf* image : {&reference, &test}) {
         of_reference = m_choice;
-        if (!ToneAlgo::find_color(deciding_spec(*image), options.pixels, m_choice, error)) {
-            error = side_name(image == &test ? "test" : "reference", *image) + error;
-            return false;
-        }
+        m_choice = of_side(side_name(image == &test ? "test" : "reference", *image),
+                           [&] { return chosen_color(deciding_spec(*image), options.pixels); });
     }
     // One that lost its other channels would pass where colours are pale.
     if (of_reference.grey() != m_choice.grey()) {
         const bool lost = m_choice.grey();
-        error =
+        throw Refusal(
             side_name(lost ? "test" : "reference", lost ? test : reference) +
             "has one channel, the other image has R,G,B: a grey picture is compared with a grey "
-            "one (--ch Y,Y,Y makes three channels of it)";
-        return false;
+            "one (--ch Y,Y,Y makes three channels of it)");
     }
-    if (!check_orientation(reference, test, error))
-        return false;
+    check_orientation(reference, test);
     m_notes = differing_tags(reference.spec(), test.spec());
     if (!alike(of_reference.layer, m_choice.layer))
         m_notes.push_back("the layer of the reference is " + layer_text(of_reference.layer) +
                           ", that of the test " + layer_text(m_choice.layer));
     const ROI window = reference.roi_full();
-    if (options.size == SizePolicy::Resize && !same_window(window, test.roi_full()) &&
-        !resize(window, options, nthreads, error))
-        return false;
-    if (!compared_region(reference, *m_test, options.size, m_region, error))
-        return false;
+    if (options.size == SizePolicy::Resize && !same_window(window, test.roi_full()))
+        resize(window, options, nthreads);
+    m_region = compared_region(reference, *m_test, options.size);
     note_cropped(window);
-    return true;
 }
 
 // A crop is asked for, but hardly one that leaves most of the picture out.
@@ -216,32 +205,22 @@ void FittedTest::note_cropped(const ROI& window) {
 
 // Only what is compared, in linear light and without its non-finite pixels, which stay what they
 // are where they were instead of spreading through the filter.
-bool FittedTest::resize(const ROI& window, const PairOptions& options, int nthreads,
-                        std::string& error) {
+void FittedTest::resize(const ROI& window, const PairOptions& options, int nthreads) {
     const bool alpha = options.alpha == AlphaPolicy::Error;
     ColorReader reader;
-    if (!resize_fits(m_test->roi(), window, options, error))
-        return false;
-    if (!reader.open(*m_test, m_pixels, plane_of(m_test->roi()), alpha, nthreads, error)) {
-        error = with_side(name(), error);
-        return false;
-    }
+    check_resize_fits(m_test->roi(), window, options);
+    of_side(name(),
+            [&] { reader.open(*m_test, m_pixels, plane_of(m_test->roi()), alpha, nthreads); });
     if (options.memory > 0)
         reader.be_frugal();
     ColorPlanes planes = reader.planes();
-    if (!reader.read(planes.region.ybegin, planes.region.yend, planes, error)) {
-        error = with_side(name(), error);
-        return false;
-    }
-    if (!fill_window(planes, window, nthreads, error))
-        return false;
+    of_side(name(), [&] { reader.read(planes.region.ybegin, planes.region.yend, planes); });
+    fill_window(planes, window, nthreads);
     m_test = &m_resized;
     m_pixels = {"", "rec709"};
-    return true;
 }
 
-bool FittedTest::fill_window(const ColorPlanes& planes, ROI window, int nthreads,
-                             std::string& error) {
+void FittedTest::fill_window(const ColorPlanes& planes, ROI window, int nthreads) {
     ImageBuf color = interleaved(planes, m_test->roi_full());
     const bool holey = planes.counts.nonfinite > 0;
     const ImageBuf with_holes = holey ? color : ImageBuf();
@@ -251,27 +230,20 @@ bool FittedTest::fill_window(const ColorPlanes& planes, ROI window, int nthreads
     // Mending looks at pixels that it has mended: one thread, or the bits depend on the order.
     if ((holey && !IBA::fixNonFinite(color, with_holes, IBA::NONFINITE_BOX3, nullptr, {}, 1)) ||
         !oiio::resize(m_resized, color, "", window, nthreads) ||
-        (holey && !IBA::resample(holes, with_holes, false, window, nthreads))) {
-        error = "resizing the test image: " + color.geterror() + m_resized.geterror() +
-                holes.geterror();
-        return false;
-    }
+        (holey && !IBA::resample(holes, with_holes, false, window, nthreads)))
+        throw Refusal("resizing the test image: " + color.geterror() + m_resized.geterror() +
+                      holes.geterror());
     for (ImageBuf::Iterator<float> p(m_resized); holey && !p.done(); ++p)
         if (std::isnan(holes.getchannel(p.x(), p.y(), 0, 0)))
             p[0] = std::numeric_limits<float>::quiet_NaN();
-    return true;
 }
 
 uint64_t FittedTest::held_bytes() const {
     return resized() ? m_resized.spec().image_bytes() : 0;
 }
 
-bool FittedTest::open_reader(bool alpha, int nthreads, ColorReader& reader,
-                             std::string& error) const {
-    if (reader.open(*m_test, m_pixels, m_region, alpha, nthreads, error))
-        return true;
-    error = with_side(name(), error);
-    return false;
+void FittedTest::open_reader(bool alpha, int nthreads, ColorReader& reader) const {
+    of_side(name(), [&] { reader.open(*m_test, m_pixels, m_region, alpha, nthreads); });
 }
 
 ColorPlanes FittedTest::planes(const ColorReader& reader) const {
@@ -298,18 +270,15 @@ void warn_of_holes(const FlipSide& side, const std::string& who,
                            who + "'s data window");
 }
 
-bool check_covered(const ColorPlanes& planes, const std::string& who, std::string& error) {
-    if (planes.uncovered_count < pixels_of(planes))
-        return true;
-    error = who + "'s data window covers none of the compared pixels: there is nothing to compare";
-    return false;
+void check_covered(const ColorPlanes& planes, const std::string& who) {
+    if (planes.uncovered_count >= pixels_of(planes))
+        throw Refusal(
+            who + "'s data window covers none of the compared pixels: there is nothing to compare");
 }
 
-bool check_finite(const ColorPlanes& planes, const std::string& who, std::string& error) {
-    if (planes.counts.nonfinite + planes.uncovered_count < pixels_of(planes))
-        return true;
-    error = who + " has no finite pixel: there is nothing to compare";
-    return false;
+void check_finite(const ColorPlanes& planes, const std::string& who) {
+    if (planes.counts.nonfinite + planes.uncovered_count >= pixels_of(planes))
+        throw Refusal(who + " has no finite pixel: there is nothing to compare");
 }
 
 bool nonfinite_alike(const ColorPlanes& r, size_t at, const ColorPlanes& t, size_t where) {

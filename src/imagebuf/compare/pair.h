@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A reference and its tests, brought to the same pixels.
 #pragma once
 
@@ -15,21 +16,20 @@ OIIO::ROI plane_of(OIIO::ROI r);
 /// The same pixels in x and y.
 bool same_window(const OIIO::ROI& a, const OIIO::ROI& b);
 
-/// Pictures that their tags turn differently have different pixels at the same place.
-bool check_orientation(const OIIO::ImageBuf& reference, const OIIO::ImageBuf& test,
-                       std::string& error);
+/// Refuses pictures that their tags turn differently: they have different pixels at the same place.
+void check_orientation(const OIIO::ImageBuf& reference, const OIIO::ImageBuf& test);
 
-/// The region of a comparison: the union of the data windows, cropped where asked. False (with the
-/// reason) where the display windows differ and nothing was asked, or where nothing is left.
-bool compared_region(const OIIO::ImageBuf& reference, const OIIO::ImageBuf& test, SizePolicy size,
-                     OIIO::ROI& region, std::string& error);
+/// The region of a comparison: the union of the data windows, cropped where asked. A Refusal where
+/// the display windows differ and nothing was asked, or where nothing is left.
+OIIO::ROI compared_region(const OIIO::ImageBuf& reference, const OIIO::ImageBuf& test,
+                          SizePolicy size);
 
 /// A test image brought to the reference's display window.
 class FittedTest {
 public:
     /// Checks both images, resizes the test if that was asked for, finds the region.
-    bool open(const OIIO::ImageBuf& reference, const OIIO::ImageBuf& test,
-              const PairOptions& options, int nthreads, std::string& error);
+    void open(const OIIO::ImageBuf& reference, const OIIO::ImageBuf& test,
+              const PairOptions& options, int nthreads);
     const OIIO::ROI& region() const { return m_region; }
     /// What a user must know of how the two go together.
     const std::vector<std::string>& notes() const { return m_notes; }
@@ -38,7 +38,7 @@ public:
     const OIIO::ImageBuf& image() const { return *m_came; }
     const ColorChoice& choice() const { return m_choice; }
     /// A reader of the region; valid as long as this is.
-    bool open_reader(bool alpha, int nthreads, ColorReader& reader, std::string& error) const;
+    void open_reader(bool alpha, int nthreads, ColorReader& reader) const;
     /// Planes of that reader, which say how the image was read as it came.
     ColorPlanes planes(const ColorReader& reader) const;
     /// Bytes of the resized image, 0 if there is none.
@@ -47,10 +47,9 @@ public:
     std::string name() const { return side_name("test", *m_test); }
 
 private:
-    bool resize(const OIIO::ROI& window, const PairOptions& options, int nthreads,
-                std::string& error);
+    void resize(const OIIO::ROI& window, const PairOptions& options, int nthreads);
     void note_cropped(const OIIO::ROI& window);
-    bool fill_window(const ColorPlanes& planes, OIIO::ROI window, int nthreads, std::string& error);
+    void fill_window(const ColorPlanes& planes, OIIO::ROI window, int nthreads);
 
     const OIIO::ImageBuf* m_came = nullptr;
     const OIIO::ImageBuf* m_test = nullptr;
@@ -67,10 +66,10 @@ FlipSide side_of(const ColorPlanes& planes);
 void warn_of_holes(const FlipSide& side, const std::string& who,
                    std::vector<std::string>& warnings);
 
-/// Whether there is something to compare: pixels in the data window, which is known before they are
-/// read, and finite ones, once all of them have been.
-bool check_covered(const ColorPlanes& planes, const std::string& who, std::string& error);
-bool check_finite(const ColorPlanes& planes, const std::string& who, std::string& error);
+/// Refuse what there is nothing of to compare: no pixels in the data window, which is known before
+/// they are read, or no finite ones, once all of them have been.
+void check_covered(const ColorPlanes& planes, const std::string& who);
+void check_finite(const ColorPlanes& planes, const std::string& who);
 
 /// Pixels that are non-finite in both images: whether in the same way.
 struct NonfiniteBoth {

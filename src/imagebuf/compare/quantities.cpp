@@ -1,9 +1,11 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "imagebuf/compare/quantities.h"
 
 #include <OpenImageIO/strutil.h>
 #include <cmath>
 #include <optional>
 
+#include "metrics/refusal.h"
 #include "tonetool/flip.h"
 
 namespace tonetool {
@@ -64,29 +66,23 @@ std::string above_name(double error) {
 
 } // namespace
 
-bool plan_pool(const std::vector<std::string>& names, metrics::PoolRequest& request,
-               std::string& error) {
+void plan_pool(const std::vector<std::string>& names, metrics::PoolRequest& request) {
     constexpr size_t most = 32;
-    if (names.size() > most) {
-        error = format("{} quantities; valid: at most {}", names.size(), most);
-        return false;
-    }
+    if (names.size() > most)
+        throw Refusal(format("{} quantities; valid: at most {}", names.size(), most));
     for (const std::string& name : names) {
         const auto known = ToneAlgo::flip_quantity_name(name);
-        if (!known) {
-            error =
+        if (!known)
+            throw Refusal(
                 format("unknown quantity \"{}\"; valid: {}, pNN (a percentile, 0 to 100), aboveE "
                        "(the share of the pixels above the error E)",
-                       name, OIIO::Strutil::join(ToneAlgo::flip_quantities(), ", "));
-            return false;
-        }
+                       name, OIIO::Strutil::join(ToneAlgo::flip_quantities(), ", ")));
         if (usual(*known))
             continue;
         const auto percent = percentile(*known);
         (percent ? request.percentiles : request.above)
             .push_back(percent ? *percent : *error_above(*known));
     }
-    return true;
 }
 
 void name_further(const metrics::PoolRequest& request, FlipPool& pool) {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The quantities of an error map by their names.
 #pragma once
 
@@ -11,8 +12,7 @@ namespace tonetool {
 
 /// What the named quantities need beside the usual pool. False, with what is valid, for a name that
 /// is none.
-bool plan_pool(const std::vector<std::string>& names, metrics::PoolRequest& request,
-               std::string& error);
+void plan_pool(const std::vector<std::string>& names, metrics::PoolRequest& request);
 
 /// The names of what was found, in the place of flip_quantity()'s.
 void name_further(const metrics::PoolRequest& request, FlipPool& pool);

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The public functions of include/tonetool/tmqi.h.
 #include "tonetool/tmqi.h"
 
@@ -14,6 +15,7 @@
 #include "imagebuf/pixels/guard.h"
 #include "imagebuf/pixels/parallel.h"
 #include "kernels/tone_curve.h"
+#include "metrics/refusal.h"
 #include "metrics/tmqi.h"
 
 namespace tonetool {
@@ -42,33 +44,26 @@ struct Side {
     PagedArray<float> plane;
     FlipSide found;
 
-    bool read(const ROI& region, uint64_t memory, int nthreads, std::string& error) {
+    void read(const ROI& region, uint64_t memory, int nthreads) {
         ColorReader reader;
-        if (!reader.open(image, pixels, region, false, nthreads, error)) {
-            error = with_side(side_name(who, image), error);
-            return false;
-        }
+        of_side(side_name(who, image),
+                [&] { reader.open(image, pixels, region, false, nthreads); });
         if (memory > 0)
             reader.be_frugal();
         ColorPlanes planes = reader.planes();
         const std::string name = std::string("the ") + who + " image";
-        if (!check_covered(planes, name, error))
-            return false;
-        if (!read_luminance(reader, planes, nthreads, plane, error, luminances)) {
-            error = with_side(side_name(who, image), error);
-            return false;
-        }
+        check_covered(planes, name);
+        plane = of_side(side_name(who, image),
+                        [&] { return read_luminance(reader, planes, nthreads, luminances); });
         found = side_of(planes);
-        return check_finite(planes, name, error);
+        check_finite(planes, name);
     }
 };
 
-bool check_region(const ROI& region, uint64_t memory, int nthreads, std::string& error) {
-    if (std::min(region.width(), region.height()) < metrics::kTmqiWindow) {
-        error = format("{}x{} pixels are compared: needs {} or more in each direction",
-                       region.width(), region.height(), metrics::kTmqiWindow);
-        return false;
-    }
+void check_region(const ROI& region, uint64_t memory, int nthreads) {
+    if (std::min(region.width(), region.height()) < metrics::kTmqiWindow)
+        throw Refusal(format("{}x{} pixels are compared: needs {} or more in each direction",
+                             region.width(), region.height(), metrics::kTmqiWindow));
     // Two planes of luminance and the map, and at half the size two planes of doubles and, while
     // they are made, the two above them. Reading takes less than what comes after it.
     constexpr uint64_t pixel = 17;
@@ -76,10 +71,8 @@ bool check_region(const ROI& region, uint64_t memory, int nthreads, std::string&
     const uint64_t least = kSetAside +
                            uint64_t(region.width()) * uint64_t(region.height()) * pixel +
                            threads * metrics::tmqi_work_bytes(region.width(), region.height());
-    if (memory == 0 || least <= memory)
-        return true;
-    error = "memory is " + size_text(memory) + ": needs at least " + size_text(least);
-    return false;
+    if (memory > 0 && least > memory)
+        throw Refusal("memory is " + size_text(memory) + ": needs at least " + size_text(least));
 }
 
 ImageBuf make_map(const ROI& region, const ROI& full) {
@@ -91,28 +84,25 @@ ImageBuf make_map(const ROI& region, const ROI& full) {
     return map;
 }
 
-bool score(ImageBuf& dst, const ImageBuf& hdr, const ImageBuf& ldr, const TmqiOptions& options,
-           TmqiSummary& summary, int nthreads, std::string& error) {
+void score(ImageBuf& dst, const ImageBuf& hdr, const ImageBuf& ldr, const TmqiOptions& options,
+           TmqiSummary& summary, int nthreads) {
     const SizePolicy size = options.crop ? SizePolicy::Crop : SizePolicy::Match;
-    ROI& region = summary.region;
-    if (!check_readable(hdr, "HDR", error) || !check_readable(ldr, "display", error) ||
-        !check_orientation(hdr, ldr, error) || !compared_region(hdr, ldr, size, region, error) ||
-        !check_region(region, options.memory, nthreads, error))
-        return false;
+    check_readable(hdr, "HDR");
+    check_readable(ldr, "display");
+    check_orientation(hdr, ldr);
+    const ROI region = summary.region = compared_region(hdr, ldr, size);
+    check_region(region, options.memory, nthreads);
     Side light{hdr, options.hdr, "HDR", metrics::luminance_row, {}, {}};
     Side shown{ldr, options.ldr, "display", encoded_luminance_row, {}, {}};
-    if (!light.read(region, options.memory, nthreads, error) ||
-        !shown.read(region, options.memory, nthreads, error))
-        return false;
+    light.read(region, options.memory, nthreads);
+    shown.read(region, options.memory, nthreads);
     const auto parallel = make_parallel(nthreads);
     const metrics::TmqiPair pair{light.plane.data(), shown.plane.data(), region.width(),
                                  region.height()};
     const auto range = metrics::light_range(pair.hdr, pair.width, pair.height, parallel);
-    if (!(range.low < range.high)) {
-        error = format("the HDR image's luminance is {} everywhere: there is no range to show",
-                       range.low);
-        return false;
-    }
+    if (!(range.low < range.high))
+        throw Refusal(format(
+            "the HDR image's luminance is {} everywhere: there is no range to show", range.low));
     ImageBuf map = make_map(region, hdr.roi_full());
     summary.score = metrics::tmqi(pair, range, static_cast<float*>(map.localpixels()), parallel);
     summary.hdr = light.found;
@@ -121,7 +111,6 @@ bool score(ImageBuf& dst, const ImageBuf& hdr, const ImageBuf& ldr, const TmqiOp
     warn_of_holes(summary.ldr, "the display image", summary.warnings);
     annotate(map.specmod(), summary);
     deliver(dst, std::move(map), "TMQI:");
-    return true;
 }
 
 struct Quantity {
@@ -139,9 +128,7 @@ namespace ToneAlgo {
 bool tmqi(ImageBuf& dst, const ImageBuf& hdr, const ImageBuf& ldr, const TmqiOptions& options,
           TmqiSummary* summary, int nthreads) {
     TmqiSummary found;
-    if (!guarded(dst, "tmqi", [&](std::string& error) {
-            return score(dst, hdr, ldr, options, found, nthreads, error);
-        }))
+    if (!guarded(dst, "tmqi", [&] { score(dst, hdr, ldr, options, found, nthreads); }))
         return false;
     if (summary)
         *summary = std::move(found);

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "imagebuf/lights/light_index.h"
 
 #include <OpenImageIO/strutil.h>
@@ -5,10 +6,12 @@
 #include <cmath>
 
 #include "imagebuf/aov/aov_layers.h"
+#include "imagebuf/options/tone_options.h"
 #include "imagebuf/pixels/checks.h"
 #include "imagebuf/pixels/guard.h"
 #include "imagebuf/pixels/names.h"
 #include "imagebuf/pixels/row_source.h"
+#include "metrics/refusal.h"
 
 namespace tonetool {
 namespace {
@@ -49,9 +52,9 @@ double index_scale(const ImageBuf& image, int channel, double largest) {
 
 } // namespace
 
-bool find_index_layer(const ImageSpec& spec, const std::string& name, const std::string& beauty,
-                      std::optional<IndexLayer>& out, std::string& error) {
-    out.reset();
+std::optional<IndexLayer> find_index_layer(const ImageSpec& spec, const std::string& name,
+                                           const std::string& beauty) {
+    std::optional<IndexLayer> out;
     const std::string home = split_layer(beauty).home;
     std::vector<std::string> valid;
     for (const AovLayer& layer : aov_layers(spec)) {
@@ -63,10 +66,9 @@ bool find_index_layer(const ImageSpec& spec, const std::string& name, const std:
         if ((name.empty() ? is_index(layer) : named) && here)
             out = {layer.name, layer.scalar()};
     }
-    if (out || name.empty())
-        return true;
-    error = unknown_name("light index layer", name, valid);
-    return false;
+    if (!out && !name.empty())
+        throw Refusal(unknown_name("light index layer", name, valid));
+    return out;
 }
 
 namespace {
@@ -87,38 +89,32 @@ void count_runs(const std::vector<float>& rows, ValueCounts& counts, int64_t& na
     }
 }
 
-bool count_values(const ImageBuf& image, const IndexLayer& layer, ValueCounts& counts,
-                  int64_t& nans, std::string& error) {
+void count_values(const ImageBuf& image, const IndexLayer& layer, ValueCounts& counts,
+                  int64_t& nans) {
     RowSource source;
-    if (!source.open(image, runs_of({layer.channel}), error))
-        return false;
+    source.open(image, runs_of({layer.channel}));
     const ROI roi = image.roi();
     std::vector<float> rows;
     for (int first = roi.ybegin; first < roi.yend;) {
         const int last = std::min(first + source.rows_at_once(first, kStep), roi.yend);
         rows.resize(size_t(last - first) * size_t(source.width()));
-        if (!source.read(first, last, 0, rows.data(), error))
-            return false;
+        source.read(first, last, 0, rows.data());
         count_runs(rows, counts, nans);
-        if (counts.size() > kMostValues) {
-            error = format("layer \"{}\" has more than {} different values: it is not an index "
-                           "of lights (lightindex= names one, or groups)",
-                           layer.layer, kMostValues);
-            return false;
-        }
+        if (counts.size() > kMostValues)
+            throw Refusal(
+                format("layer \"{}\" has more than {} different values: it is not an index "
+                       "of lights (lightindex= names one, or groups)",
+                       layer.layer, kMostValues));
         first = last;
     }
-    return true;
 }
 
 } // namespace
 
-bool count_indices(const ImageBuf& image, const IndexLayer& layer, IndexCounts& counts,
-                   std::string& error) {
+IndexCounts count_indices(const ImageBuf& image, const IndexLayer& layer) {
     ValueCounts values;
-    counts = {};
-    if (!count_values(image, layer, values, counts.invalid, error))
-        return false;
+    IndexCounts counts;
+    count_values(image, layer, values, counts.invalid);
     const double largest = values.empty() ? 0 : values.rbegin()->first;
     const double scale = index_scale(image, layer.channel, largest);
     for (const auto& [stored, pixels] : values) {
@@ -132,7 +128,7 @@ bool count_indices(const ImageBuf& image, const IndexLayer& layer, IndexCounts& 
             counts.between += std::abs(value - std::round(value)) > kWhole ? pixels : 0;
         }
     }
-    return true;
+    return counts;
 }
 
 std::vector<const Light*> lights_of(const LightTable& table,
@@ -148,28 +144,22 @@ std::vector<const Light*> lights_of(const LightTable& table,
     return lights;
 }
 
-bool open_scan(const ImageBuf& image, const PixelOptions& beauty, const LightOptions& options,
-               const LightTable* table, ROI region, int nthreads, LightScan& scan,
-               std::string& error) {
-    if (!one_of("index", options.index, {"contribution", "power"}, error))
-        return false;
-    if (options.index == "power" && !table) {
-        error = "index=power needs a table of lights (lights=)";
-        return false;
-    }
-    ColorChoice choice;
-    std::vector<LightGroup> groups;
-    if (!ToneAlgo::find_color(deciding_spec(image), beauty, choice, error) ||
-        !choose_light_groups(image.spec(), choice.layer, options.groups, groups, error) ||
-        !scan.open(image, beauty, groups, region, nthreads, error))
-        return false;
+LightScan open_scan(const ImageBuf& image, const PixelOptions& beauty, const LightOptions& options,
+                    const LightTable* table, ROI region, int nthreads) {
+    check_options(options);
+    if (options.index == "power" && !table)
+        throw Refusal("index=power needs a table of lights (lights=)");
+    const ColorChoice choice = chosen_color(deciding_spec(image), beauty);
+    LightScan scan;
+    scan.open(image, beauty, choose_light_groups(image.spec(), choice.layer, options.groups),
+              region, nthreads);
     if (options.index == "power") {
         std::vector<std::optional<double>> values;
         for (const Light* light : lights_of(*table, scan.groups()))
             values.push_back(light ? table->rank(*light) : std::nullopt);
         scan.rank_by(values);
     }
-    return true;
+    return scan;
 }
 
 } // namespace tonetool

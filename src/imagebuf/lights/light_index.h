@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The light of each pixel by its index: from a layer, or from the light groups.
 #pragma once
 
@@ -19,9 +20,8 @@ struct IndexLayer {
 
 /// The layer of that name, or one that is called as such layers are ("": not finding one is no
 /// error).
-bool find_index_layer(const OIIO::ImageSpec& spec, const std::string& name,
-                      const std::string& beauty, std::optional<IndexLayer>& out,
-                      std::string& error);
+std::optional<IndexLayer> find_index_layer(const OIIO::ImageSpec& spec, const std::string& name,
+                                           const std::string& beauty);
 
 struct IndexCounts {
     std::map<int, int64_t> pixels; ///< by index, 0 or more
@@ -30,8 +30,7 @@ struct IndexCounts {
     int64_t between = 0;           ///< off a whole number by more than 0.01, as filters make them
 };
 
-bool count_indices(const OIIO::ImageBuf& image, const IndexLayer& layer, IndexCounts& counts,
-                   std::string& error);
+IndexCounts count_indices(const OIIO::ImageBuf& image, const IndexLayer& layer);
 
 /// The lights of a table as a list of groups has them: by name, or where the table has no name of
 /// any of them, by their place. Null where there is none.
@@ -39,8 +38,8 @@ std::vector<const Light*> lights_of(const LightTable& table,
                                     const std::vector<ScannedGroup>& groups);
 
 /// Opens the groups that the options ask for, ranked as they say; none is no error.
-bool open_scan(const OIIO::ImageBuf& image, const PixelOptions& beauty, const LightOptions& options,
-               const LightTable* table, OIIO::ROI region, int nthreads, LightScan& scan,
-               std::string& error);
+LightScan open_scan(const OIIO::ImageBuf& image, const PixelOptions& beauty,
+                    const LightOptions& options, const LightTable* table, OIIO::ROI region,
+                    int nthreads);
 
 } // namespace tonetool

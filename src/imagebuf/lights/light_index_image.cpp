@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // ToneAlgo::light_index.
 #include <OpenImageIO/strutil.h>
 #include <algorithm>
@@ -5,6 +6,7 @@
 #include "imagebuf/lights/light_index.h"
 #include "imagebuf/pixels/allocation.h"
 #include "imagebuf/pixels/guard.h"
+#include "metrics/refusal.h"
 
 namespace tonetool {
 namespace {
@@ -61,39 +63,29 @@ LightIndexSummary summary_of(const LightScan& scan, const LightTable* table,
     return out;
 }
 
-bool make_index(ImageBuf& dst, const ImageBuf& src, const LightOptions& options,
-                const PixelOptions& pixels, LightIndexSummary* summary, ROI roi, int nthreads,
-                std::string& error) {
-    if (!check_readable(src, "source", error))
-        return false;
-    ROI region;
-    if (!part_of(src, roi, region, error))
-        return false;
-    ColorChoice choice;
+void make_index(ImageBuf& dst, const ImageBuf& src, const LightOptions& options,
+                const PixelOptions& pixels, LightIndexSummary* summary, ROI roi, int nthreads) {
+    check_readable(src, "source");
+    const ROI region = part_of(src, roi);
+    const ColorChoice choice = chosen_color(deciding_spec(src), pixels);
     LightTable table;
     const LightTable* lights = options.table.empty() ? nullptr : &table;
-    LightScan scan;
-    if (!ToneAlgo::find_color(deciding_spec(src), pixels, choice, error) ||
-        (lights && !table.read(options.table, options.unit, error)) ||
-        !open_scan(src, pixels, options, lights, region, nthreads, scan, error))
-        return false;
-    if (scan.groups().empty()) {
-        error = "no light groups among the layers (groups= names them); layers: " +
-                OIIO::Strutil::join(ToneAlgo::color_layers(src.spec()), ", ");
-        return false;
-    }
+    if (lights)
+        table.read(options.table, options.unit);
+    LightScan scan = open_scan(src, pixels, options, lights, region, nthreads);
+    if (scan.groups().empty())
+        throw Refusal("no light groups among the layers (groups= names them); layers: " +
+                      OIIO::Strutil::join(ToneAlgo::color_layers(src.spec()), ", "));
     ImageBuf out = allocated_image(index_spec(src.spec(), region, scan));
     auto* to = static_cast<float*>(out.localpixels());
     const auto width = size_t(region.width());
     const auto write = [&](int y, const int* indices) {
         std::copy_n(indices, width, to + size_t(y - region.ybegin) * width);
     };
-    if (!scan.run(write, error))
-        return false;
+    scan.run(write);
     if (summary)
         *summary = summary_of(scan, lights, choice);
     dst = std::move(out);
-    return true;
 }
 
 } // namespace
@@ -101,9 +93,8 @@ bool make_index(ImageBuf& dst, const ImageBuf& src, const LightOptions& options,
 bool ToneAlgo::light_index(ImageBuf& dst, const ImageBuf& src, const LightOptions& lights,
                            const PixelOptions& options, LightIndexSummary* summary, ROI roi,
                            int nthreads) {
-    return guarded(dst, "light_index", [&](std::string& error) {
-        return make_index(dst, src, lights, options, summary, roi, nthreads, error);
-    });
+    return guarded(dst, "light_index",
+                   [&] { make_index(dst, src, lights, options, summary, roi, nthreads); });
 }
 
 ImageBuf ToneAlgo::light_index(const ImageBuf& src, const LightOptions& lights,

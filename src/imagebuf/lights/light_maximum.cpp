@@ -1,9 +1,11 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "imagebuf/lights/light_maximum.h"
 
 #include <OpenImageIO/strutil.h>
 #include <algorithm>
 
 #include "imagebuf/pixels/checks.h"
+#include "metrics/refusal.h"
 
 namespace tonetool {
 namespace {
@@ -26,50 +28,40 @@ void take(LightMaximum::Found& found, double luminance, const std::string& light
 
 } // namespace
 
-bool LightMaximum::read_table(std::string& error) {
-    return m_options.table.empty() || m_table.read(m_options.table, m_options.unit, error);
+void LightMaximum::read_table() {
+    if (!m_options.table.empty())
+        m_table.read(m_options.table, m_options.unit);
 }
 
-bool LightMaximum::open_index(std::optional<IndexLayer>& layer, std::string& error) {
+std::optional<IndexLayer> LightMaximum::open_index() {
     const std::string& asked = m_options.layer;
-    if (!is_file(asked)) {
-        ColorChoice choice;
-        return ToneAlgo::find_color(deciding_spec(m_image), m_beauty, choice, error) &&
-               find_index_layer(m_image.spec(), asked, choice.layer, layer, error);
-    }
+    if (!is_file(asked))
+        return find_index_layer(m_image.spec(), asked,
+                                chosen_color(deciding_spec(m_image), m_beauty).layer);
     ImageBuf file(asked);
-    if (!file.init_spec(asked, 0, 0)) {
-        error = format("light index file \"{}\": {}", asked, file.geterror());
-        return false;
-    }
+    if (!file.init_spec(asked, 0, 0))
+        throw Refusal(format("light index file \"{}\": {}", asked, file.geterror()));
     const OIIO::ImageSpec& spec = file.spec();
-    if (!same_window(spec.roi_full(), m_image.roi_full())) {
-        error =
-            format("light index file \"{}\" is {}x{}, the image is {}x{}", asked, spec.full_width,
-                   spec.full_height, m_image.spec().full_width, m_image.spec().full_height);
-        return false;
-    }
-    if (!find_index_layer(spec, "", "", layer, error))
-        return false;
+    if (!same_window(spec.roi_full(), m_image.roi_full()))
+        throw Refusal(format("light index file \"{}\" is {}x{}, the image is {}x{}", asked,
+                             spec.full_width, spec.full_height, m_image.spec().full_width,
+                             m_image.spec().full_height));
+    auto layer = find_index_layer(spec, "", "");
     // A file of one channel needs no name for it.
     if (!layer && spec.nchannels == 1)
         layer = IndexLayer{"", 0};
-    if (!layer) {
-        error = format("light index file \"{}\" has no layer that is called so (valid: "
-                       "lightindex, M, light_id, or one channel)",
-                       asked);
-        return false;
-    }
+    if (!layer)
+        throw Refusal(format("light index file \"{}\" has no layer that is called so (valid: "
+                             "lightindex, M, light_id, or one channel)",
+                             asked));
     layer->layer = asked;
     m_index_file = std::move(file);
-    return true;
+    return layer;
 }
 
-bool LightMaximum::by_table(std::optional<Found>& out, std::string& why, std::string& error) {
-    std::optional<IndexLayer> layer;
-    if (m_options.layer != "groups" && !open_index(layer, error))
-        return false;
-    return layer ? by_layer(*layer, out, why, error) : by_named_groups(out, why, error);
+std::optional<LightMaximum::Found> LightMaximum::by_table(std::string& why) {
+    const auto layer = m_options.layer != "groups" ? open_index() : std::nullopt;
+    return layer ? by_layer(*layer, why) : by_named_groups(why);
 }
 
 // By the names that light_index() left, where there are some.
@@ -83,11 +75,9 @@ const Light* LightMaximum::light_at(int index) const {
     return light ? light : m_table.find(index);
 }
 
-bool LightMaximum::by_layer(const IndexLayer& layer, std::optional<Found>& out, std::string& why,
-                            std::string& error) {
-    IndexCounts counts;
-    if (!count_indices(index_image(), layer, counts, error))
-        return false;
+std::optional<LightMaximum::Found> LightMaximum::by_layer(const IndexLayer& layer,
+                                                          std::string& why) {
+    const IndexCounts counts = count_indices(index_image(), layer);
     Found found;
     found.index = layer.layer;
     for (const auto& [index, pixels] : counts.pixels) {
@@ -112,35 +102,31 @@ bool LightMaximum::by_layer(const IndexLayer& layer, std::optional<Found>& out, 
         found.warnings.push_back(format("{} pixel(s) of \"{}\" are not whole numbers: an index "
                                         "must not be filtered",
                                         counts.between, layer.layer));
-    return finish(std::move(found), out, why,
+    return finish(std::move(found), why,
                   counts.pixels.empty() ? "the index layer holds no index"
                                         : "no index of the image has a luminance");
 }
 
-bool LightMaximum::scan(std::string& error) {
+void LightMaximum::scan() {
     if (m_scan)
-        return true;
-    LightScan scan;
-    if (!open_scan(m_image, m_beauty, m_options, table(), m_image.roi(), m_nthreads, scan, error) ||
-        (!scan.groups().empty() && !scan.run(nullptr, error)))
-        return false;
+        return;
+    LightScan scan = open_scan(m_image, m_beauty, m_options, table(), m_image.roi(), m_nthreads);
+    if (!scan.groups().empty())
+        scan.run(nullptr);
     m_scan = std::move(scan);
-    return true;
 }
 
-bool LightMaximum::maximum_of(size_t group, double& value, std::string& error) const {
-    value = m_scan->groups()[group].maximum;
-    return m_percentile >= 100 || m_scan->percentile(group, m_percentile / 100, value, error);
+double LightMaximum::maximum_of(size_t group) const {
+    return m_percentile >= 100 ? m_scan->groups()[group].maximum
+                               : m_scan->percentile(group, m_percentile / 100);
 }
 
-bool LightMaximum::by_named_groups(std::optional<Found>& out, std::string& why,
-                                   std::string& error) {
-    if (!scan(error))
-        return false;
+std::optional<LightMaximum::Found> LightMaximum::by_named_groups(std::string& why) {
+    scan();
     const auto& groups = m_scan->groups();
     if (groups.empty()) {
         why = "no light index and no light groups among the layers";
-        return true;
+        return std::nullopt;
     }
     const auto lights = lights_of(m_table, groups);
     if (std::all_of(lights.begin(), lights.end(), [](const Light* light) { return !light; })) {
@@ -149,68 +135,57 @@ bool LightMaximum::by_named_groups(std::optional<Found>& out, std::string& why,
             names.push_back(group.group.name);
         why = format("none of the light groups ({}) is in \"{}\" ({})",
                      OIIO::Strutil::join(names, ", "), m_table.file(), m_table.list());
-        return true;
+        return std::nullopt;
     }
     Found found;
     found.index = "groups";
     found.warnings = m_scan->warnings();
     for (size_t g = 0; g < groups.size(); ++g)
-        if (groups[g].pixels > 0 && !take_group(g, lights[g], found, error))
-            return false;
-    return finish(std::move(found), out, why, "no light group has a luminance");
+        if (groups[g].pixels > 0)
+            take_group(g, lights[g], found);
+    return finish(std::move(found), why, "no light group has a luminance");
 }
 
 // By the table, or where it has none, by the layer.
-bool LightMaximum::take_group(size_t group, const Light* light, Found& found, std::string& error) {
+void LightMaximum::take_group(size_t group, const Light* light, Found& found) {
     const std::string& name = m_scan->groups()[group].group.name;
     if (light && light->luminance) {
         take(found, *light->luminance, name, false);
-        return true;
+        return;
     }
-    double measured = 0;
-    if (!maximum_of(group, measured, error))
-        return false;
+    const double measured = maximum_of(group);
     take(found, measured, name, true);
     const std::string lack =
         light
             ? format("light {} has no luminance in \"{}\", {}", name, m_table.file(), light->lacks)
             : format("light group \"{}\" is not in \"{}\"", name, m_table.file());
     found.lacks.push_back(lack + format(": the maximum of its layer, {:.6g}, is taken", measured));
-    return true;
 }
 
-bool LightMaximum::by_groups(std::optional<Found>& out, std::string& why, std::string& error) {
-    if (!scan(error))
-        return false;
+std::optional<LightMaximum::Found> LightMaximum::by_groups(std::string& why) {
+    scan();
     if (m_scan->groups().empty()) {
         why = "no light groups among the layers";
-        return true;
+        return std::nullopt;
     }
     Found found;
     found.index = "groups";
-    for (size_t g = 0; g < m_scan->groups().size(); ++g) {
-        double measured = 0;
-        if (m_scan->groups()[g].pixels == 0)
-            continue;
-        if (!maximum_of(g, measured, error))
-            return false;
-        take(found, measured, m_scan->groups()[g].group.name, true);
-    }
+    for (size_t g = 0; g < m_scan->groups().size(); ++g)
+        if (m_scan->groups()[g].pixels > 0)
+            take(found, maximum_of(g), m_scan->groups()[g].group.name, true);
     found.warnings = m_scan->warnings();
     found.additive = m_scan->additive();
-    return finish(std::move(found), out, why, "all light groups are black");
+    return finish(std::move(found), why, "all light groups are black");
 }
 
-bool LightMaximum::finish(Found found, std::optional<Found>& out, std::string& why,
-                          const char* none) const {
-    if (found.luminance > 0) {
-        out = std::move(found);
-        return true;
-    }
+std::optional<LightMaximum::Found> LightMaximum::finish(Found found, std::string& why,
+                                                        const char* none) {
+    if (found.luminance > 0)
+        return found;
     why = none;
     if (!found.lacks.empty())
         why += " (" + found.lacks.front() + ")";
-    return true;
+    return std::nullopt;
 }
 
 } // namespace tonetool

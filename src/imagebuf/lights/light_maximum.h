@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The luminance of the brightest light that lights an image.
 #pragma once
 
@@ -30,26 +31,25 @@ public:
           m_percentile(percentile),
           m_nthreads(nthreads) {}
 
-    bool read_table(std::string& error);
+    void read_table();
 
-    /// False with the reason in `error`. Without a result it is `why`.
-    bool by_table(std::optional<Found>& out, std::string& why, std::string& error);
-    bool by_groups(std::optional<Found>& out, std::string& why, std::string& error);
+    /// Nothing is no error: `why` says why there is nothing.
+    std::optional<Found> by_table(std::string& why);
+    std::optional<Found> by_groups(std::string& why);
 
 private:
     const OIIO::ImageBuf& index_image() const {
         return m_index_file.initialized() ? m_index_file : m_image;
     }
     const LightTable* table() const { return m_options.table.empty() ? nullptr : &m_table; }
-    bool by_layer(const IndexLayer& layer, std::optional<Found>& out, std::string& why,
-                  std::string& error);
-    bool open_index(std::optional<IndexLayer>& layer, std::string& error);
+    std::optional<Found> by_layer(const IndexLayer& layer, std::string& why);
+    std::optional<IndexLayer> open_index();
     const Light* light_at(int index) const;
-    bool by_named_groups(std::optional<Found>& out, std::string& why, std::string& error);
-    bool take_group(size_t group, const Light* light, Found& found, std::string& error);
-    bool scan(std::string& error);
-    bool maximum_of(size_t group, double& value, std::string& error) const;
-    bool finish(Found found, std::optional<Found>& out, std::string& why, const char* none) const;
+    std::optional<Found> by_named_groups(std::string& why);
+    void take_group(size_t group, const Light* light, Found& found);
+    void scan();
+    double maximum_of(size_t group) const;
+    static std::optional<Found> finish(Found found, std::string& why, const char* none);
 
     const OIIO::ImageBuf& m_image;
     const PixelOptions& m_beauty;

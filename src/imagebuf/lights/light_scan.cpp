@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "imagebuf/lights/light_scan.h"
 
 #include <OpenImageIO/strutil.h>
@@ -26,55 +27,44 @@ void luminances(const ColorPlanes& planes, int y, float* out) {
 
 } // namespace
 
-bool LightScan::open(const OIIO::ImageBuf& image, const PixelOptions& beauty,
-                     const std::vector<LightGroup>& groups, OIIO::ROI region, int nthreads,
-                     std::string& error) {
+void LightScan::open(const OIIO::ImageBuf& image, const PixelOptions& beauty,
+                     const std::vector<LightGroup>& groups, OIIO::ROI region, int nthreads) {
     m_image = &image;
     m_pixels = beauty;
     m_region = region;
     m_nthreads = nthreads;
     m_readers = std::vector<ColorReader>(groups.size());
-    if (!m_beauty.open(image, beauty, region, false, nthreads, error))
-        return false;
+    m_beauty.open(image, beauty, region, false, nthreads);
     for (size_t g = 0; g < groups.size(); ++g) {
         const PixelOptions pixels{groups[g].layer, beauty.from};
-        if (!m_readers[g].open(image, pixels, region, false, nthreads, error))
-            return false;
+        m_readers[g].open(image, pixels, region, false, nthreads);
         m_groups.push_back({groups[g], 0, 0});
     }
-    return true;
 }
 
 // The largest component of the picture. Where it was clamped, many pixels have it.
-bool LightScan::find_ceiling(std::string& error) {
+void LightScan::find_ceiling() {
     ColorPlanes planes = m_beauty.planes();
     for (int y = m_region.ybegin; y < m_region.yend; y += kLuminanceRows)
-        if (!m_beauty.read(y, std::min(y + kLuminanceRows, m_region.yend), planes, error))
-            return false;
+        m_beauty.read(y, std::min(y + kLuminanceRows, m_region.yend), planes);
     m_ceiling = planes.counts.largest;
-    return true;
 }
 
-bool LightScan::read_band(int begin, int end, std::string& error) {
-    if (!m_beauty.read(begin, end, m_beauty_planes, error))
-        return false;
+void LightScan::read_band(int begin, int end) {
+    m_beauty.read(begin, end, m_beauty_planes);
     for (size_t g = 0; g < m_readers.size(); ++g)
-        if (!m_readers[g].read(begin, end, m_planes[g], error))
-            return false;
-    return true;
+        m_readers[g].read(begin, end, m_planes[g]);
 }
 
-bool LightScan::run(const Sink& sink, std::string& error) {
-    if (!find_ceiling(error))
-        return false;
+void LightScan::run(const Sink& sink) {
+    find_ceiling();
     m_beauty_planes = m_beauty.planes();
     m_planes.clear();
     for (const ColorReader& reader : m_readers)
         m_planes.push_back(reader.planes());
     for (int begin = m_region.ybegin; begin < m_region.yend; begin += kLuminanceRows) {
         const int end = std::min(begin + kLuminanceRows, m_region.yend);
-        if (!read_band(begin, end, error))
-            return false;
+        read_band(begin, end);
         std::vector<Row> rows(size_t(end - begin));
         make_parallel(m_nthreads)(end - begin, [&](int64_t i) {
             std::vector<int> indices(size_t(m_region.width()));
@@ -85,7 +75,6 @@ bool LightScan::run(const Sink& sink, std::string& error) {
         for (const Row& row : rows)
             add(row);
     }
-    return true;
 }
 
 void LightScan::scan_row(int y, Row& row, int* indices) const {
@@ -149,19 +138,15 @@ void LightScan::add(const Row& row) {
     m_off += row.off;
 }
 
-bool LightScan::percentile(size_t group, double share, double& value, std::string& error) const {
+double LightScan::percentile(size_t group, double share) const {
     const PixelOptions pixels{m_groups[group].group.layer, m_pixels.from};
     ColorReader reader;
-    if (!reader.open(*m_image, pixels, m_region, false, m_nthreads, error))
-        return false;
+    reader.open(*m_image, pixels, m_region, false, m_nthreads);
     ColorPlanes planes = reader.planes();
-    PagedArray<float> luminance;
-    if (!read_luminance(reader, planes, m_nthreads, luminance, error))
-        return false;
+    const auto luminance = read_luminance(reader, planes, m_nthreads);
     const metrics::OrderStatistics order(luminance.data(), m_region.width(), m_region.height(),
                                          m_region.width(), make_parallel(m_nthreads));
-    value = order.find({metrics::Wanted::percentile(share)})[0];
-    return true;
+    return order.find({metrics::Wanted::percentile(share)})[0];
 }
 
 bool LightScan::additive() const {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The light of every group in every pixel.
 #pragma once
 
@@ -24,16 +25,15 @@ public:
     using Sink = std::function<void(int y, const int* indices)>;
 
     /// `beauty` as the picture is read. The image must live as long as this does.
-    bool open(const OIIO::ImageBuf& image, const PixelOptions& beauty,
-              const std::vector<LightGroup>& groups, OIIO::ROI region, int nthreads,
-              std::string& error);
+    void open(const OIIO::ImageBuf& image, const PixelOptions& beauty,
+              const std::vector<LightGroup>& groups, OIIO::ROI region, int nthreads);
     /// Instead of the largest contribution: of the groups with more than 1 % of a pixel's light
     /// that of the largest value; without a value it comes after all others.
     void rank_by(std::vector<std::optional<double>> values) { m_values = std::move(values); }
-    bool run(const Sink& sink, std::string& error);
+    void run(const Sink& sink);
 
     /// Nearest rank over all pixels of the region.
-    bool percentile(size_t group, double share, double& value, std::string& error) const;
+    double percentile(size_t group, double share) const;
 
     const std::vector<ScannedGroup>& groups() const { return m_groups; }
     int64_t unlit() const { return m_unlit; }
@@ -52,8 +52,8 @@ private:
         double beauty_light = 0, group_light = 0, off = 0;
     };
 
-    bool find_ceiling(std::string& error);
-    bool read_band(int begin, int end, std::string& error);
+    void find_ceiling();
+    void read_band(int begin, int end);
     void scan_row(int y, Row& row, int* indices) const;
     int choose(const float* const* light, size_t x, double total) const;
     bool goes_before(size_t a, size_t b, const float* const* light, size_t x) const;

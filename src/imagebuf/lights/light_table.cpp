@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "imagebuf/lights/light_table.h"
 
 #include <OpenImageIO/filesystem.h>
@@ -10,6 +11,7 @@
 #include "imagebuf/aov/aov_layers.h"
 #include "imagebuf/pixels/names.h"
 #include "metrics/luminance.h"
+#include "metrics/refusal.h"
 
 namespace tonetool {
 namespace {
@@ -41,24 +43,19 @@ Words fields_of(std::string line) {
 }
 
 // "index,value" or "index,r,g,b": the values of a line.
-bool values_of(const Words& words, const std::string& line, const std::string& where,
-               double (&values)[3], std::string& error) {
-    if (words.size() != 2 && words.size() != 4) {
-        error = format("{}: \"{}\" has {} field(s): must be index or name, then a value or r,g,b",
-                       where, OIIO::Strutil::strip(line), words.size());
-        return false;
-    }
+void values_of(const Words& words, const std::string& line, const std::string& where,
+               double (&values)[3]) {
+    if (words.size() != 2 && words.size() != 4)
+        throw Refusal(
+            format("{}: \"{}\" has {} field(s): must be index or name, then a value or r,g,b",
+                   where, OIIO::Strutil::strip(line), words.size()));
     for (size_t i = 1; i < words.size(); ++i) {
         const auto value = number_in(words[i]);
-        if (!value) {
-            error = format("{}: \"{}\" is not a number", where, words[i]);
-            return false;
-        }
+        if (!value)
+            throw Refusal(format("{}: \"{}\" is not a number", where, words[i]));
         values[i - 1] = *value;
-        if (!check_light_value(*value, "the value", where, error))
-            return false;
+        check_light_value(*value, "the value", where);
     }
-    return true;
 }
 
 bool is_header(const Words& words) {
@@ -83,47 +80,40 @@ double luminance_of(const double (&rgb)[3]) {
     return out;
 }
 
-bool check_light_value(double value, const std::string& what, const std::string& where,
-                       std::string& error) {
-    if (value >= 0 && value <= 1e30)
-        return true;
-    error = format("{}: {} is {}: must be 0 to 1e30", where, what, value);
-    return false;
+void check_light_value(double value, const std::string& what, const std::string& where) {
+    if (!(value >= 0 && value <= 1e30))
+        throw Refusal(format("{}: {} is {}: must be 0 to 1e30", where, what, value));
 }
 
-bool LightTable::read(const std::string& file, const std::string& unit, std::string& error) {
+void LightTable::read(const std::string& file, const std::string& unit) {
     m_file = file;
     m_powers = unit == "power";
     const auto scale = number_in(unit);
-    if (!m_powers && unit != "luminance" && !(scale && *scale >= 1e-30 && *scale <= 1e30)) {
-        error = unknown_name("lightunit", unit,
-                             {"luminance", "power",
-                              "what makes luminances of the image of the "
-                              "table's, 1e-30 to 1e30"});
-        return false;
-    }
+    if (!m_powers && unit != "luminance" && !(scale && *scale >= 1e-30 && *scale <= 1e30))
+        throw Refusal(unknown_name("lightunit", unit,
+                                   {"luminance", "power",
+                                    "what makes luminances of the image of the "
+                                    "table's, 1e-30 to 1e30"}));
     m_scale = scale.value_or(1);
     const std::string format_name = lower_case(OIIO::Filesystem::extension(file));
     std::string text;
-    if (format_name != ".csv" && format_name != ".json") {
-        error = format("light table \"{}\": must be a .csv or a .json file", file);
-        return false;
-    }
-    if (!OIIO::Filesystem::is_regular(file) || !OIIO::Filesystem::read_text_file(file, text)) {
-        error = format("light table \"{}\": {}", file,
-                       OIIO::Filesystem::exists(file) ? "cannot be read" : "there is no such file");
-        return false;
-    }
+    if (format_name != ".csv" && format_name != ".json")
+        throw Refusal(format("light table \"{}\": must be a .csv or a .json file", file));
+    if (!OIIO::Filesystem::is_regular(file) || !OIIO::Filesystem::read_text_file(file, text))
+        throw Refusal(
+            format("light table \"{}\": {}", file,
+                   OIIO::Filesystem::exists(file) ? "cannot be read" : "there is no such file"));
     if (OIIO::Strutil::starts_with(text, "\xef\xbb\xbf"))
         text.erase(0, 3);
-    if (!(format_name == ".csv" ? read_csv(text, error) : read_json_lights(text, *this, error)))
-        return false;
+    if (format_name == ".csv")
+        read_csv(text);
+    else
+        read_json_lights(text, *this);
     if (m_lights.empty())
-        error = format("light table \"{}\" holds no light", file);
-    return !m_lights.empty();
+        throw Refusal(format("light table \"{}\" holds no light", file));
 }
 
-bool LightTable::read_csv(const std::string& text, std::string& error) {
+void LightTable::read_csv(const std::string& text) {
     std::istringstream lines(text);
     std::string line;
     bool first = true;
@@ -137,14 +127,11 @@ bool LightTable::read_csv(const std::string& text, std::string& error) {
             continue;
         const std::string where = format("\"{}\" line {}", m_file, number);
         double values[3] = {0, 0, 0};
-        if (!values_of(words, line, where, values, error))
-            return false;
+        values_of(words, line, where, values);
         Light light;
         set_value(light, words.size() == 2 ? values[0] : luminance_of(values));
-        if (!add(std::move(light), words[0], where, error))
-            return false;
+        add(std::move(light), words[0], where);
     }
-    return true;
 }
 
 void LightTable::set_value(Light& light, double value) const {
@@ -160,17 +147,12 @@ void LightTable::set_luminance(Light& light, double luminance) const {
     light.luminance = luminance * m_scale;
 }
 
-bool LightTable::add(Light light, const std::string& key, const std::string& where,
-                     std::string& error) {
+void LightTable::add(Light light, const std::string& key, const std::string& where) {
     const auto number = number_in(key);
-    if (number && !(*number >= 0 && *number <= 1e9 && *number == std::floor(*number))) {
-        error = format("{}: index {} must be a whole number, 0 to 1e9", where, key);
-        return false;
-    }
-    if (key.empty()) {
-        error = where + ": a light without a name";
-        return false;
-    }
+    if (number && !(*number >= 0 && *number <= 1e9 && *number == std::floor(*number)))
+        throw Refusal(format("{}: index {} must be a whole number, 0 to 1e9", where, key));
+    if (key.empty())
+        throw Refusal(where + ": a light without a name");
     if (number)
         light.index = int(*number);
     else
@@ -178,12 +160,9 @@ bool LightTable::add(Light light, const std::string& key, const std::string& whe
     const auto same = [&](const Light& other) {
         return other.index == light.index && other.name == light.name;
     };
-    if (std::any_of(m_lights.begin(), m_lights.end(), same)) {
-        error = format("{}: light {} is there twice", where, light.shown());
-        return false;
-    }
+    if (std::any_of(m_lights.begin(), m_lights.end(), same))
+        throw Refusal(format("{}: light {} is there twice", where, light.shown()));
     m_lights.push_back(std::move(light));
-    return true;
 }
 
 const Light* LightTable::find(int index) const {

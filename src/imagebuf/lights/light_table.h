@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // How bright lights are, from a file.
 #pragma once
 
@@ -20,7 +21,7 @@ struct Light {
 class LightTable {
 public:
     /// `unit` as LightOptions::unit has it.
-    bool read(const std::string& file, const std::string& unit, std::string& error);
+    void read(const std::string& file, const std::string& unit);
 
     const Light* find(int index) const;
     const Light* find(const std::string& name) const;
@@ -36,10 +37,10 @@ public:
     void set_value(Light& light, double value) const;
     void set_luminance(Light& light, double luminance) const;
     /// `key` is an index if it is a whole number, else a name. Errors begin with `where`.
-    bool add(Light light, const std::string& key, const std::string& where, std::string& error);
+    void add(Light light, const std::string& key, const std::string& where);
 
 private:
-    bool read_csv(const std::string& text, std::string& error);
+    void read_csv(const std::string& text);
 
     std::string m_file;
     bool m_powers = false;
@@ -48,11 +49,11 @@ private:
 };
 
 /// The lights of a text in JSON.
-bool read_json_lights(const std::string& text, LightTable& table, std::string& error);
+void read_json_lights(const std::string& text, LightTable& table);
 
-/// Whether the value can be a luminance or a power: `WHERE: WHAT is VALUE: must be ...`.
-bool check_light_value(double value, const std::string& what, const std::string& where,
-                       std::string& error);
+/// Refuses a value that can be neither a luminance nor a power: `WHERE: WHAT is VALUE: must be
+/// ...`.
+void check_light_value(double value, const std::string& what, const std::string& where);
 
 /// Luminance of linear Rec.709.
 double luminance_of(const double (&rgb)[3]);

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // ToneAlgo::panorama_stats.
 #include <OpenImageIO/strutil.h>
 #include <algorithm>
@@ -7,6 +8,7 @@
 #include "imagebuf/pixels/checks.h"
 #include "imagebuf/pixels/guard.h"
 #include "imagebuf/pixels/parallel.h"
+#include "metrics/refusal.h"
 #include "tonetool/lights.h"
 
 namespace tonetool {
@@ -68,15 +70,13 @@ double weighted_median(const PagedArray<float>& luminance, const ROI& region,
     return texels.empty() ? 0 : texels.back().first;
 }
 
-bool check_shape(const OIIO::ImageSpec& spec, const std::string& weight, std::string& error) {
-    if (!one_of("weight", weight, {"solidangle", "none"}, error))
-        return false;
-    if (weight == "none" || int64_t(spec.full_width) == 2 * int64_t(spec.full_height))
-        return true;
-    error = format("{} x {} pixels: a latitude-longitude panorama is twice as wide as high "
+void check_shape(const OIIO::ImageSpec& spec, const std::string& weight) {
+    check_one_of("weight", weight, {"solidangle", "none"});
+    if (weight != "none" && int64_t(spec.full_width) != 2 * int64_t(spec.full_height))
+        throw Refusal(
+            format("{} x {} pixels: a latitude-longitude panorama is twice as wide as high "
                    "(weight=none takes any picture, each pixel alike)",
-                   spec.full_width, spec.full_height);
-    return false;
+                   spec.full_width, spec.full_height));
 }
 
 // Row by row, in their order.
@@ -95,29 +95,22 @@ Sums add_up(const PagedArray<float>& luminance, const ROI& region, const double*
     return sums;
 }
 
-bool measure(PanoramaStats& stats, const ImageBuf& src, const PanoramaOptions& options,
-             int nthreads, std::string& error) {
-    if (!check_readable(src, "panorama", error) || !check_shape(src.spec(), options.weight, error))
-        return false;
+void measure(PanoramaStats& stats, const ImageBuf& src, const PanoramaOptions& options,
+             int nthreads) {
+    check_readable(src, "panorama");
+    check_shape(src.spec(), options.weight);
     const ROI full = src.roi_full(), region = OIIO::roi_intersection(src.roi(), full);
-    if (region.width() <= 0 || region.height() <= 0) {
-        error = "its data window is outside its display window";
-        return false;
-    }
+    if (region.width() <= 0 || region.height() <= 0)
+        throw Refusal("its data window is outside its display window");
     ColorReader reader;
-    if (!reader.open(src, options.pixels, region, false, nthreads, error))
-        return false;
+    reader.open(src, options.pixels, region, false, nthreads);
     ColorPlanes planes = reader.planes();
-    PagedArray<float> luminance;
-    if (!read_luminance(reader, planes, nthreads, luminance, error))
-        return false;
+    const auto luminance = read_luminance(reader, planes, nthreads);
     const std::vector<double> all = row_weights(full.height(), options.weight == "solidangle");
     const double* weights = all.data() + (region.ybegin - full.ybegin);
     const Sums sums = add_up(luminance, region, weights, nthreads);
-    if (sums.count == 0) {
-        error = "the panorama has no finite pixel";
-        return false;
-    }
+    if (sums.count == 0)
+        throw Refusal("the panorama has no finite pixel");
     stats = {};
     stats.pixels = int64_t(full.width()) * full.height();
     stats.uncovered = stats.pixels - int64_t(region.width()) * region.height();
@@ -130,15 +123,13 @@ bool measure(PanoramaStats& stats, const ImageBuf& src, const PanoramaOptions& o
     stats.max = sums.max;
     stats.layer = planes.choice.layer;
     stats.space = planes.choice.space;
-    return true;
 }
 
 } // namespace
 
 bool ToneAlgo::panorama_stats(PanoramaStats& stats, const ImageBuf& src, std::string& error,
                               const PanoramaOptions& options, int nthreads) {
-    return contained(error,
-                     [&](std::string& why) { return measure(stats, src, options, nthreads, why); });
+    return contained(error, [&] { measure(stats, src, options, nthreads); });
 }
 
 } // namespace tonetool

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // ToneAlgo::export_lut.
 #include "tonetool/lut.h"
 
@@ -6,7 +7,9 @@
 
 #include "imagebuf/lut/lut_error.h"
 #include "imagebuf/lut/lut_write.h"
+#include "imagebuf/options/tone_options.h"
 #include "imagebuf/pixels/guard.h"
+#include "metrics/refusal.h"
 #include "tonetool/write.h"
 
 namespace tonetool {
@@ -14,15 +17,12 @@ namespace {
 
 using OIIO::Strutil::fmt::format;
 
-constexpr int kLeastSize = 2, kMostEntries = 65536, kMostNodes = 129;
+constexpr int kMostNodes = 129;
 
-bool check_size(int size, bool cube, std::string& error) {
-    const int most = cube ? kMostNodes : kMostEntries;
-    if (size == 0 || (size >= kLeastSize && size <= most))
-        return true;
-    error = format("size is {}: must be {} to {} {}", size, kLeastSize, most,
-                   cube ? "nodes along an edge of the cube" : "entries");
-    return false;
+void check_size(int size, bool cube) {
+    if (cube && size > kMostNodes)
+        throw Refusal(format("size is {}: must be 2 to {} nodes along an edge of the cube", size,
+                             kMostNodes));
 }
 
 bool is_cube(const std::string& format, const LutSource& source, const LutShaper& shaper) {
@@ -45,16 +45,17 @@ LutRemarks remarks_of(const std::string& format, const LutSource& source, const 
 
 bool ToneAlgo::export_lut(const std::string& filename, const LutOptions& options,
                           LutSummary* summary, std::string& error) {
-    return contained(error, [&](std::string& why) {
+    return contained(error, [&] {
         const QuietOcio quiet;
         const std::string extension =
             OIIO::Strutil::lower(OIIO::Filesystem::extension(filename, false));
+        check_options(options);
         LutSource source;
         LutShaper shaper;
-        if (!source.open(options, why) || !shaper.make(options, why) ||
-            !check_format(extension, source, why) ||
-            !check_size(options.size, is_cube(extension, source, shaper), why))
-            return false;
+        source.open(options);
+        shaper.make(options);
+        check_format(extension, source);
+        check_size(options.size, is_cube(extension, source, shaper));
         const LutSteps steps = holds_scene_light(extension)
                                    ? scene_steps(source, shaper, options.size, extension == "ctf")
                                    : shaped_steps(source, shaper, options.size);
@@ -64,11 +65,10 @@ bool ToneAlgo::export_lut(const std::string& filename, const LutOptions& options
         found.structure = steps.structure;
         found.input = remarks.taken();
         measure_lut(source, shaper, steps, found);
-        if (!write_bytes(lut_text(extension, steps, remarks), filename, why))
-            return false;
+        if (std::string why; !write_bytes(lut_text(extension, steps, remarks), filename, why))
+            throw Refusal(why);
         if (summary)
             *summary = found;
-        return true;
     });
 }
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // How far a table is from what it was made of. Only lut*.cpp include this.
 #pragma once
 

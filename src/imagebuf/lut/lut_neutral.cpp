@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Khronos PBR neutral as tables of one channel. It leaves the hue, so that hue, least and largest
 // channel are all it needs; products are sums of logarithms.
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "imagebuf/lut/lut_ops.h"
 
 #include <OpenImageIO/strutil.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A curve or view as the steps that OpenColorIO takes and files hold. Only lut*.cpp include this.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "imagebuf/lut/lut_shaper.h"
 
 #include <OpenImageIO/strutil.h>
@@ -5,49 +6,30 @@
 #include <cmath>
 
 #include "imagebuf/pixels/names.h"
+#include "metrics/refusal.h"
 
 namespace tonetool {
 namespace {
 
 using OIIO::Strutil::fmt::format;
 
-constexpr double kLowestMin = -24, kHighestMin = 0, kLowestMax = 1, kHighestMax = 16;
-
 // ACEScct, S-2016-001.
 constexpr double kCctBreak = 0.0078125, kCctSlope = 1 / 17.52, kCctShift = 9.72 / 17.52;
 constexpr double kCctLinearSlope = 10.5402377416545, kCctLinearShift = 0.0729055341958355;
 
-bool check_stops(const char* name, double value, double low, double high, std::string& error) {
-    if (value >= low && value <= high)
-        return true;
-    error = format("{} is {}: must be {} to {} stops", name, value, low, high);
-    return false;
-}
-
 } // namespace
 
-bool LutShaper::make(const LutOptions& options, std::string& error) {
+void LutShaper::make(const LutOptions& options) {
     const auto names = ToneAlgo::lut_shapers();
-    const auto found = std::find(names.begin(), names.end(), options.shaper);
-    if (found == names.end()) {
-        error = unknown_name("shaper", options.shaper, names);
-        return false;
-    }
-    m_kind = Kind(found - names.begin());
-    if (!check_stops("min", options.min, kLowestMin, kHighestMin, error) ||
-        !check_stops("max", options.max, kLowestMax, kHighestMax, error))
-        return false;
+    m_kind = Kind(std::find(names.begin(), names.end(), options.shaper) - names.begin());
     const LutOptions defaults;
-    if (m_kind != Kind::Log2 && (options.min != defaults.min || options.max != defaults.max)) {
-        error = "min and max are of the shaper log2, this one is " + options.shaper;
-        return false;
-    }
+    if (m_kind != Kind::Log2 && (options.min != defaults.min || options.max != defaults.max))
+        throw Refusal("min and max are of the shaper log2, this one is " + options.shaper);
     m_min = options.min;
     m_max = options.max;
     m_offset = std::exp2(m_min);
     m_slope = 1 / (std::log2(std::exp2(m_max) + m_offset) - m_min);
     m_shift = -m_min * m_slope;
-    return true;
 }
 
 double LutShaper::shape(double x) const {

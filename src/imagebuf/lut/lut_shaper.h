@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Scene light as the 0 to 1 that look-up tables are indexed with. Only lut*.cpp include this.
 #pragma once
 
@@ -11,7 +12,7 @@ namespace tonetool {
 
 class LutShaper {
 public:
-    bool make(const LutOptions& options, std::string& error);
+    void make(const LutOptions& options);
 
     double shape(double x) const;
     double light(double v) const; ///< the inverse, never below 0

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "imagebuf/lut/lut_source.h"
 
 #include <OpenImageIO/strutil.h>
@@ -7,6 +8,7 @@
 #include "imagebuf/pixels/names.h"
 #include "kernels/curve_constants.h"
 #include "kernels/curve_reference.h"
+#include "metrics/refusal.h"
 
 namespace tonetool {
 namespace {
@@ -53,38 +55,33 @@ std::string described(const CurvePlan& plan) {
 
 } // namespace
 
-bool LutSource::open(const LutOptions& options, std::string& error) {
+void LutSource::open(const LutOptions& options) {
     m_is_view = options.view.has_value();
-    return m_is_view ? open_view(options, error) : open_curve(options, error);
+    if (m_is_view)
+        open_view(options);
+    else
+        open_curve(options);
 }
 
-bool LutSource::open_curve(const LutOptions& options, std::string& error) {
-    if (!options.from.empty()) {
-        error = "from=" + options.from + " is of views: curves start from linear Rec.709";
-        return false;
-    }
+void LutSource::open_curve(const LutOptions& options) {
+    if (!options.from.empty())
+        throw Refusal("from=" + options.from + " is of views: curves start from linear Rec.709");
     m_encoding = find_encoding(options.encode);
-    if (!m_encoding) {
-        error = unknown_name("encoding", options.encode, ToneAlgo::display_encodings());
-        return false;
-    }
-    if (!plan_curve(options.curve, false, m_curve, error))
-        return false;
+    if (!m_encoding)
+        throw Refusal(unknown_name("encoding", options.encode, ToneAlgo::display_encodings()));
+    m_curve = plan_curve(options.curve, false);
     m_structure = structure_of(m_curve);
     m_name = "tone curve " + described(m_curve);
     m_input = "linear Rec.709";
     m_encode = options.encode;
     m_output = m_encode == "none" ? "linear display light" : "display, encoded " + m_encode;
-    return true;
 }
 
-bool LutSource::open_view(const LutOptions& options, std::string& error) {
-    if (!m_view.open(*options.view, options.from, OIIO::ImageSpec(1, 1, 3, OIIO::TypeFloat), error))
-        return false;
+void LutSource::open_view(const LutOptions& options) {
+    m_view.open(*options.view, options.from, OIIO::ImageSpec(1, 1, 3, OIIO::TypeFloat));
     m_name = "view " + m_view.view() + " of display " + m_view.display();
     m_input = m_view.from();
     m_output = m_view.space();
-    return true;
 }
 
 void LutSource::exact(float* rgb, ptrdiff_t count) const {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The curve or view that a look-up table is made of. Only lut*.cpp include this.
 #pragma once
 
@@ -20,7 +21,7 @@ public:
         Neutral,   ///< of the hue, the least and the largest channel
         Other
     };
-    bool open(const LutOptions& options, std::string& error);
+    void open(const LutOptions& options);
 
     Structure structure() const { return m_structure; }
     /// Scene light to code values, packed RGB in place. Negative components count as 0.
@@ -37,8 +38,8 @@ public:
     const std::string& encode() const { return m_encode; }
 
 private:
-    bool open_curve(const LutOptions& options, std::string& error);
-    bool open_view(const LutOptions& options, std::string& error);
+    void open_curve(const LutOptions& options);
+    void open_view(const LutOptions& options);
 
     Structure m_structure = Structure::Other;
     CurvePlan m_curve;

@@ -1,3 +1,6 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "metrics/refusal.h"
+
 #include "imagebuf/lut/lut_write.h"
 
 #include <OpenImageIO/strutil.h>
@@ -94,26 +97,20 @@ bool holds_scene_light(const std::string& format) {
     return format == "clf" || format == "ctf";
 }
 
-bool check_format(const std::string& format, const LutSource& source, std::string& error) {
+void check_format(const std::string& format, const LutSource& source) {
     const auto formats = ToneAlgo::lut_formats();
-    if (std::find(formats.begin(), formats.end(), format) == formats.end()) {
-        error = (format.empty() ? "the file name has no extension"
-                                : "no format has the extension \"." + format + "\"") +
-                "; valid: ." + OIIO::Strutil::join(formats, ", .");
-        return false;
-    }
+    if (std::find(formats.begin(), formats.end(), format) == formats.end())
+        throw Refusal((format.empty() ? "the file name has no extension"
+                                      : "no format has the extension \"." + format + "\"") +
+                      "; valid: ." + OIIO::Strutil::join(formats, ", ."));
     const bool per_channel = source.structure() == LutSource::Structure::Channel;
-    if (format == "spi1d" && !per_channel) {
-        error = source.name() + ": a .spi1d file has one table per channel, but this mixes the "
-                                "channels; valid: .cube, .spi3d, .clf, .ctf";
-        return false;
-    }
-    if (format == "spi3d" && per_channel) {
-        error = source.name() + ": a .spi3d file is a cube, but this is a table per channel; "
-                                "valid: .cube, .spi1d, .clf, .ctf";
-        return false;
-    }
-    return true;
+    if (format == "spi1d" && !per_channel)
+        throw Refusal(source.name() +
+                      ": a .spi1d file has one table per channel, but this mixes the "
+                      "channels; valid: .cube, .spi3d, .clf, .ctf");
+    if (format == "spi3d" && per_channel)
+        throw Refusal(source.name() + ": a .spi3d file is a cube, but this is a table per channel; "
+                                      "valid: .cube, .spi1d, .clf, .ctf");
 }
 
 std::string lut_text(const std::string& format, const LutSteps& steps, const LutRemarks& remarks) {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Look-up tables as the text of files. Only lut*.cpp include this.
 #pragma once
 
@@ -17,7 +18,7 @@ struct LutRemarks {
 
 bool holds_scene_light(const std::string& format); ///< clf, ctf
 /// False, with an error, where the format cannot hold such steps.
-bool check_format(const std::string& format, const LutSource& source, std::string& error);
+void check_format(const std::string& format, const LutSource& source);
 std::string lut_text(const std::string& format, const LutSteps& steps, const LutRemarks& remarks);
 
 } // namespace tonetool

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The fields of CgTmoOptions, but for the pixels and the lights, which are structs of their own.
 #pragma once
 
@@ -35,11 +36,12 @@ void describe_base(See&& see) {
             .unset("found by its name"));
     see(option("fov", &O::fov, "horizontal field of view in degrees, for positions from depth")
             .within(1, 179)
+            .in("degrees")
             .shown_as("DEGREES")
             .unset("the image's camera, or 40"));
     see(option("strict", &O::strict,
                "a missing G-buffer AOV, light or panorama that was asked for is an error"));
-    see(option("sigma", &O::sigma, "sigma of the window in pixels").within(1, 20));
+    see(option("sigma", &O::sigma, "sigma of the window in pixels").within(1, 20).in("pixels"));
     see(option("samples", &O::samples, "samples of the window; 0: all its pixels")
             .within(4, 400)
             .zero_too());
@@ -86,7 +88,9 @@ void describe_curve(See&& see) {
                "percentile of the luminances of groups and image that counts as their largest")
             .within(50, 100));
     see(option("bias", &O::bias, "bias of Drago's curve").within(0.01, 1));
-    see(option("ldmax", &O::ldmax, "luminance of the display's white in cd/m2").within(1, 10000));
+    see(option("ldmax", &O::ldmax, "luminance of the display's white in cd/m2")
+            .within(1, 10000)
+            .in("cd/m2"));
     see(option("saturation", &O::saturation, "exponent s of C' = (C / L)^s Ld").within(0, 4));
     see(option("encode", &O::encode, "how the result is encoded")
             .shown_as(OIIO::Strutil::join(ToneAlgo::display_encodings(), "|")));

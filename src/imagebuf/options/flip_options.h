@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The fields of FlipOptions, HdrFlipOptions, FilmstripOptions and ErrorOptions that are numbers,
 // names or switches; pixels, curve and view are structs of their own.
 #pragma once
@@ -12,6 +13,10 @@
 namespace tonetool {
 
 inline constexpr Range kPpdRange{flip::kMinPixelsPerDegree, flip::kMaxPixelsPerDegree};
+inline constexpr Range kPeakRange{1, 10000}; ///< of a display, in cd/m2
+/// How the result of a view can be encoded.
+inline const std::vector<std::string> kViewEncodings = {"srgb", "gamma2.2", "rec1886", "gamma2.6",
+                                                        "linear"};
 inline constexpr Range kStopsRange{flip::kMinStops, flip::kMaxStops};
 
 /// The screen: of LDR-FLIP and HDR-FLIP.
@@ -20,15 +25,19 @@ void describe(const FlipOptions&, See&& see) {
     using O = FlipOptions;
     see(option("ppd", &O::ppd, "pixels per degree of visual angle")
             .within(kPpdRange.low, kPpdRange.high)
+            .in("pixels per degree")
             .unset("of the three numbers below"));
     see(option("distance", &O::distance, "viewing distance in metres")
             .within(1e-6, 1e6)
+            .in("metres")
             .shown_as("METRES"));
     see(option("width", &O::width, "width of the screen in metres")
             .within(1e-6, 1e6)
+            .in("metres")
             .shown_as("METRES"));
     see(option("pixels", "pixels_across", &O::pixels_across, "width of the screen in pixels")
             .within(1, 1e7)
+            .in("pixels")
             .shown_as("N"));
 }
 
@@ -39,10 +48,12 @@ void describe_exposures(See&& see, const std::string& start, const std::string& 
     see(option("startExposure", "start_exposure", &Options::start_exposure,
                "first exposure in stops")
             .within(kStopsRange.low, kStopsRange.high)
+            .in("stops")
             .shown_as("STOPS")
             .unset(start));
     see(option("stopExposure", "stop_exposure", &Options::stop_exposure, "last exposure in stops")
             .within(kStopsRange.low, kStopsRange.high)
+            .in("stops")
             .shown_as("STOPS")
             .unset(stop));
     see(option("numExposures", "num_exposures", &Options::num_exposures, "number of exposures")
@@ -56,11 +67,12 @@ void describe(const HdrFlipOptions&, See&& see) {
     using O = HdrFlipOptions;
     see(option("encoding", &O::encoding,
                "how the view's result is encoded, where its display does not say so")
-            .one_of({"srgb", "gamma2.2", "rec1886", "gamma2.6", "linear"})
+            .one_of(kViewEncodings)
             .unset("the display's"));
     see(option("peak", &O::peak,
                "luminance in cd/m2 that counts as the display's white; HDR displays need it")
-            .within(1, 10000)
+            .within(kPeakRange.low, kPeakRange.high)
+            .in("cd/m2")
             .unset("of SDR displays"));
     see(option("exact", &O::exact,
                "the view by OpenColorIO itself for each pixel instead of a table baked from it"));
@@ -93,6 +105,7 @@ void describe(const ErrorOptions&, See&& see) {
     };
     const std::string exposures = of(metrics::kExposures) + " alone; as hdrflip";
     see(option("metric", &O::metric, "error metric").one_of(ToneAlgo::error_metrics()));
+    // Beyond these the squares leave what a double tells apart.
     see(option("eps", &O::eps, "epsilon " + of(metrics::kEps)).within(1e-12, 1e12));
     see(option("peak", &O::peak, "peak " + of(metrics::kPeak) + " in linear light")
             .within(1e-12, 1e12));

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A field of a struct of options, described once: its name on the command line and in Python, its
 // range or choices, its default and what it means. The checks, the modifiers of commands, the
 // keywords of Python and the texts of both are made from these descriptions.
@@ -15,6 +16,7 @@
 #include <vector>
 
 #include "imagebuf/pixels/names.h"
+#include "metrics/refusal.h"
 
 namespace tonetool {
 
@@ -48,9 +50,14 @@ struct Option {
     /// What stands for an unset or empty value, or for a number's default outside the range: "the
     /// image's".
     std::string otherwise = {};
+    const char* unit = ""; ///< behind a range in errors: "stops"
 
     Option within(double low, double high) && {
         range = Range{low, high};
+        return std::move(*this);
+    }
+    Option in(const char* what) && {
+        unit = what;
         return std::move(*this);
     }
     Option positive() && { return std::move(*this).within(1e-30, 1e30); }
@@ -114,7 +121,7 @@ struct Option {
                 unset = !otherwise.empty() && value == Owner().*member;
             return inside || zero || unset
                        ? ""
-                       : format("{} is {}: must be {} to {}", key, value, range->low, range->high);
+                       : format("{} is {}: must be {}", key, value, valid_numbers());
         } else if constexpr (std::is_same_v<T, std::string>) {
             const std::string& value = options.*member;
             const bool empty = value.empty() && (Owner().*member).empty();
@@ -126,6 +133,13 @@ struct Option {
     }
 
 private:
+    std::string valid_numbers() const {
+        using OIIO::Strutil::fmt::format;
+        return range->low == 1e-30 && range->high >= 1e30
+                   ? "positive and finite"
+                   : format("{} to {}{}{}", range->low, range->high, *unit ? " " : "", unit);
+    }
+
     std::string limits() const {
         using OIIO::Strutil::fmt::format;
         if (!range)
@@ -156,6 +170,13 @@ std::string options_fault(const Options& options) {
             fault = row.fault(options);
     });
     return fault;
+}
+
+/// Refuses what options_fault() finds.
+template <class Options>
+void check_options(const Options& options) {
+    if (const std::string fault = options_fault(options); !fault.empty())
+        throw Refusal(fault);
 }
 
 } // namespace tonetool

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The fields of CalibrationOptions, TonemapOptions, LutOptions and LightOptions that are numbers,
 // names or switches.
 #pragma once
@@ -13,7 +14,8 @@ template <class See>
 void describe(const CalibrationOptions&, See&& see) {
     using O = CalibrationOptions;
     see(option("stops", &O::stops, "exposure in stops, added to what is measured")
-            .within(-126, 126));
+            .within(-126, 126)
+            .in("stops"));
     see(option("key", &O::key, "what the geometric mean becomes, with method=mean")
             .within(1e-4, 100));
     see(option("level", &O::level,
@@ -49,8 +51,8 @@ void describe(const LutOptions&, See&& see) {
             .one_of(ToneAlgo::display_encodings()));
     see(option("shaper", &O::shaper, "what maps scene light to 0 to 1")
             .one_of(ToneAlgo::lut_shapers()));
-    see(option("min", &O::min, "low end of shaper=log2 in stops").within(-24, 0));
-    see(option("max", &O::max, "high end of shaper=log2 in stops").within(1, 16));
+    see(option("min", &O::min, "low end of shaper=log2 in stops").within(-24, 0).in("stops"));
+    see(option("max", &O::max, "high end of shaper=log2 in stops").within(1, 16).in("stops"));
     see(option("size", &O::size, "entries, or nodes along the edge of a cube (2 to 129)")
             .within(2, 65536)
             .unset("4096, or 33"));

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Memory for pixels, asked for in sizes that headers of files promise.
 #pragma once
 
@@ -39,17 +40,6 @@ inline void expect_memory(uint64_t bytes) {
     static const uint64_t available = OIIO::Sysutil::physical_memory();
     if (available > 0 && bytes > available)
         throw TooLarge(bytes, available);
-}
-
-/// The same as an error.
-inline bool has_memory(uint64_t bytes, std::string& error) {
-    try {
-        expect_memory(bytes);
-        return true;
-    } catch (const TooLarge& failure) {
-        error = failure.what();
-        return false;
-    }
 }
 
 /// An image whose pixels are there, but not set; a std::bad_alloc else.

@@ -1,7 +1,10 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "imagebuf/pixels/bands.h"
 
 #include <OpenImageIO/sysutil.h>
 #include <algorithm>
+
+#include "metrics/refusal.h"
 
 namespace tonetool {
 namespace {
@@ -24,8 +27,8 @@ uint64_t Bands::maps_until(int row) const {
     return m_needs.map_row * uint64_t(std::clamp(row, m_roi.ybegin, m_roi.yend) - m_roi.ybegin);
 }
 
-bool Bands::plan(uint64_t memory, const MemoryNeeds& needs, const OIIO::ROI& region,
-                 const OIIO::ROI& roi, std::string& error) {
+void Bands::plan(uint64_t memory, const MemoryNeeds& needs, const OIIO::ROI& region,
+                 const OIIO::ROI& roi) {
     m_needs = needs;
     m_region = region;
     m_roi = roi;
@@ -49,12 +52,11 @@ bool Bands::plan(uint64_t memory, const MemoryNeeds& needs, const OIIO::ROI& reg
     m_threads = few + int(std::min(uint64_t(needs.threads - few), more));
     m_threads = m_one ? needs.threads : m_threads;
     m_fixed = fixed_for(m_threads);
-    if (memory == 0 || least <= m_budget)
-        return true;
-    error = "memory is " + size_text(memory) + ": this comparison needs at least " +
-            size_text(least) + " (" + size_text(maps + needs.held) + " for its maps and " +
-            size_text(kSetAside) + " for the program and its libraries)";
-    return false;
+    if (memory > 0 && least > m_budget)
+        throw Refusal("memory is " + size_text(memory) + ": this comparison needs at least " +
+                      size_text(least) + " (" + size_text(maps + needs.held) +
+                      " for its maps and " + size_text(kSetAside) +
+                      " for the program and its libraries)");
 }
 
 int Bands::end_of(int begin) const {

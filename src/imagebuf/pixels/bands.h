@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // How much of a comparison is in memory at once.
 #pragma once
 
@@ -31,9 +32,9 @@ std::string size_text(uint64_t bytes);
 class Bands {
 public:
     /// `memory`: the bound, 0 for half of this computer's memory, which is not enforced where even
-    /// the smallest bands take more. False (with the reason) where a bound is too small.
-    bool plan(uint64_t memory, const MemoryNeeds& needs, const OIIO::ROI& region,
-              const OIIO::ROI& roi, std::string& error);
+    /// the smallest bands take more. A Refusal where a bound is too small.
+    void plan(uint64_t memory, const MemoryNeeds& needs, const OIIO::ROI& region,
+              const OIIO::ROI& roi);
     /// Whether everything is in memory at once.
     bool one() const { return m_one; }
     /// Threads that may evaluate at the same time.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Options that are numbers or names, checked at the border.
 #pragma once
 
@@ -9,23 +10,22 @@
 #include <vector>
 
 #include "imagebuf/pixels/names.h"
+#include "metrics/refusal.h"
 
 namespace tonetool {
 
-/// `NAME is VALUE: must be LOW to HIGH` unless it is; NaN never is.
-inline bool in_range(double value, double low, double high, const char* name, std::string& error) {
-    if (value >= low && value <= high)
-        return true;
-    error = OIIO::Strutil::fmt::format("{} is {}: must be {} to {}", name, value, low, high);
-    return false;
+/// Refuses `NAME is VALUE: must be LOW to HIGH` unless it is; NaN never is.
+inline void check_range(double value, double low, double high, const char* name) {
+    if (!(value >= low && value <= high))
+        throw Refusal(
+            OIIO::Strutil::fmt::format("{} is {}: must be {} to {}", name, value, low, high));
 }
 
-inline bool one_of(const char* what, const std::string& value,
-                   const std::vector<std::string>& valid, std::string& error) {
-    if (std::find(valid.begin(), valid.end(), value) != valid.end())
-        return true;
-    error = unknown_name(what, value, valid);
-    return false;
+/// Refuses a value that is none of the valid ones.
+inline void check_one_of(const char* what, const std::string& value,
+                         const std::vector<std::string>& valid) {
+    if (std::find(valid.begin(), valid.end(), value) == valid.end())
+        throw Refusal(unknown_name(what, value, valid));
 }
 
 /// "P.exr" where a layer could be named.

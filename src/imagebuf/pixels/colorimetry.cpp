@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "imagebuf/pixels/colorimetry.h"
 
 #include <OpenImageIO/strutil.h>
@@ -7,7 +8,9 @@
 #include <vector>
 
 #include "imagebuf/color/view_source.h"
+#include "imagebuf/pixels/guard.h"
 #include "imagebuf/pixels/names.h"
+#include "metrics/refusal.h"
 #include "tonetool/pixels.h"
 
 namespace tonetool {
@@ -187,25 +190,28 @@ std::optional<Chromaticities> read_chromaticities(const OIIO::ImageSpec& spec) {
     return Chromaticities{{v[0], v[1]}, {v[2], v[3]}, {v[4], v[5]}, {v[6], v[7]}};
 }
 
-bool from_known(const Known& known, ColorSpace& space) {
+ColorSpace space_of(const Known& known) {
+    ColorSpace space;
     space.name = known.name;
     space.srgb_encoded = known.srgb_encoded;
     space.is_rec709 = nearly_equal(known.primaries, known_spaces()[0].primaries);
-    return space.is_rec709 || matrix_to_rec709(known.primaries, space.to_rec709);
+    if (!space.is_rec709)
+        matrix_to_rec709(known.primaries, space.to_rec709);
+    return space;
 }
 
-bool from_chromaticities(const Chromaticities& c, ColorSpace& space, std::string& error) {
+ColorSpace space_of(const Chromaticities& c) {
     for (const Known& known : known_spaces())
         if (nearly_equal(c, known.primaries))
-            return from_known(known, space);
-    space = {"chromaticities", false, false, {}};
-    if (matrix_to_rec709(c, space.to_rec709))
-        return true;
-    error = OIIO::Strutil::fmt::format("unusable chromaticities: red {} {}, green {} {}, blue {} "
+            return space_of(known);
+    ColorSpace space = {"chromaticities", false, false, {}};
+    if (!matrix_to_rec709(c, space.to_rec709))
+        throw Refusal(
+            OIIO::Strutil::fmt::format("unusable chromaticities: red {} {}, green {} {}, blue {} "
                                        "{}, white {} {}; pass from= one of: {}",
                                        c.red[0], c.red[1], c.green[0], c.green[1], c.blue[0],
-                                       c.blue[1], c.white[0], c.white[1], known_names());
-    return false;
+                                       c.blue[1], c.white[0], c.white[1], known_names()));
+    return space;
 }
 
 // The exponent of "GammaCorrected1.8", "Gamma2.2" or "gamma2.2"; 0 for other tags.
@@ -235,36 +241,28 @@ bool is_camera_curve(const OIIO::ImageSpec& spec, const std::string& tag) {
            (!spec.format.is_floating_point() || spec.find_attribute("pnm:bigendian"));
 }
 
-bool from_tags(const OIIO::ImageSpec& spec, ColorSpace& space, std::string& error) {
+ColorSpace space_of(const OIIO::ImageSpec& spec) {
     const std::string tag = spec.get_string_attribute("oiio:ColorSpace");
     const auto chromaticities = read_chromaticities(spec);
     const bool camera_curve = is_camera_curve(spec, tag);
     const bool integer = !spec.format.is_floating_point();
-    if (const double gamma = stated_gamma(spec); gamma > 0) {
-        space = of_gamma(gamma);
-        return true;
-    }
+    if (const double gamma = stated_gamma(spec); gamma > 0)
+        return of_gamma(gamma);
     const Known* known = tag.empty() || lower(tag) == "rec709" ? nullptr : find_known(tag);
-    if (!tag.empty() && !known && !camera_curve) {
-        error = "unknown colour space \"" + tag +
-                "\" in oiio:ColorSpace; pass from= one of: " + known_names();
-        return false;
-    }
+    if (!tag.empty() && !known && !camera_curve)
+        throw Refusal("unknown colour space \"" + tag +
+                      "\" in oiio:ColorSpace; pass from= one of: " + known_names());
     // A display-encoded tag is what a conversion leaves; the file's old chromaticities stay behind.
     if (known && known->srgb_encoded)
-        return from_known(*known, space);
+        return space_of(*known);
     if (chromaticities && known && !says_only_linear(tag) &&
-        !nearly_equal(*chromaticities, known->primaries)) {
-        error = "oiio:ColorSpace says \"" + tag +
-                "\" but the chromaticities are those of another space; pass from= one of: " +
-                known_names();
-        return false;
-    }
+        !nearly_equal(*chromaticities, known->primaries))
+        throw Refusal("oiio:ColorSpace says \"" + tag +
+                      "\" but the chromaticities are those of another space; pass from= one of: " +
+                      known_names());
     if (chromaticities)
-        return from_chromaticities(*chromaticities, space, error);
-    if (known)
-        return from_known(*known, space);
-    return from_known(*find_known(integer ? "srgb" : "rec709"), space);
+        return space_of(*chromaticities);
+    return space_of(known ? *known : *find_known(integer ? "srgb" : "rec709"));
 }
 
 } // namespace
@@ -282,10 +280,8 @@ std::vector<std::string> interchange_names(const std::string& name) {
 }
 
 Matrix3 known_to_rec709(const std::string& name) {
-    ColorSpace space;
-    if (const Known* known = find_known(name))
-        from_known(*known, space);
-    return space.to_rec709;
+    const Known* known = find_known(name);
+    return known ? space_of(*known).to_rec709 : ColorSpace().to_rec709;
 }
 
 Matrix3 xyz_to_rec709() {
@@ -303,52 +299,41 @@ bool matrix_to_rec709(const Chromaticities& primaries, Matrix3& matrix) {
     return finite(matrix);
 }
 
-bool find_space(const OIIO::ImageSpec& spec, const std::string& from, ColorSpace& space,
-                std::string& error) {
-    space = {};
+ColorSpace find_space(const OIIO::ImageSpec& spec, const std::string& from) {
     const Known* known = find_known(from);
     const double gamma = gamma_of_tag(from);
-    if (gamma > 0)
-        space = of_gamma(gamma);
-    else if (!from.empty() && !known) {
-        error = unknown_name("colour space", from, ToneAlgo::color_spaces());
-        return false;
-    } else if (!(known ? from_known(*known, space) : from_tags(spec, space, error)))
-        return false;
+    if (gamma <= 0 && !from.empty() && !known)
+        throw Refusal(unknown_name("colour space", from, ToneAlgo::color_spaces()));
+    ColorSpace space = gamma > 0 ? of_gamma(gamma) : known ? space_of(*known) : space_of(spec);
     space.scale = 1 / stated_exposure(spec);
-    return true;
+    return space;
 }
 
-bool find_space(const OIIO::ImageSpec& spec, const PixelOptions& options, ColorSpace& space,
-                std::string& error) {
+ColorSpace find_space(const OIIO::ImageSpec& spec, const PixelOptions& options) {
     const Known* known = find_known(options.from);
     // What headers call "linear" may be another space of a configuration.
     const bool ours = known && known->is_interchanged(lower(options.from));
     if (options.from.empty() || options.config.empty() || ours)
-        return find_space(spec, options.from, space, error);
-    std::string of_config;
-    if (config_space(options, space, of_config)) {
-        space.scale = 1 / stated_exposure(spec);
-        return true;
-    }
-    if (find_space(spec, options.from, space, error))
-        return true;
-    error = of_config;
-    return false;
+        return find_space(spec, options.from);
+    ColorSpace space;
+    std::string why;
+    if (!contained(why, [&] { space = config_space(options); }))
+        return refusing_as([&](const std::string&) { return why; },
+                           [&] { return find_space(spec, options.from); });
+    space.scale = 1 / stated_exposure(spec);
+    return space;
 }
 
-bool find_picture(const OIIO::ImageSpec& spec, const PixelOptions& options, ColorChoice& choice,
-                  ColorSpace& space, std::string& error) {
-    if (!ToneAlgo::find_color(spec, options, choice, error) ||
-        !find_space(spec, options, space, error))
-        return false;
+void find_picture(const OIIO::ImageSpec& spec, const PixelOptions& options, ColorChoice& choice,
+                  ColorSpace& space) {
+    choice = chosen_color(spec, options);
+    space = find_space(spec, options);
     if (choice.grey())
         space.is_rec709 = true;
     const double gamma = double(spec.get_float_attribute("oiio:Gamma", 1));
     space.alpha_power = gamma > 0 ? gamma : 1;
     space.straight = (space.encoded() || space.alpha_power != 1) && choice.a >= 0 &&
                      !spec.channelformat(choice.r).is_floating_point();
-    return true;
 }
 
 double stated_gamma(const OIIO::ImageSpec& spec) {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // From the colour space an image is stored in to linear Rec.709 with its D65 white.
 #pragma once
 
@@ -44,17 +45,18 @@ struct ColorSpace {
 /// The space of an image: `from` if given, else its `chromaticities`, else its `oiio:ColorSpace`,
 /// else sRGB for integer pixels and linear Rec.709 for others. Unknown names, unusable
 /// chromaticities and tags that contradict each other are errors.
-bool find_space(const OIIO::ImageSpec& spec, const std::string& from, ColorSpace& space,
-                std::string& error);
+ColorSpace find_space(const OIIO::ImageSpec& spec, const std::string& from);
 
 /// The same by all options: `from` may name a space of their configuration.
-bool find_space(const OIIO::ImageSpec& spec, const PixelOptions& options, ColorSpace& space,
-                std::string& error);
+ColorSpace find_space(const OIIO::ImageSpec& spec, const PixelOptions& options);
+
+/// What ToneAlgo::find_color() finds.
+ColorChoice chosen_color(const OIIO::ImageSpec& spec, const PixelOptions& options);
 
 /// The colour of an image and its space, as every function decides on them. A picture of one
 /// channel is grey: its three channels are the same, and no primaries apply to it.
-bool find_picture(const OIIO::ImageSpec& spec, const PixelOptions& options, ColorChoice& choice,
-                  ColorSpace& space, std::string& error);
+void find_picture(const OIIO::ImageSpec& spec, const PixelOptions& options, ColorChoice& choice,
+                  ColorSpace& space);
 
 /// Whether all layers of an image hold data by their names, so that it has no picture.
 bool holds_only_data(const OIIO::ImageSpec& spec);

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Files of which a reader says that all is well, though pixels are missing.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "imagebuf/pixels/deliver.h"
 
 #include <utility>

@@ -1,4 +1,6 @@
-// The one way a public function fails: no exception leaves it, dst carries the reason.
+// SPDX-License-Identifier: BSD-3-Clause
+// The one way a public function fails: inside, everything throws; no exception leaves it, dst
+// carries the reason.
 #pragma once
 
 #include <OpenImageIO/imagebuf.h>
@@ -9,18 +11,18 @@
 
 #include "imagebuf/pixels/allocation.h"
 #include "imagebuf/pixels/utf8.h"
+#include "metrics/refusal.h"
 
 namespace tonetool {
 
-/// Runs `run(error)`, which returns whether it succeeded; every exception becomes an error, and
-/// every error is UTF-8.
+/// Whether `run()` came to its end: what it refuses, and every other exception, becomes an error of
+/// UTF-8.
 template <class Run>
 bool contained(std::string& error, const Run& run) noexcept {
+    error.clear();
     try {
-        error.clear();
-        if (run(error))
-            return true;
-        error = error.empty() ? "failed without a reason" : valid_utf8(error);
+        run();
+        return true;
     } catch (const std::bad_alloc& e) {
         error = memory_text(e);
     } catch (const std::length_error&) { // a size that no vector or string can have
@@ -30,6 +32,8 @@ bool contained(std::string& error, const Run& run) noexcept {
     } catch (...) {
         error = "unknown exception";
     }
+    if (error.empty())
+        error = "failed without a reason";
     return false;
 }
 

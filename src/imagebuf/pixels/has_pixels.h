@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Whether an image holds what it says it holds, how it is read whole, and the words for it if not.
 // Header only: the command language and the module of Python use it, too.
 #pragma once
@@ -6,11 +7,11 @@
 #include <OpenImageIO/filesystem.h>
 #include <new>
 #include <string>
-#include <utility>
 
 #include "imagebuf/pixels/allocation.h"
 #include "imagebuf/pixels/cut_file.h"
 #include "imagebuf/pixels/oiio_compat.h"
+#include "metrics/refusal.h"
 
 namespace tonetool {
 
@@ -32,23 +33,20 @@ inline std::string with_name(const OIIO::ImageBuf& image, const std::string& why
 }
 
 /// Reads an image that is still in its file, as numbers of a type, by a reader of its own: neither
-/// an ImageCache nor ImageBuf::read tells of all pixels that are missing. On failure the error
-/// names the file.
-inline bool read_whole(const OIIO::ImageBuf& image, OIIO::TypeDesc type, OIIO::ImageBuf& out,
-                       std::string& error) {
+/// an ImageCache nor ImageBuf::read tells of all pixels that are missing. A Refusal names the file.
+inline OIIO::ImageBuf read_whole(const OIIO::ImageBuf& image, OIIO::TypeDesc type) {
     const auto fail = [&](const std::string& why) {
-        error = with_name(image, why.empty() ? "pixels could not be read" : why);
-        return false;
+        throw Refusal(with_name(image, why.empty() ? "pixels could not be read" : why));
     };
     const auto in = OIIO::ImageInput::open(std::string(image.name()));
     if (!in)
-        return fail(OIIO::geterror());
+        fail(OIIO::geterror());
     if (const std::string why = bytes_missing(*in, std::string(image.name())); !why.empty())
-        return fail(why);
+        fail(why);
     OIIO::ImageSpec spec = image.spec();
     const OIIO::ImageSpec now = in->spec(image.subimage(), image.miplevel());
     if (now.roi() != spec.roi() || now.deep || spec.deep)
-        return fail("the file has changed since it was opened");
+        fail("the file has changed since it was opened");
     spec.set_format(type);
     spec.tile_width = now.tile_width; // not those of an ImageCache
     spec.tile_height = now.tile_height;
@@ -58,11 +56,10 @@ inline bool read_whole(const OIIO::ImageBuf& image, OIIO::TypeDesc type, OIIO::I
         if (!in->read_image(image.subimage(), image.miplevel(), 0, spec.nchannels, type,
                             whole.localpixels()) ||
             in->has_error())
-            return fail(in->geterror());
-        out = std::move(whole);
-        return true;
+            fail(in->geterror());
+        return whole;
     } catch (const std::bad_alloc& failure) {
-        return fail(memory_text(failure));
+        throw Refusal(with_name(image, memory_text(failure)));
     }
 }
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Whether an ICC profile says sRGB.
 #include <OpenImageIO/strutil.h>
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // JSON texts as files have them: bounded in depth, and numbers that fit where they go. Header only:
 // the checks of sequences read with it, too, which see no symbol of the library but the installed
 // ones.

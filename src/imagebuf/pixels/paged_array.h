@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Numbers in pages of their own: they cost memory once they are written, and pages go back to the
 // system without moving what stays.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // OpenImageIO's thread pool as the rooms below see it.
 #pragma once
 

@@ -1,9 +1,11 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "imagebuf/pixels/planes.h"
 
 #include <algorithm>
 
 #include "imagebuf/pixels/colorimetry.h"
 #include "imagebuf/pixels/has_pixels.h"
+#include "metrics/refusal.h"
 
 namespace tonetool {
 
@@ -52,32 +54,27 @@ std::string with_side(const std::string& side_name, const std::string& why) {
     return side_name + (twice ? why.substr(name.size()) : why);
 }
 
-bool check_readable(const ImageBuf& image, const char* what, std::string& error) {
-    const auto fail = [&](const std::string& why) {
-        error = side_name(what, image) + why;
-        return false;
-    };
+void check_readable(const ImageBuf& image, const char* what) {
+    const auto fail = [&](const std::string& why) { throw Refusal(side_name(what, image) + why); };
     if (!image.initialized() && !image.has_error() && image.name().empty())
-        return fail("is not initialized");
+        fail("is not initialized");
     if (image.spec().nchannels == 0 || image.has_error()) {
         const std::string why = image.geterror();
-        return fail(why.empty() ? "could not be read" : why);
+        fail(why.empty() ? "could not be read" : why);
     }
     if (image.deep())
-        return fail("deep images are not supported; flatten it first");
+        fail("deep images are not supported; flatten it first");
     if (image.spec().depth > 1)
-        return fail("volumes are not supported");
+        fail("volumes are not supported");
     if (image.roi().width() <= 0 || image.roi().height() <= 0)
-        return fail("has no pixels");
+        fail("has no pixels");
     if (!within_integers(image.roi()) || !within_integers(image.roi_full()))
-        return fail(
-            "its data window or display window reaches beyond what 32-bit coordinates tell");
+        fail("its data window or display window reaches beyond what 32-bit coordinates tell");
     // A read that failed, whose error somebody has taken.
     if (!has_pixels(image)) {
         const std::string why = image.geterror();
-        return fail(why.empty() ? "could not be read" : why);
+        fail(why.empty() ? "could not be read" : why);
     }
-    return true;
 }
 
 std::vector<int> channels_of(const ColorChoice& choice) {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The colour of an ImageBuf as planes the algorithms can run on.
 #pragma once
 
@@ -8,6 +9,7 @@
 
 #include "imagebuf/pixels/paged_array.h"
 #include "kernels/views.h"
+#include "metrics/refusal.h"
 #include "tonetool/pixels.h"
 
 namespace tonetool {
@@ -57,8 +59,14 @@ std::string side_name(const char* side, const OIIO::ImageBuf& image);
 /// What a reader said, after the name of the side; that of the file is said once.
 std::string with_side(const std::string& side_name, const std::string& why);
 
-/// Whether an image can be looked at at all: read without error, not deep, not a volume.
-bool check_readable(const OIIO::ImageBuf& image, const char* what, std::string& error);
+/// What `run` returns; a Refusal says which image it is about.
+template <class Run>
+auto of_side(const std::string& side_name, const Run& run) {
+    return refusing_as([&](const std::string& why) { return with_side(side_name, why); }, run);
+}
+
+/// Refuses an image that cannot be looked at at all: not read without error, deep, or a volume.
+void check_readable(const OIIO::ImageBuf& image, const char* what);
 
 /// The channels of a colour, each once: one for a grey picture.
 std::vector<int> channels_of(const ColorChoice& choice);

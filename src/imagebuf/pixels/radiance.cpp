@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "imagebuf/pixels/radiance.h"
 
 #include <OpenImageIO/filesystem.h>

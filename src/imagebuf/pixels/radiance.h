@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What the header of a Radiance file says and OpenImageIO (2.4) does not hand over.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "imagebuf/pixels/row_source.h"
 
 #include <OpenImageIO/imagebufalgo.h>
@@ -9,6 +10,7 @@
 #include "imagebuf/pixels/has_pixels.h"
 #include "imagebuf/pixels/oiio_compat.h"
 #include "imagebuf/pixels/rows_together.h"
+#include "metrics/refusal.h"
 
 namespace tonetool {
 namespace {
@@ -49,43 +51,35 @@ std::vector<ChannelRun> runs_of(std::vector<int> channels) {
     return runs;
 }
 
-bool RowSource::open(const ImageBuf& image, std::vector<ChannelRun> runs, std::string& error) {
+void RowSource::open(const ImageBuf& image, std::vector<ChannelRun> runs) {
     m_image = &image;
     m_runs = std::move(runs);
     m_spec = image.spec();
     m_from_file = is_file_to_read(image);
     if (!m_from_file)
-        return true;
+        return;
     m_state = state();
     m_blocks.resize(m_runs.size());
-    if (open_file(error))
-        return true;
-    error = with_name(image, error);
-    return false;
+    refusing_as([&](const std::string& why) { return named(why); }, [&] { open_file(); });
 }
 
 std::string RowSource::named(const std::string& error) const {
     return with_name(*m_image, error);
 }
 
-bool RowSource::open_file(std::string& error) {
+void RowSource::open_file() {
     const std::string name(m_image->name());
     m_input = OIIO::ImageInput::open(name);
-    if (!m_input) {
-        error = OIIO::geterror();
-        return false;
-    }
-    error = bytes_missing(*m_input, name);
-    if (!error.empty())
-        return false;
+    if (!m_input)
+        throw Refusal(OIIO::geterror());
+    if (const std::string why = bytes_missing(*m_input, name); !why.empty())
+        throw Refusal(why);
     m_spec = m_input->spec(m_image->subimage(), m_image->miplevel());
     m_format = m_input->format_name();
-    if (!same_pixels(m_spec, m_image->spec())) {
-        error = "the file has changed since it was opened";
-        return false;
-    }
+    if (!same_pixels(m_spec, m_image->spec()))
+        throw Refusal("the file has changed since it was opened");
     m_block = rows_together(m_spec, m_format);
-    return unchanged(error);
+    check_unchanged();
 }
 
 RowSource::FileState RowSource::state() const {
@@ -95,11 +89,9 @@ RowSource::FileState RowSource::state() const {
             std::filesystem::file_size(name, ignored)};
 }
 
-bool RowSource::unchanged(std::string& error) const {
-    if (state() == m_state)
-        return true;
-    error = "the file has changed since it was opened";
-    return false;
+void RowSource::check_unchanged() const {
+    if (!(state() == m_state))
+        throw Refusal("the file has changed since it was opened");
 }
 
 int RowSource::rows_at_once(int row, size_t bytes) const {
@@ -135,29 +127,28 @@ size_t RowSource::kept_bytes() const {
     return bytes;
 }
 
-bool RowSource::read(int begin, int end, size_t run, float* out, std::string& error) {
-    if (fetch(begin, end, run, out, error))
-        return true;
-    error = named(error.empty() ? "pixels could not be read" : error);
-    return false;
+void RowSource::read(int begin, int end, size_t run, float* out) {
+    refusing_as(
+        [&](const std::string& why) {
+            return named(why.empty() ? "pixels could not be read" : why);
+        },
+        [&] { fetch(begin, end, run, out); });
 }
 
-bool RowSource::fetch(int begin, int end, size_t run, float* out, std::string& error) {
+void RowSource::fetch(int begin, int end, size_t run, float* out) {
     const ChannelRun& channels = m_runs[run];
     if (!m_from_file) {
         const OIIO::ROI all = m_image->roi();
         const OIIO::ROI rows(all.xbegin, all.xend, begin, end, 0, 1, channels.begin, channels.end);
-        if (m_image->get_pixels(rows, OIIO::TypeFloat, out) && !m_image->has_error())
-            return true;
-        error = m_image->geterror();
-        return false;
+        if (!m_image->get_pixels(rows, OIIO::TypeFloat, out) || m_image->has_error())
+            throw Refusal(m_image->geterror());
+        return;
     }
-    if (!m_input && !open_file(error))
-        return false;
-    if (read_file(begin, end, run, out) && !m_input->has_error())
-        return unchanged(error);
-    error = m_input->geterror();
-    return false;
+    if (!m_input)
+        open_file();
+    if (!read_file(begin, end, run, out) || m_input->has_error())
+        throw Refusal(m_input->geterror());
+    check_unchanged();
 }
 
 bool RowSource::read_file(int begin, int end, size_t run, float* out) {
@@ -203,7 +194,7 @@ void RowSource::rest() {
 namespace {
 
 // The rows of a file into an image of float, which may be narrower.
-bool fill_from_file(RowSource& source, ImageBuf& out, std::string& error) {
+void fill_from_file(RowSource& source, ImageBuf& out) {
     constexpr size_t band = size_t(32) << 20;
     const OIIO::ROI part = out.roi();
     const auto channels = size_t(out.nchannels());
@@ -214,22 +205,18 @@ bool fill_from_file(RowSource& source, ImageBuf& out, std::string& error) {
         const int end = std::min(y + source.rows_at_once(y, band), part.yend);
         auto* to = static_cast<float*>(out.pixeladdr(part.xbegin, y));
         rows.resize(whole > row ? whole * size_t(end - y) : 0);
-        if (!source.read(y, end, 0, rows.empty() ? to : rows.data(), error))
-            return false;
+        source.read(y, end, 0, rows.empty() ? to : rows.data());
         for (size_t i = 0; !rows.empty() && i < size_t(end - y); ++i)
             std::copy_n(rows.data() + i * whole + from, row, to + i * row);
         y = end;
     }
-    return true;
 }
 
 } // namespace
 
-bool copy_pixels(OIIO::ImageBuf& out, const OIIO::ImageBuf& image, const OIIO::ROI& part,
-                 int nthreads, std::string& error) {
+OIIO::ImageBuf copy_pixels(const OIIO::ImageBuf& image, const OIIO::ROI& part, int nthreads) {
     RowSource source;
-    if (!source.open(image, {{0, image.nchannels()}}, error))
-        return false;
+    source.open(image, {{0, image.nchannels()}});
     OIIO::ImageSpec spec = image.spec();
     spec.set_format(OIIO::TypeFloat);
     spec.x = part.xbegin;
@@ -238,32 +225,27 @@ bool copy_pixels(OIIO::ImageBuf& out, const OIIO::ImageBuf& image, const OIIO::R
     spec.height = part.height();
     if (source.from_file()) // nobody gave it tiles yet
         spec.tile_width = spec.tile_height = spec.tile_depth = 0;
-    if (!has_memory(spec.image_bytes(), error)) {
-        error = with_name(image, error);
-        return false;
+    try {
+        expect_memory(spec.image_bytes());
+    } catch (const TooLarge& failure) {
+        throw Refusal(with_name(image, failure.what()));
     }
     OIIO::ImageBuf pixels = allocated_image(spec);
-    if (source.from_file()) {
-        if (!fill_from_file(source, pixels, error))
-            return false;
-    } else if (!OIIO::ImageBufAlgo::copy(pixels, image, OIIO::TypeFloat, pixels.roi(), nthreads) ||
-               image.has_error()) {
-        error = with_name(image, image.has_error() ? image.geterror() : pixels.geterror());
-        return false;
-    }
-    out = std::move(pixels);
-    return true;
+    if (source.from_file())
+        fill_from_file(source, pixels);
+    else if (!OIIO::ImageBufAlgo::copy(pixels, image, OIIO::TypeFloat, pixels.roi(), nthreads) ||
+             image.has_error())
+        throw Refusal(with_name(image, image.has_error() ? image.geterror() : pixels.geterror()));
+    return pixels;
 }
 
-bool part_of(const OIIO::ImageBuf& image, const OIIO::ROI& roi, OIIO::ROI& part,
-             std::string& error) {
-    part = roi.defined() ? OIIO::roi_intersection(roi, image.roi()) : image.roi();
+OIIO::ROI part_of(const OIIO::ImageBuf& image, const OIIO::ROI& roi) {
+    OIIO::ROI part = roi.defined() ? OIIO::roi_intersection(roi, image.roi()) : image.roi();
     part.chbegin = 0;
     part.chend = image.nchannels();
-    if (part.width() > 0 && part.height() > 0)
-        return true;
-    error = "the region of interest holds no pixel of the image";
-    return false;
+    if (part.width() <= 0 || part.height() <= 0)
+        throw Refusal("the region of interest holds no pixel of the image");
+    return part;
 }
 
 } // namespace tonetool

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Rows of an ImageBuf, from memory or straight from its file.
 #pragma once
 
@@ -24,7 +25,7 @@ std::vector<ChannelRun> runs_of(std::vector<int> channels);
 class RowSource {
 public:
     /// The image must live as long as this does.
-    bool open(const OIIO::ImageBuf& image, std::vector<ChannelRun> runs, std::string& error);
+    void open(const OIIO::ImageBuf& image, std::vector<ChannelRun> runs);
 
     bool from_file() const { return m_from_file; }
     /// An error about the image, after the name of its file.
@@ -40,9 +41,9 @@ public:
     size_t kept_bytes() const;
 
     /// Rows of the data window, its whole width, as interleaved floats of one run. From a file
-    /// only one thread at a time may ask. A file that has changed since `open` is an error; every
-    /// error names the file.
-    bool read(int begin, int end, size_t run, float* out, std::string& error);
+    /// only one thread at a time may ask. A file that has changed since `open` is refused; every
+    /// Refusal names the file.
+    void read(int begin, int end, size_t run, float* out);
     /// Gives back what the decoder holds, where it costs little to start it again.
     void rest();
 
@@ -58,12 +59,12 @@ private:
         bool operator==(const FileState& o) const { return written == o.written && size == o.size; }
     };
 
-    bool open_file(std::string& error);
-    bool fetch(int begin, int end, size_t run, float* out, std::string& error);
+    void open_file();
+    void fetch(int begin, int end, size_t run, float* out);
     bool read_file(int begin, int end, size_t run, float* out);
     bool read_blocks(int begin, int end, size_t run, float* out);
     bool read_block(int begin, int end, size_t run, float* out);
-    bool unchanged(std::string& error) const;
+    void check_unchanged() const;
     FileState state() const;
 
     const OIIO::ImageBuf* m_image = nullptr;
@@ -79,12 +80,10 @@ private:
 
 /// What a region of interest is of an image, with all its channels; one without a pixel of it is an
 /// error.
-bool part_of(const OIIO::ImageBuf& image, const OIIO::ROI& roi, OIIO::ROI& part,
-             std::string& error);
+OIIO::ROI part_of(const OIIO::ImageBuf& image, const OIIO::ROI& roi);
 
 /// The pixels of a part of an image, which lies within it, as floats; of a file only once, past
-/// every ImageCache. On failure `out` holds what it did, and the error names the file.
-bool copy_pixels(OIIO::ImageBuf& out, const OIIO::ImageBuf& image, const OIIO::ROI& part,
-                 int nthreads, std::string& error);
+/// every ImageCache. A Refusal names the file.
+OIIO::ImageBuf copy_pixels(const OIIO::ImageBuf& image, const OIIO::ROI& part, int nthreads);
 
 } // namespace tonetool

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Rows of files that can only be read as a whole. Header only: the rooms below the library's read
 // files, too.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Coarse tasks on several threads.
 #pragma once
 
@@ -15,7 +16,8 @@
 
 namespace tonetool {
 
-/// Hands the numbers below `count` out to whoever calls, and keeps what a task threw.
+/// Hands the numbers below `count` out to whoever calls, and keeps what the first of the tasks that
+/// threw one has thrown: the first by number, whichever thread came there first.
 class Tasks {
 public:
     Tasks(int64_t count, const std::function<void(int64_t)>& task) : m_count(count), m_task(task) {}
@@ -26,7 +28,10 @@ public:
                 m_task(i);
             } catch (...) {
                 const std::lock_guard<std::mutex> hold(m_lock);
-                m_failure = std::current_exception();
+                if (i < m_failed) {
+                    m_failed = i;
+                    m_failure = std::current_exception();
+                }
             }
         }
     }
@@ -40,6 +45,7 @@ private:
     const std::function<void(int64_t)>& m_task;
     std::atomic<int64_t> m_next{0};
     std::exception_ptr m_failure;
+    int64_t m_failed = INT64_MAX; ///< its task
     std::mutex m_lock;
 };
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Text of files and of the libraries below, which may be in any encoding.
 #pragma once
 

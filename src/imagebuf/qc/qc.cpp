@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The public function of include/tonetool/qc.h.
 #include "tonetool/qc.h"
 
@@ -8,6 +9,7 @@
 #include "imagebuf/pixels/planes.h"
 #include "imagebuf/qc/qc_header.h"
 #include "imagebuf/qc/qc_scan.h"
+#include "metrics/refusal.h"
 
 namespace tonetool {
 namespace {
@@ -67,18 +69,15 @@ void fill_picture(const QcScan& scan, QcPicture& picture) {
     picture.group_worst = {int(worst.x), int(worst.y), worst.value, 0};
 }
 
-bool measure(QcFacts& facts, const std::vector<const ImageBuf*>& parts, const QcOptions& options,
-             int nthreads, std::string& error) {
-    if (parts.empty()) {
-        error = "there is no image";
-        return false;
-    }
+void measure(QcFacts& facts, const std::vector<const ImageBuf*>& parts, const QcOptions& options,
+             int nthreads) {
+    if (parts.empty())
+        throw Refusal("there is no image");
     for (const ImageBuf* part : parts)
-        if (!check_readable(*part, "source", error))
-            return false;
+        check_readable(*part, "source");
     QcScan scan;
-    if (!scan.open(parts, options, nthreads, error) || !scan.run(error))
-        return false;
+    scan.open(parts, options, nthreads);
+    scan.run();
     facts = {};
     for (const ImageBuf* part : parts)
         facts.parts.push_back(part_facts(*part));
@@ -86,7 +85,6 @@ bool measure(QcFacts& facts, const std::vector<const ImageBuf*>& parts, const Qc
     for (const QcScan::Layer& layer : scan.layers())
         facts.layers.push_back(layer_of(layer));
     fill_picture(scan, facts.picture);
-    return true;
 }
 
 } // namespace
@@ -95,8 +93,7 @@ namespace ToneAlgo {
 
 bool qc_facts(QcFacts& facts, const std::vector<const ImageBuf*>& parts, std::string& error,
               const QcOptions& options, int nthreads) {
-    return contained(
-        error, [&](std::string& why) { return measure(facts, parts, options, nthreads, why); });
+    return contained(error, [&] { measure(facts, parts, options, nthreads); });
 }
 
 } // namespace ToneAlgo

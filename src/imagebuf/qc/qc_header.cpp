@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "imagebuf/qc/qc_header.h"
 
 #include <OpenImageIO/hash.h>

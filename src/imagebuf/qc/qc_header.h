@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What a dailies check looks at in headers, and the parts of a file as if they were one image.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "imagebuf/qc/qc_scan.h"
 
 #include <OpenImageIO/hash.h>
@@ -6,6 +7,7 @@
 
 #include "imagebuf/pixels/parallel.h"
 #include "imagebuf/qc/qc_header.h"
+#include "metrics/refusal.h"
 
 namespace tonetool {
 namespace {
@@ -24,24 +26,22 @@ std::string fingerprint(const void* data, size_t bytes) {
 
 } // namespace
 
-bool QcScan::open(const std::vector<const ImageBuf*>& parts, const QcOptions& options, int nthreads,
-                  std::string& error) {
+void QcScan::open(const std::vector<const ImageBuf*>& parts, const QcOptions& options,
+                  int nthreads) {
     m_nthreads = nthreads;
     m_spec = joined_spec(parts);
-    std::string no_picture;
-    if (!find_picture(m_spec, options.pixels, m_choice, m_space, no_picture)) {
+    try {
+        find_picture(m_spec, options.pixels, m_choice, m_space);
+    } catch (const Refusal&) {
         // Layers of data are looked at without one.
-        if (!options.pixels.layer.empty() || !holds_only_data(m_spec)) {
-            error = no_picture;
-            return false;
-        }
+        if (!options.pixels.layer.empty() || !holds_only_data(m_spec))
+            throw;
         m_choice = {};
         m_space = {};
     }
-    if ((has_picture() &&
-         !choose_light_groups(m_spec, m_choice.layer, options.groups, m_groups, error)) ||
-        !open_parts(parts, error))
-        return false;
+    if (has_picture())
+        m_groups = choose_light_groups(m_spec, m_choice.layer, options.groups);
+    open_parts(parts);
     for (size_t c = 0; c < 3; ++c)
         for (size_t p = 0; p < 3; ++p)
             m_weights[c] += kRec709[p] * m_space.to_rec709[p][c];
@@ -49,25 +49,20 @@ bool QcScan::open(const std::vector<const ImageBuf*>& parts, const QcOptions& op
     place_cells();
     if (has_picture())
         m_largest_begin = m_spikes_done = picture_window().ybegin;
-    return true;
 }
 
-bool QcScan::open_parts(const std::vector<const ImageBuf*>& parts, std::string& error) {
+void QcScan::open_parts(const std::vector<const ImageBuf*>& parts) {
     for (const ImageBuf* image : parts) {
         Part& part = m_parts.emplace_back();
         part.window = image->roi();
         part.channels = image->nchannels();
-        if (!part.source.open(*image, {{0, part.channels}}, error))
-            return false;
+        part.source.open(*image, {{0, part.channels}});
     }
     if (!has_picture())
-        return true;
+        return;
     const size_t picture = place_of(m_choice.r).part;
-    if (place_of(m_choice.g).part != picture || place_of(m_choice.b).part != picture) {
-        error = "red, green and blue of the picture are in different parts of the file";
-        return false;
-    }
-    return true;
+    if (place_of(m_choice.g).part != picture || place_of(m_choice.b).part != picture)
+        throw Refusal("red, green and blue of the picture are in different parts of the file");
 }
 
 QcScan::Place QcScan::place_of(int channel) const {
@@ -123,7 +118,7 @@ QcScan::Layer QcScan::lone_layer(int channel) const {
             {}};
 }
 
-bool QcScan::run(std::string& error) {
+void QcScan::run() {
     int first = m_parts[0].window.ybegin, last = m_parts[0].window.yend;
     for (const Part& part : m_parts) {
         first = std::min(first, part.window.ybegin);
@@ -131,8 +126,7 @@ bool QcScan::run(std::string& error) {
     }
     for (int begin = first; begin < last;) {
         const int end = std::min(begin + m_parts[0].source.rows_at_once(begin, kStep), last);
-        if (!read_band(begin, end, error))
-            return false;
+        read_band(begin, end);
         std::vector<Row> rows(size_t(end - begin));
         make_parallel(m_nthreads)(end - begin,
                                   [&](int64_t i) { scan_row(begin + int(i), rows[size_t(i)]); });
@@ -142,20 +136,17 @@ bool QcScan::run(std::string& error) {
             scan_spikes(end == last);
         begin = end;
     }
-    return true;
 }
 
-bool QcScan::read_band(int begin, int end, std::string& error) {
+void QcScan::read_band(int begin, int end) {
     for (Part& part : m_parts) {
         part.begin = std::clamp(begin, part.window.ybegin, part.window.yend);
         part.end = std::clamp(end, part.begin, part.window.yend);
         const size_t row = size_t(part.window.width()) * size_t(part.channels);
         part.pixels.resize(row * size_t(part.end - part.begin));
-        if (part.begin < part.end &&
-            !part.source.read(part.begin, part.end, 0, part.pixels.data(), error))
-            return false;
+        if (part.begin < part.end)
+            part.source.read(part.begin, part.end, 0, part.pixels.data());
     }
-    return true;
 }
 
 // Null where the part has no such row.

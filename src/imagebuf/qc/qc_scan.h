@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // One pass over all channels of a file.
 #pragma once
 
@@ -26,9 +27,9 @@ public:
     };
 
     /// The images must live as long as this does.
-    bool open(const std::vector<const OIIO::ImageBuf*>& parts, const QcOptions& options,
-              int nthreads, std::string& error);
-    bool run(std::string& error);
+    void open(const std::vector<const OIIO::ImageBuf*>& parts, const QcOptions& options,
+              int nthreads);
+    void run();
 
     const OIIO::ImageSpec& spec() const { return m_spec; } ///< of all parts together
     const ColorChoice& choice() const { return m_choice; }
@@ -68,7 +69,7 @@ private:
         metrics::Hits unseen;
     };
 
-    bool open_parts(const std::vector<const OIIO::ImageBuf*>& parts, std::string& error);
+    void open_parts(const std::vector<const OIIO::ImageBuf*>& parts);
     void list_layers();
     bool belongs(const AovLayer& layer, int channel) const;
     Layer lone_layer(int channel) const;
@@ -77,7 +78,7 @@ private:
     Place place_of(int channel) const;
     const OIIO::ROI& picture_window() const { return m_parts[place_of(m_choice.r).part].window; }
 
-    bool read_band(int begin, int end, std::string& error);
+    void read_band(int begin, int end);
     metrics::ChannelRow row_of(size_t part, int y) const;
     void scan_row(int y, Row& row) const;
     void scan_picture_row(int y, Row& row) const;

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "imagebuf/tone/calibrate.h"
 
 #include <OpenImageIO/strutil.h>
@@ -5,11 +6,13 @@
 #include <limits>
 
 #include "imagebuf/color/luminance_plane.h"
+#include "imagebuf/options/tone_options.h"
 #include "imagebuf/pixels/checks.h"
 #include "imagebuf/pixels/guard.h"
 #include "imagebuf/pixels/parallel.h"
 #include "imagebuf/pixels/row_source.h"
 #include "metrics/order_statistics.h"
+#include "metrics/refusal.h"
 
 namespace tonetool {
 namespace {
@@ -18,23 +21,17 @@ using OIIO::ImageBuf;
 using OIIO::ROI;
 using OIIO::Strutil::fmt::format;
 
-bool check(const CalibrationOptions& options, const ImageBuf& image, std::string& error) {
+void check(const CalibrationOptions& options, const ImageBuf& image) {
     const OIIO::ImageSpec& spec = image.spec();
     const int most = tonemap::LocalMeans::most_levels(spec.width, spec.height);
-    if (options.level < 0 || options.level > most) {
-        error = format("level is {}: must be 0 to {} for an image of {} x {} pixels", options.level,
-                       most, spec.width, spec.height);
-        return false;
-    }
-    if (options.level > 0 && options.method == CalibrationMethod::Manual) {
-        error = "local means need a calibration by means: method mean or auto";
-        return false;
-    }
-    return in_range(options.stops, -126, 126, "stops", error) &&
-           in_range(options.key, 1e-4, 100, "key", error) &&
-           in_range(options.epsilon, 1e-30, 1, "epsilon", error) &&
-           (!options.white_percentile ||
-            in_range(*options.white_percentile, 0.001, 100, "white percentile", error));
+    if (options.level < 0 || options.level > most)
+        throw Refusal(format("level is {}: must be 0 to {} for an image of {} x {} pixels",
+                             options.level, most, spec.width, spec.height));
+    if (options.level > 0 && options.method == CalibrationMethod::Manual)
+        throw Refusal("local means need a calibration by means: method mean or auto");
+    check_options(options);
+    if (options.white_percentile)
+        check_range(*options.white_percentile, 0.001, 100, "white percentile");
 }
 
 // Pixels that are not to be in the statistics become NaN.
@@ -48,18 +45,18 @@ void leave_out(const CalibrationOptions& options, const ColorPlanes& planes,
 
 } // namespace
 
-bool Calibration::make(const ImageBuf& image, const PixelOptions& pixels,
-                       const CalibrationOptions& options, int nthreads, std::string& error) {
+void Calibration::make(const ImageBuf& image, const PixelOptions& pixels,
+                       const CalibrationOptions& options, int nthreads) {
     m_options = options;
     m_region = image.roi();
     m_summary = {};
-    if (!check(options, image, error))
-        return false;
+    check(options, image);
     m_summary.exposure = options.stops;
     m_factor = float(std::exp2(options.stops));
     const bool measured =
         options.method != CalibrationMethod::Manual || options.white_percentile.has_value();
-    return !measured || measure(image, pixels, nthreads, error);
+    if (measured)
+        measure(image, pixels, nthreads);
 }
 
 double Calibration::factor_of(double mean) const {
@@ -71,28 +68,23 @@ double Calibration::factor_of(double mean) const {
     return factor;
 }
 
-bool Calibration::measure(const ImageBuf& image, const PixelOptions& pixels, int nthreads,
-                          std::string& error) {
+void Calibration::measure(const ImageBuf& image, const PixelOptions& pixels, int nthreads) {
     ColorReader reader;
     const bool alpha = m_options.skip_transparent;
-    if (!reader.open(image, pixels, m_region, alpha, nthreads, error))
-        return false;
+    reader.open(image, pixels, m_region, alpha, nthreads);
     ColorPlanes planes = reader.planes();
-    PagedArray<float> plane;
-    if (!reader.read(m_region.ybegin, m_region.yend, planes, error) ||
-        !read_luminance(reader, planes, nthreads, plane, error))
-        return false;
+    reader.read(m_region.ybegin, m_region.yend, planes);
+    const auto plane = read_luminance(reader, planes, nthreads);
     std::vector<float> luminance(plane.data(), plane.data() + luminance_bytes(m_region) / 4);
     leave_out(m_options, planes, luminance);
     auto means = std::make_unique<tonemap::LocalMeans>(luminance.data(), m_region.width(),
                                                        m_region.height(), m_options.level,
                                                        m_options.epsilon, make_parallel(nthreads));
     m_summary.pixels = means->pixels();
-    if (m_summary.pixels == 0) {
-        error = "no pixel is left for the statistics (non-finite, black and transparent ones are "
-                "left out as asked)";
-        return false;
-    }
+    if (m_summary.pixels == 0)
+        throw Refusal(
+            "no pixel is left for the statistics (non-finite, black and transparent ones are "
+            "left out as asked)");
     if (m_options.method != CalibrationMethod::Manual) {
         m_summary.mean = means->mean();
         m_summary.key = m_options.method == CalibrationMethod::Mean
@@ -105,7 +97,6 @@ bool Calibration::measure(const ImageBuf& image, const PixelOptions& pixels, int
         m_means = std::move(means);
     if (m_options.white_percentile)
         find_white(luminance, nthreads);
-    return true;
 }
 
 void Calibration::find_white(std::vector<float>& luminance, int nthreads) {
@@ -136,29 +127,19 @@ void Calibration::row(int y, int xbegin, int xend, float* out) const {
 
 namespace {
 
-bool scaled(ImageBuf& dst, const ImageBuf& src, const CalibrationOptions& options,
-            const PixelOptions& pixels, ROI roi, int nthreads, CalibrationSummary* summary,
-            std::string& error) {
-    ColorChoice choice;
+void scaled(ImageBuf& dst, const ImageBuf& src, const CalibrationOptions& options,
+            const PixelOptions& pixels, ROI roi, int nthreads, CalibrationSummary* summary) {
+    check_readable(src, "source");
+    const ColorChoice choice = chosen_color(deciding_spec(src), pixels);
+    if (choice.display_encoded)
+        throw Refusal("the image is display-encoded (" + choice.space +
+                      "): calibration needs linear values; convert it first or pass from=");
+    if (options.white_percentile)
+        throw Refusal("white is of tone curves: it belongs to tonemap");
+    const ROI part = part_of(src, roi);
     Calibration calibration;
-    if (!check_readable(src, "source", error) ||
-        !ToneAlgo::find_color(deciding_spec(src), pixels, choice, error))
-        return false;
-    if (choice.display_encoded) {
-        error = "the image is display-encoded (" + choice.space +
-                "): calibration needs linear values; convert it first or pass from=";
-        return false;
-    }
-    if (options.white_percentile) {
-        error = "white is of tone curves: it belongs to tonemap";
-        return false;
-    }
-    ROI part;
-    ImageBuf out;
-    if (!part_of(src, roi, part, error) ||
-        !calibration.make(src, pixels, options, nthreads, error) ||
-        !copy_pixels(out, src, part, nthreads, error))
-        return false;
+    calibration.make(src, pixels, options, nthreads);
+    ImageBuf out = copy_pixels(src, part, nthreads);
     const OIIO::ImageSpec& spec = out.spec();
     auto* data = static_cast<float*>(out.localpixels());
     make_parallel(nthreads)(spec.height, [&](int64_t y) {
@@ -174,7 +155,6 @@ bool scaled(ImageBuf& dst, const ImageBuf& src, const CalibrationOptions& option
     if (summary)
         *summary = calibration.summary();
     dst = std::move(out);
-    return true;
 }
 
 } // namespace
@@ -182,9 +162,8 @@ bool scaled(ImageBuf& dst, const ImageBuf& src, const CalibrationOptions& option
 bool ToneAlgo::calibrate(ImageBuf& dst, const ImageBuf& src, const CalibrationOptions& calibration,
                          const PixelOptions& options, CalibrationSummary* summary, ROI roi,
                          int nthreads) {
-    return guarded(dst, "calibrate", [&](std::string& error) {
-        return scaled(dst, src, calibration, options, roi, nthreads, summary, error);
-    });
+    return guarded(dst, "calibrate",
+                   [&] { scaled(dst, src, calibration, options, roi, nthreads, summary); });
 }
 
 } // namespace tonetool

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Calibration of images: statistics to exposures.
 #pragma once
 
@@ -15,8 +16,8 @@ namespace tonetool {
 class Calibration {
 public:
     /// Checks the options, measures where that is needed.
-    bool make(const OIIO::ImageBuf& image, const PixelOptions& pixels,
-              const CalibrationOptions& options, int nthreads, std::string& error);
+    void make(const OIIO::ImageBuf& image, const PixelOptions& pixels,
+              const CalibrationOptions& options, int nthreads);
 
     const CalibrationSummary& summary() const { return m_summary; }
     /// One factor for all pixels.
@@ -26,8 +27,7 @@ public:
     void row(int y, int xbegin, int xend, float* out) const;
 
 private:
-    bool measure(const OIIO::ImageBuf& image, const PixelOptions& pixels, int nthreads,
-                 std::string& error);
+    void measure(const OIIO::ImageBuf& image, const PixelOptions& pixels, int nthreads);
     double factor_of(double mean) const;
     void find_white(std::vector<float>& luminance, int nthreads);
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The public functions of include/tonetool/cgtmo.h.
 #include "tonetool/cgtmo.h"
 
@@ -30,31 +31,26 @@ public:
           m_nthreads(nthreads),
           m_region(src.roi()) {}
 
-    bool run(ImageBuf& dst, ROI roi, std::string& error) {
-        if (!check_readable(m_src, "source", error) || !plan_local(m_options, m_plan, error))
-            return false;
-        ROI part;
-        if (!part_of(m_src, roi, part, error) || !read_color(error) || !measure(error) ||
-            !map(part, error))
-            return false;
-        ImageBuf out;
-        if (!copy_pixels(out, m_src, part, m_nthreads, error))
-            return false;
+    void run(ImageBuf& dst, ROI roi) {
+        check_readable(m_src, "source");
+        m_plan = plan_local(m_options);
+        const ROI part = part_of(m_src, roi);
+        read_color();
+        measure();
+        map(part);
+        ImageBuf out = copy_pixels(m_src, part, m_nthreads);
         place(out);
         tag(out.specmod());
         dst = std::move(out);
-        return true;
     }
 
     CgTmoSummary summary;
 
 private:
-    bool read_color(std::string& error) {
-        if (!m_reader.open(m_src, m_options.pixels, m_region, false, m_nthreads, error))
-            return false;
+    void read_color() {
+        m_reader.open(m_src, m_options.pixels, m_region, false, m_nthreads);
         m_planes = m_reader.planes();
-        if (!m_reader.read(m_region.ybegin, m_region.yend, m_planes, error))
-            return false;
+        m_reader.read(m_region.ybegin, m_region.yend, m_planes);
         summary.layer = m_planes.choice.layer;
         summary.space = m_planes.choice.space;
         summary.nonfinite = m_planes.counts.nonfinite;
@@ -62,14 +58,11 @@ private:
         if (summary.nonfinite > 0)
             summary.warnings.push_back(
                 format("{} pixel(s) are not finite and became black", summary.nonfinite));
-        return true;
     }
 
     // Lwa and Lmax.
-    bool measure(std::string& error) {
-        SceneStats scene;
-        if (!measure_scene(m_src, m_options, m_reader, m_planes, m_nthreads, scene, error))
-            return false;
+    void measure() {
+        SceneStats scene = measure_scene(m_src, m_options, m_reader, m_planes, m_nthreads);
         summary.adaptation = m_plan.what.curve.adaptation = scene.adaptation;
         summary.maximum = m_plan.what.curve.maximum = scene.maximum;
         summary.adaptation_from = scene.adaptation_from;
@@ -79,19 +72,17 @@ private:
         summary.warnings.insert(summary.warnings.end(), scene.warnings.begin(),
                                 scene.warnings.end());
         m_luminance = std::move(scene.luminance);
-        return true;
     }
 
     // The colours of a part of the region become display light. What it takes is gone afterwards,
     // before the result needs memory.
-    bool map(const ROI& part, std::string& error) {
+    void map(const ROI& part) {
         LocalGuides guides(m_src, m_options, m_region, m_nthreads);
         kernels::GuidePlanes image;
         image.stride = image.width = m_region.width();
         image.height = m_region.height();
         if (m_plan.filter == BaseFilter::Guided) {
-            if (!guides.read(m_plan.what, summary, error))
-                return false;
+            guides.read(m_plan.what, summary);
             image = guides.view();
         }
         summary.samples = m_plan.samples;
@@ -102,7 +93,6 @@ private:
         else
             map_at_once(image, window);
         m_luminance = {};
-        return true;
     }
 
     tonemap::LocalOutput output(const kernels::Window& window) {
@@ -214,13 +204,11 @@ private:
 
 bool ToneAlgo::cg_tmo(ImageBuf& dst, const ImageBuf& src, const CgTmoOptions& options,
                       CgTmoSummary* summary, ROI roi, int nthreads) {
-    return guarded(dst, "cg_tmo", [&](std::string& error) {
+    return guarded(dst, "cg_tmo", [&] {
         LocalMapping mapping(src, options, nthreads);
-        if (!mapping.run(dst, roi, error))
-            return false;
+        mapping.run(dst, roi);
         if (summary)
             *summary = mapping.summary;
-        return true;
     });
 }
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "imagebuf/tone/cgtmo_guides.h"
 
 #include <OpenImageIO/strutil.h>
@@ -8,6 +9,7 @@
 #include "imagebuf/pixels/checks.h"
 #include "imagebuf/pixels/parallel.h"
 #include "imagebuf/tone/cgtmo_plan.h"
+#include "metrics/refusal.h"
 #include "tonemap/footprint.h"
 
 namespace tonetool {
@@ -42,40 +44,37 @@ void append(std::vector<std::string>& to, const std::vector<std::string>& from) 
 
 } // namespace
 
-bool LocalGuides::find_in_files(GuideOptions& asked, GBufferNames& names,
-                                std::string& error) const {
+GBufferNames LocalGuides::find_in_files(GuideOptions& asked) const {
+    GBufferNames names;
     for (const Slot& slot : kSlots) {
         const std::string file = asked.*slot.asked;
         if (!is_file(file))
             continue;
         auto image = std::make_shared<ImageBuf>(file);
-        GBufferNames there;
-        if (!image->init_spec(file, 0, 0)) {
-            error = format("{} file \"{}\": {}", slot.name, file, image->geterror());
-            return false;
-        }
-        if (!find_gbuffer(image->spec(), only(slot, ""), there, error))
-            return false;
-        auto& found = there.*slot.found;
+        if (!image->init_spec(file, 0, 0))
+            throw Refusal(format("{} file \"{}\": {}", slot.name, file, image->geterror()));
+        auto found = find_gbuffer(image->spec(), only(slot, "")).*slot.found;
         // A file of one layer needs no name for it.
-        if (!found && !find_gbuffer(image->spec(), only(slot, "R,G,B"), there, error)) {
-            error = format("{} file \"{}\" has no {} layer", slot.name, file, slot.name);
-            return false;
-        }
+        const auto no_layer = [&](const std::string&) {
+            return format("{} file \"{}\" has no {} layer", slot.name, file, slot.name);
+        };
+        if (!found)
+            found = refusing_as(no_layer,
+                                [&] { return find_gbuffer(image->spec(), only(slot, "R,G,B")); }).*
+                    slot.found;
         found->file = std::move(image);
         found->layer = file;
         names.*slot.found = found;
         asked.*slot.asked = "none";
     }
-    return true;
+    return names;
 }
 
 // Renderers that write a part for each layer.
-bool LocalGuides::find_in_parts(const GuideOptions& asked, GBufferNames& names,
-                                std::string& error) const {
+void LocalGuides::find_in_parts(const GuideOptions& asked, GBufferNames& names) const {
     const std::string file(m_image.name());
     if (m_image.nsubimages() < 2 || !is_file(file))
-        return true;
+        return;
     for (int part = 0; part < m_image.nsubimages(); ++part) {
         if (part == m_image.subimage())
             continue;
@@ -84,47 +83,43 @@ bool LocalGuides::find_in_parts(const GuideOptions& asked, GBufferNames& names,
         for (const Slot& slot : kSlots)
             if (names.*slot.found)
                 missing.*slot.asked = "none";
-        GBufferNames there;
-        if (!image->init_spec(file, part, 0) || !find_gbuffer(image->spec(), missing, there, error))
-            return error.empty();
+        if (!image->init_spec(file, part, 0))
+            return;
+        GBufferNames there = find_gbuffer(image->spec(), missing);
         for (const Slot& slot : kSlots)
             if (auto& found = there.*slot.found) {
                 found->file = image;
                 names.*slot.found = found;
             }
     }
-    return true;
 }
 
-bool LocalGuides::find(const std::string& beauty, GBufferNames& names, std::string& error) const {
+GBufferNames LocalGuides::find(const std::string& beauty) const {
     GuideOptions asked{m_options.position, m_options.normal, m_options.albedo, m_options.depth,
                        beauty};
-    GBufferNames in_files;
-    if (!find_in_files(asked, in_files, error) ||
-        !find_gbuffer(m_image.spec(), asked, names, error))
-        return false;
+    GBufferNames in_files = find_in_files(asked);
+    GBufferNames names = find_gbuffer(m_image.spec(), asked);
     for (const Slot& slot : kSlots)
         if (in_files.*slot.found)
             names.*slot.found = in_files.*slot.found;
-    return find_in_parts(asked, names, error);
+    find_in_parts(asked, names);
+    return names;
 }
 
-bool LocalGuides::read(tonemap::LocalOperator& what, CgTmoSummary& summary, std::string& error) {
+void LocalGuides::read(tonemap::LocalOperator& what, CgTmoSummary& summary) {
     m_view.stride = m_view.width = m_region.width();
     m_view.height = m_region.height();
-    GBufferNames names;
-    if (!find(summary.layer, names, error) ||
-        !read_gbuffer(m_image, names, m_region, m_nthreads, m_guides, error))
-        return false;
+    const GBufferNames names = find(summary.layer);
+    m_guides = read_gbuffer(m_image, names, m_region, m_nthreads);
     append(summary.warnings, m_guides.warnings);
     summary.notes = names.notes;
     if (names.depth && m_guides.has_depth())
         summary.depth = names.depth->layer;
-    if (!m_guides.has_position() && m_guides.has_depth() && m_options.position != "none" &&
-        !position_of_depth(summary, error))
-        return false;
+    if (!m_guides.has_position() && m_guides.has_depth() && m_options.position != "none")
+        position_of_depth(summary);
     show(names, summary);
-    return stand_in(what, summary, error) && find_footprint(what, summary, error);
+    stand_in(what, summary);
+    find_footprint(what, summary);
 }
 
 void LocalGuides::show(const GBufferNames& names, CgTmoSummary& summary) {
@@ -146,8 +141,7 @@ void LocalGuides::show(const GBufferNames& names, CgTmoSummary& summary) {
                                        [](uint8_t b) { return b != 0; });
 }
 
-bool LocalGuides::stand_in(tonemap::LocalOperator& what, CgTmoSummary& summary,
-                           std::string& error) {
+void LocalGuides::stand_in(tonemap::LocalOperator& what, CgTmoSummary& summary) {
     const std::tuple<const char*, bool> guides[] = {
         {"position", !m_view.position[0] && m_options.position != "none"},
         {"normal", !m_view.normal[0] && m_options.normal != "none"},
@@ -156,10 +150,8 @@ bool LocalGuides::stand_in(tonemap::LocalOperator& what, CgTmoSummary& summary,
         if (!missing)
             continue;
         const std::string lack = format("no {} among the layers", name);
-        if (m_options.strict) {
-            error = lack + "; " + name + "= names one, \"none\" does without";
-            return false;
-        }
+        if (m_options.strict)
+            throw Refusal(lack + "; " + name + "= names one, \"none\" does without");
         summary.warnings.push_back(lack + ": its term is left out");
     }
     if (!m_view.position[0] && !m_view.normal[0] && !m_view.albedo[0] &&
@@ -168,18 +160,16 @@ bool LocalGuides::stand_in(tonemap::LocalOperator& what, CgTmoSummary& summary,
         summary.warnings.push_back(
             format("without a guide only luminance tells edges: lumsigma={}", kLuminanceSigma));
     }
-    return true;
 }
 
 // Points on the rays of a camera that looks along the depth.
-bool LocalGuides::position_of_depth(CgTmoSummary& summary, std::string& error) {
+void LocalGuides::position_of_depth(CgTmoSummary& summary) {
     auto camera = find_camera(m_image.spec(), m_options.fov);
     const std::string lack =
         format("no position among the layers: it is made of \"{}\"", summary.depth);
-    if (m_options.strict && !camera) {
-        error = "no position among the layers, and its depth would need a field of view (fov=)";
-        return false;
-    }
+    if (m_options.strict && !camera)
+        throw Refusal(
+            "no position among the layers, and its depth would need a field of view (fov=)");
     if (!camera) {
         camera = find_camera(m_image.spec(), kUsualView);
         summary.warnings.push_back(
@@ -204,21 +194,17 @@ bool LocalGuides::position_of_depth(CgTmoSummary& summary, std::string& error) {
         }
     });
     summary.position = "of " + summary.depth;
-    return true;
 }
 
-bool LocalGuides::camera_footprints(std::string& error) {
+void LocalGuides::camera_footprints() {
     const auto camera = find_camera(m_image.spec(), m_options.fov);
-    if (!camera) {
-        error = "footprint=camera: the image has no worldToCamera and worldToNDC; fov= gives the "
-                "horizontal field of view";
-        return false;
-    }
-    if (!camera->parallel && !camera->to_camera && !m_guides.has_depth()) {
-        error =
-            "footprint=camera: neither a depth layer nor worldToCamera tells how far pixels are";
-        return false;
-    }
+    if (!camera)
+        throw Refusal(
+            "footprint=camera: the image has no worldToCamera and worldToNDC; fov= gives the "
+            "horizontal field of view");
+    if (!camera->parallel && !camera->to_camera && !m_guides.has_depth())
+        throw Refusal(
+            "footprint=camera: neither a depth layer nor worldToCamera tells how far pixels are");
     make_parallel(m_nthreads)(m_region.height(), [&](int64_t row) {
         for (int x = 0; x < m_region.width(); ++x) {
             const size_t i = size_t(row) * size_t(m_region.width()) + size_t(x);
@@ -233,24 +219,21 @@ bool LocalGuides::camera_footprints(std::string& error) {
             m_footprints[i] = m_guides.background[i] ? 0 : float(std::abs(z) * camera->step);
         }
     });
-    return true;
 }
 
-bool LocalGuides::find_footprint(tonemap::LocalOperator& what, CgTmoSummary& summary,
-                                 std::string& error) {
+void LocalGuides::find_footprint(tonemap::LocalOperator& what, CgTmoSummary& summary) {
     if (!m_view.position[0])
-        return true;
+        return;
     if (const auto given = number_of(m_options.footprint)) {
         summary.footprint = what.terms.footprint = *given;
-        return in_range(*given, 1e-15, 1e15, "footprint", error);
+        check_range(*given, 1e-15, 1e15, "footprint");
+        return;
     }
-    if (!one_of("footprint", m_options.footprint, {"pixel", "global", "camera", "a number"}, error))
-        return false;
+    check_one_of("footprint", m_options.footprint, {"pixel", "global", "camera", "a number"});
     m_footprints.resize(size_t(m_region.width()) * size_t(m_region.height()));
     m_footprints.expect_all_written();
     if (m_options.footprint == "camera") {
-        if (!camera_footprints(error))
-            return false;
+        camera_footprints();
     } else {
         tonemap::footprints(m_view,
                             m_guides.half_positions ? tonemap::kHalfStep : tonemap::kFloatStep,
@@ -261,7 +244,6 @@ bool LocalGuides::find_footprint(tonemap::LocalOperator& what, CgTmoSummary& sum
     what.terms.footprint = summary.footprint > 0 ? summary.footprint : 1;
     if (m_options.footprint != "global")
         m_view.footprint = m_footprints.data();
-    return true;
 }
 
 } // namespace tonetool

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The guides of CG-TMO: found in the image, in other parts of its file or in files of their own,
 // and what stands in for those that are not there.
 #pragma once
@@ -22,20 +23,20 @@ public:
           m_nthreads(nthreads) {}
 
     /// Fills in the footprint of `what`, and the luminance term if it is all that is left.
-    bool read(tonemap::LocalOperator& what, CgTmoSummary& summary, std::string& error);
+    void read(tonemap::LocalOperator& what, CgTmoSummary& summary);
 
     /// Planes of the region without a value; valid as long as this is.
     const kernels::GuidePlanes& view() const { return m_view; }
 
 private:
-    bool find(const std::string& beauty, GBufferNames& names, std::string& error) const;
-    bool find_in_files(GuideOptions& asked, GBufferNames& names, std::string& error) const;
-    bool find_in_parts(const GuideOptions& asked, GBufferNames& names, std::string& error) const;
-    bool stand_in(tonemap::LocalOperator& what, CgTmoSummary& summary, std::string& error);
-    bool position_of_depth(CgTmoSummary& summary, std::string& error);
+    GBufferNames find(const std::string& beauty) const;
+    GBufferNames find_in_files(GuideOptions& asked) const;
+    void find_in_parts(const GuideOptions& asked, GBufferNames& names) const;
+    void stand_in(tonemap::LocalOperator& what, CgTmoSummary& summary);
+    void position_of_depth(CgTmoSummary& summary);
     void show(const GBufferNames& names, CgTmoSummary& summary);
-    bool find_footprint(tonemap::LocalOperator& what, CgTmoSummary& summary, std::string& error);
-    bool camera_footprints(std::string& error);
+    void find_footprint(tonemap::LocalOperator& what, CgTmoSummary& summary);
+    void camera_footprints();
 
     const OIIO::ImageBuf& m_image;
     const CgTmoOptions& m_options;

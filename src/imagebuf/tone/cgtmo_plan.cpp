@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "imagebuf/tone/cgtmo_plan.h"
 
 #include <OpenImageIO/strutil.h>
@@ -5,7 +6,9 @@
 #include <cmath>
 
 #include "imagebuf/options/cgtmo_options.h"
+#include "imagebuf/options/tone_options.h"
 #include "imagebuf/pixels/names.h"
+#include "metrics/refusal.h"
 #include "tonemap/poisson.h"
 #include "tonetool/tonemap.h"
 
@@ -31,17 +34,14 @@ Enum chosen(const CgTmoOptions& o, const std::string CgTmoOptions::*member) {
     return found;
 }
 
-bool plan_wls(const CgTmoOptions& o, tonemap::WlsTerms& wls, std::string& error) {
+void plan_wls(const CgTmoOptions& o, tonemap::WlsTerms& wls) {
     const std::pair<const char*, const std::optional<double>&> given[] = {
         {"wlsalpha", o.wlsalpha}, {"wlslambda", o.wlslambda}};
     for (const auto& [name, value] : given)
-        if (value && o.filter != "wls") {
-            error = format("{} is of filter=wls, and this is filter={}", name, o.filter);
-            return false;
-        }
+        if (value && o.filter != "wls")
+            throw Refusal(format("{} is of filter=wls, and this is filter={}", name, o.filter));
     wls.alpha = o.wlsalpha.value_or(wls.alpha);
     wls.lambda = o.wlslambda.value_or(wls.lambda);
-    return true;
 }
 
 void plan_filter(const CgTmoOptions& o, bool paper, LocalPlan& plan) {
@@ -59,30 +59,26 @@ void plan_filter(const CgTmoOptions& o, bool paper, LocalPlan& plan) {
 
 } // namespace
 
-bool plan_local(const CgTmoOptions& o, LocalPlan& plan, std::string& error) {
-    plan = {};
-    error = options_fault(o);
-    if (!error.empty())
-        return false;
+LocalPlan plan_local(const CgTmoOptions& o) {
+    check_options(o);
+    check_options(o.lights);
+    LocalPlan plan;
     plan.encode = find_encoding(o.encode);
-    if (!plan.encode) {
-        error = unknown_name("encoding", o.encode, ToneAlgo::display_encodings());
-        return false;
-    }
+    if (!plan.encode)
+        throw Refusal(unknown_name("encoding", o.encode, ToneAlgo::display_encodings()));
     const bool paper = o.preset == "paper";
     const bool logarithmic = o.domain.empty() ? !paper : o.domain == "log";
     plan.filter = chosen<BaseFilter>(o, &CgTmoOptions::filter);
     plan.show = chosen<decltype(plan.show)>(o, &CgTmoOptions::show);
     plan.what.terms.normal_term =
         chosen<decltype(plan.what.terms.normal_term)>(o, &CgTmoOptions::normaldist);
-    if (!plan_wls(o, plan.wls, error))
-        return false;
+    plan_wls(o, plan.wls);
     plan.what.logarithmic = plan.wls.logarithmic = logarithmic;
     plan_filter(o, paper, plan);
     plan.what.curve.bias = o.bias;
     plan.what.curve.display_maximum = o.ldmax;
     plan.what.curve.saturation = o.saturation;
-    return true;
+    return plan;
 }
 
 kernels::TapSets taps_of(const LocalPlan& plan, double sigma) {

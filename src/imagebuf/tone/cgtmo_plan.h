@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The options of CG-TMO as numbers.
 #pragma once
 
@@ -26,7 +27,7 @@ struct LocalPlan {
     int samples = 0; ///< of the window; all of it where it holds no more
 };
 
-bool plan_local(const CgTmoOptions& options, LocalPlan& plan, std::string& error);
+LocalPlan plan_local(const CgTmoOptions& options);
 
 /// The offsets that the filter looks at.
 kernels::TapSets taps_of(const LocalPlan& plan, double sigma);

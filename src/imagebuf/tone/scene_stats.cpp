@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "imagebuf/tone/scene_stats.h"
 
 #include <OpenImageIO/filesystem.h>
@@ -10,6 +11,7 @@
 #include "imagebuf/pixels/checks.h"
 #include "imagebuf/pixels/parallel.h"
 #include "metrics/order_statistics.h"
+#include "metrics/refusal.h"
 #include "tonemap/luminance_means.h"
 
 namespace tonetool {
@@ -36,26 +38,26 @@ public:
           m_out(out),
           m_lights(image, options.pixels, options.lights, options.max_percentile, nthreads) {}
 
-    bool measure(ColorReader& reader, ColorPlanes& planes, std::string& error) {
-        if (!check(error) || !m_lights.read_table(error) || !read_panorama(error) ||
-            !read_luminance(reader, planes, m_nthreads, m_out.luminance, error))
-            return false;
+    void measure(ColorReader& reader, ColorPlanes& planes) {
+        check();
+        m_lights.read_table();
+        read_panorama();
+        m_out.luminance = read_luminance(reader, planes, m_nthreads);
         m_region = planes.region;
         m_means = tonemap::luminance_means(m_out.luminance.data(), m_region.width(),
                                            m_region.height(), kEpsilon, make_parallel(m_nthreads));
-        if (!find_maximum(error) || !find_adaptation(error))
-            return false;
+        find_maximum();
+        find_adaptation();
         compare();
-        return true;
     }
 
 private:
-    bool check(std::string& error);
-    bool read_panorama(std::string& error);
-    bool find_maximum(std::string& error);
-    bool maximum_from(Source source, std::string& why, std::string& error);
-    bool take_lights(Source source, std::string& why, std::string& error);
-    bool find_adaptation(std::string& error);
+    void check();
+    void read_panorama();
+    void find_maximum();
+    void maximum_from(Source source, std::string& why);
+    void take_lights(Source source, std::string& why);
+    void find_adaptation();
     double image_mean() const;
     double panorama_mean() const;
     double image_maximum() const;
@@ -74,41 +76,32 @@ private:
     tonemap::LuminanceMeans m_means; ///< of the image
 };
 
-bool SceneMeasure::check(std::string& error) {
+void SceneMeasure::check() {
     const CgTmoOptions& o = m_options;
-    if (!number_of(o.lwa) &&
-        !one_of("lwa", o.lwa, {"geometric", "harmonic", "arithmetic", "median", "a number"}, error))
-        return false;
-    if (!one_of("maximum", o.maximum, {"auto", "lights", "groups", "env", "image"}, error) ||
-        !one_of("weight", o.weight, {"solidangle", "none"}, error) ||
-        !one_of("index", o.lights.index, {"contribution", "power"}, error) ||
-        !in_range(o.max_percentile, 50, 100, "maxpercentile", error))
-        return false;
-    if (o.lmax && !(*o.lmax > 0 && std::isfinite(*o.lmax)))
-        error = format("lmax is {}: must be positive and finite", *o.lmax);
-    else if (o.lights.table.empty() && o.maximum == "lights")
-        error = "maximum=lights needs a table of lights (lights=)";
-    else if (o.lights.table.empty() && !o.lights.layer.empty() && o.lights.layer != "groups")
-        error = "lightindex= needs a table of lights (lights=)";
-    else if (!o.lights.table.empty() && o.maximum != "auto" && o.maximum != "lights")
-        error = format("maximum={} does not look at the table of lights (valid with it: auto, "
-                       "lights)",
-                       o.maximum);
-    else if (o.env.empty() && o.maximum == "env")
-        error = "maximum=env needs a panorama (env=)";
-    return error.empty();
+    if (!number_of(o.lwa))
+        check_one_of("lwa", o.lwa, {"geometric", "harmonic", "arithmetic", "median", "a number"});
+    if (o.lights.table.empty() && o.maximum == "lights")
+        throw Refusal("maximum=lights needs a table of lights (lights=)");
+    if (o.lights.table.empty() && !o.lights.layer.empty() && o.lights.layer != "groups")
+        throw Refusal("lightindex= needs a table of lights (lights=)");
+    if (!o.lights.table.empty() && o.maximum != "auto" && o.maximum != "lights")
+        throw Refusal(
+            format("maximum={} does not look at the table of lights (valid with it: auto, "
+                   "lights)",
+                   o.maximum));
+    if (o.env.empty() && o.maximum == "env")
+        throw Refusal("maximum=env needs a panorama (env=)");
 }
 
-bool SceneMeasure::read_panorama(std::string& error) {
+void SceneMeasure::read_panorama() {
     const std::string& file = m_options.env;
     if (file.empty())
-        return true;
+        return;
     const auto fail = [&](const std::string& why) {
-        error = format("panorama \"{}\": {}", file, why);
-        return false;
+        throw Refusal(format("panorama \"{}\": {}", file, why));
     };
     if (!OIIO::Filesystem::exists(file))
-        return fail("there is no such file");
+        fail("there is no such file");
     const ImageBuf image(file);
     PanoramaOptions options{m_options.pixels, m_options.weight};
     ColorChoice choice;
@@ -119,7 +112,7 @@ bool SceneMeasure::read_panorama(std::string& error) {
         options.pixels.layer.clear();
     PanoramaStats stats;
     if (!ToneAlgo::panorama_stats(stats, image, why, options, m_nthreads))
-        return fail(why);
+        fail(why);
     if (stats.nonfinite + stats.uncovered > 0)
         m_out.warnings.push_back(format("{} pixel(s) of the panorama are not finite or not there, "
                                         "and are left out",
@@ -129,13 +122,10 @@ bool SceneMeasure::read_panorama(std::string& error) {
     else
         m_no_panorama = format("panorama \"{}\" is black", file);
     if (m_panorama)
-        return true;
-    if (m_options.strict) {
-        error = m_no_panorama;
-        return false;
-    }
+        return;
+    if (m_options.strict)
+        throw Refusal(m_no_panorama);
     m_out.warnings.push_back(m_no_panorama + " and is left out");
-    return true;
 }
 
 bool SceneMeasure::asked(Source source) const {
@@ -143,11 +133,11 @@ bool SceneMeasure::asked(Source source) const {
            (source == Lights && !m_options.lights.table.empty());
 }
 
-bool SceneMeasure::find_maximum(std::string& error) {
+void SceneMeasure::find_maximum() {
     if (m_options.lmax) {
         m_out.maximum = *m_options.lmax;
         m_out.maximum_from = "lmax";
-        return true;
+        return;
     }
     int first = 0;
     for (int i = 0; i < kSources; ++i)
@@ -155,62 +145,53 @@ bool SceneMeasure::find_maximum(std::string& error) {
     std::vector<std::string> missed;
     for (int i = first; i < kSources; ++i) {
         std::string why;
-        if (!maximum_from(Source(i), why, error))
-            return false;
+        maximum_from(Source(i), why);
         if (m_out.maximum > 0) {
             for (const std::string& reason : missed)
                 m_out.warnings.push_back(reason + ": the maximum is that of " + kSourceTitles[i]);
-            return true;
+            return;
         }
-        if (!why.empty() && m_options.strict && asked(Source(i))) {
-            error = why;
-            return false;
-        }
+        if (!why.empty() && m_options.strict && asked(Source(i)))
+            throw Refusal(why);
         if (!why.empty() && (asked(Source(i)) || i == Groups))
             missed.push_back(why);
     }
-    error = "the image is black: there is nothing to tone map (or pass lmax)";
-    return false;
+    throw Refusal("the image is black: there is nothing to tone map (or pass lmax)");
 }
 
-bool SceneMeasure::maximum_from(Source source, std::string& why, std::string& error) {
-    if (source == Lights || source == Groups)
-        return (source == Lights && m_options.lights.table.empty()) ||
-               take_lights(source, why, error);
+void SceneMeasure::maximum_from(Source source, std::string& why) {
+    if (source == Lights || source == Groups) {
+        if (source == Groups || !m_options.lights.table.empty())
+            take_lights(source, why);
+        return;
+    }
     if (source == Env && !m_panorama)
         why = m_no_panorama;
     else
         m_out.maximum = source == Env ? m_panorama->max : image_maximum();
     m_out.maximum_from = kSourceNames[source];
-    return true;
 }
 
-bool SceneMeasure::take_lights(Source source, std::string& why, std::string& error) {
-    std::optional<LightMaximum::Found> found;
-    if (!(source == Lights ? m_lights.by_table(found, why, error)
-                           : m_lights.by_groups(found, why, error)))
-        return false;
+void SceneMeasure::take_lights(Source source, std::string& why) {
+    const auto found = source == Lights ? m_lights.by_table(why) : m_lights.by_groups(why);
     if (!found) {
         // Only who asks for groups hears that there are none.
         if (!asked(source))
             why.clear();
-        return true;
+        return;
     }
     if (!found->additive && !asked(source)) {
         why = found->warnings.back();
-        return true;
+        return;
     }
-    if (m_options.strict && !found->lacks.empty()) {
-        error = found->lacks.front();
-        return false;
-    }
+    if (m_options.strict && !found->lacks.empty())
+        throw Refusal(found->lacks.front());
     for (const auto* list : {&found->lacks, &found->warnings})
         m_out.warnings.insert(m_out.warnings.end(), list->begin(), list->end());
     m_out.maximum = found->luminance;
     m_out.maximum_from = found->measured ? "groups" : "lights";
     m_out.maximum_light = found->light;
     m_out.light_index = found->index;
-    return true;
 }
 
 double SceneMeasure::image_percentile(metrics::Wanted wanted) const {
@@ -242,15 +223,13 @@ double SceneMeasure::panorama_mean() const {
     return m_options.lwa == "harmonic" ? m_panorama->harmonic : m_panorama->geometric;
 }
 
-bool SceneMeasure::find_adaptation(std::string& error) {
+void SceneMeasure::find_adaptation() {
     const auto given = number_of(m_options.lwa);
     m_out.adaptation_from = given ? "lwa" : m_panorama ? "env" : "image";
     m_out.adaptation = given ? *given : m_panorama ? panorama_mean() : image_mean();
-    if (m_out.adaptation > 0 && std::isfinite(m_out.adaptation))
-        return true;
-    error = format("the adaptation luminance (lwa={}) is {}: must be positive and finite",
-                   m_options.lwa, m_out.adaptation);
-    return false;
+    if (!(m_out.adaptation > 0 && std::isfinite(m_out.adaptation)))
+        throw Refusal(format("the adaptation luminance (lwa={}) is {}: must be positive and finite",
+                             m_options.lwa, m_out.adaptation));
 }
 
 // Tables and panoramas in another unit, or at another exposure.
@@ -270,10 +249,11 @@ void SceneMeasure::compare() {
 
 } // namespace
 
-bool measure_scene(const ImageBuf& image, const CgTmoOptions& options, ColorReader& reader,
-                   ColorPlanes& planes, int nthreads, SceneStats& out, std::string& error) {
-    out = {};
-    return SceneMeasure(image, options, nthreads, out).measure(reader, planes, error);
+SceneStats measure_scene(const ImageBuf& image, const CgTmoOptions& options, ColorReader& reader,
+                         ColorPlanes& planes, int nthreads) {
+    SceneStats out;
+    SceneMeasure(image, options, nthreads, out).measure(reader, planes);
+    return out;
 }
 
 } // namespace tonetool

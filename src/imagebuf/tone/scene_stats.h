@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What the curve of CG-TMO follows from: the adaptation luminance and the largest one, from the
 // image, its lights and a panorama of the scene.
 #pragma once
@@ -19,7 +20,7 @@ struct SceneStats {
 };
 
 /// `planes` hold the colour of the whole image, as `reader` reads it.
-bool measure_scene(const OIIO::ImageBuf& image, const CgTmoOptions& options, ColorReader& reader,
-                   ColorPlanes& planes, int nthreads, SceneStats& out, std::string& error);
+SceneStats measure_scene(const OIIO::ImageBuf& image, const CgTmoOptions& options,
+                         ColorReader& reader, ColorPlanes& planes, int nthreads);
 
 } // namespace tonetool

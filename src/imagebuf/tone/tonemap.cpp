@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // ToneAlgo::tonemap.
 #include "tonetool/tonemap.h"
 
@@ -16,6 +17,7 @@
 #include "imagebuf/pixels/row_source.h"
 #include "imagebuf/tone/calibrate.h"
 #include "kernels/curve_rows.h"
+#include "metrics/refusal.h"
 
 namespace tonetool {
 namespace {
@@ -33,74 +35,78 @@ public:
           m_options(options),
           m_nthreads(nthreads) {}
 
-    bool run(ImageBuf& dst, ROI roi, std::string& error) {
-        if (!check_readable(m_src, "source", error) || !find_channels(error))
-            return false;
-        if (!(m_options.view ? open_view(error) : open_curve(error)))
-            return false;
-        ROI part;
-        ImageBuf out;
-        if (!part_of(m_src, roi, part, error) || !copy_pixels(out, m_src, part, m_nthreads, error))
-            return false;
+    void run(ImageBuf& dst, ROI roi) {
+        check_readable(m_src, "source");
+        find_channels();
+        if (m_options.view)
+            open_view();
+        else
+            open_curve();
+        ImageBuf out = copy_pixels(m_src, part_of(m_src, roi), m_nthreads);
         map_rows(out);
         tag(out.specmod());
         warn();
         dst = std::move(out);
-        return true;
     }
 
     TonemapSummary summary;
 
 private:
-    bool find_channels(std::string& error) {
+    // The configuration of a view knows its own spaces, but neither the gamma of a file nor that
+    // colour was multiplied by alpha after it was encoded.
+    bool must_decode(const ImageSpec& spec) const {
+        if (!m_options.view || !m_options.pixels.from.empty())
+            return false;
+        try {
+            ColorChoice choice;
+            ColorSpace space;
+            find_picture(spec, m_options.pixels, choice, space);
+            return space.gamma > 0 || space.straight;
+        } catch (const Refusal&) {
+            return false;
+        }
+    }
+
+    void find_channels() {
         ColorChoice choice;
         const ImageSpec spec = deciding_spec(m_src);
         PixelOptions pixels = m_options.pixels;
-        std::string ignored;
-        // The configuration of a view knows its own spaces, but neither the gamma of a file nor
-        // that colour was multiplied by alpha after it was encoded.
-        m_decode = m_options.view && pixels.from.empty() &&
-                   find_picture(spec, pixels, choice, m_space, ignored) &&
-                   (m_space.gamma > 0 || m_space.straight);
+        m_decode = must_decode(spec);
         if (m_options.view && !m_decode)
             pixels.from = "rec709";
-        if (!find_picture(spec, pixels, choice, m_space, error))
-            return false;
+        find_picture(spec, pixels, choice, m_space);
         m_channels = {{choice.r, choice.g, choice.b}, choice.a, m_options.unpremult};
         summary.layer = choice.layer;
-        return true;
     }
 
-    bool open_view(std::string& error) {
-        if (m_options.calibration.white_percentile) {
-            error = "white is of curves: a view has no such parameter";
-            return false;
-        }
+    void open_view() {
+        if (m_options.calibration.white_percentile)
+            throw Refusal("white is of curves: a view has no such parameter");
         ImageSpec spec = deciding_spec(m_src);
         if (m_decode)
             retag(spec, "lin_rec709");
-        if (!m_view.open(*m_options.view, m_options.pixels.from, spec, error) ||
-            !m_calibration.make(m_src, m_options.pixels, m_options.calibration, m_nthreads, error))
-            return false;
+        m_view.open(*m_options.view, m_options.pixels.from, spec);
+        m_calibration.make(m_src, m_options.pixels, m_options.calibration, m_nthreads);
         summary.curve = m_view.display() + "/" + m_view.view();
         summary.space = m_view.from();
         summary.on = "color";
         summary.calibration = m_calibration.summary();
-        return true;
     }
 
-    bool open_curve(std::string& error) {
-        if (!check_output(error) || !check_white(error) ||
-            !m_calibration.make(m_src, m_options.pixels, m_options.calibration, m_nthreads, error))
-            return false;
+    void open_curve() {
+        check_output();
+        check_white();
+        m_calibration.make(m_src, m_options.pixels, m_options.calibration, m_nthreads);
         CurveOptions curve = m_options.curve;
         if (m_options.calibration.white_percentile)
             curve.parameters["white"] = m_calibration.summary().white;
-        if (!plan_curve(curve, false, m_curve, error)) {
-            if (m_options.calibration.white_percentile)
-                error += " (white is what was measured)";
-            return false;
-        }
+        m_curve = refusing_as(
+            [&](const std::string& why) {
+                return why + (m_options.calibration.white_percentile
+                                  ? " (white is what was measured)"
+                                  : "");
+            },
+            [&] { return plan_curve(curve, false); });
         m_curve.use.clamp = m_options.clamp;
         if (!rec709())
             m_curve.use.weights = luminance_weights();
@@ -109,7 +115,6 @@ private:
         summary.on = m_curve.on;
         summary.space = m_space.name;
         summary.calibration = m_calibration.summary();
-        return true;
     }
 
     bool rec709() const { return m_options.primaries == "rec709"; }
@@ -124,30 +129,23 @@ private:
         return weights;
     }
 
-    bool check_output(std::string& error) {
-        if (m_options.primaries != "rec709" && m_options.primaries != "image") {
-            error = "primaries is \"" + m_options.primaries + "\"; valid: rec709, image";
-            return false;
-        }
+    void check_output() {
+        if (m_options.primaries != "rec709" && m_options.primaries != "image")
+            throw Refusal("primaries is \"" + m_options.primaries + "\"; valid: rec709, image");
         m_encode = find_encoding(m_options.encode);
-        if (!m_encode) {
-            error = unknown_name("encoding", m_options.encode, ToneAlgo::display_encodings());
-            return false;
-        }
-        if (m_options.encode != "none" && !rec709() && !m_space.is_rec709) {
-            error = "encode=" + m_options.encode + " is for displays of Rec.709's primaries, but " +
-                    "primaries=image keeps those of " + m_space.name;
-            return false;
-        }
-        return true;
+        if (!m_encode)
+            throw Refusal(
+                unknown_name("encoding", m_options.encode, ToneAlgo::display_encodings()));
+        if (m_options.encode != "none" && !rec709() && !m_space.is_rec709)
+            throw Refusal("encode=" + m_options.encode +
+                          " is for displays of Rec.709's primaries, but " +
+                          "primaries=image keeps those of " + m_space.name);
     }
 
-    bool check_white(std::string& error) const {
-        if (!m_options.calibration.white_percentile || has_parameter(m_options.curve, "white"))
-            return true;
-        error = (m_options.curve.coeffs.empty() ? m_options.curve.name : "coeffs") +
-                ": has no parameter white that could be measured";
-        return false;
+    void check_white() const {
+        if (m_options.calibration.white_percentile && !has_parameter(m_options.curve, "white"))
+            throw Refusal((m_options.curve.coeffs.empty() ? m_options.curve.name : "coeffs") +
+                          ": has no parameter white that could be measured");
     }
 
     void map_rows(ImageBuf& out) {
@@ -245,13 +243,11 @@ namespace ToneAlgo {
 
 bool tonemap(ImageBuf& dst, const ImageBuf& src, const TonemapOptions& options,
              TonemapSummary* summary, ROI roi, int nthreads) {
-    return guarded(dst, "tonemap", [&](std::string& error) {
+    return guarded(dst, "tonemap", [&] {
         Mapping mapping(src, options, nthreads);
-        if (!mapping.run(dst, roi, error))
-            return false;
+        mapping.run(dst, roi);
         if (summary)
             *summary = mapping.summary;
-        return true;
     });
 }
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What writers that were killed have left behind.
 #pragma once
 

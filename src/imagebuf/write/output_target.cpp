@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "imagebuf/write/output_target.h"
 
 #include <OpenImageIO/strutil.h>
@@ -14,6 +15,7 @@
 
 #include "imagebuf/write/abandoned.h"
 #include "imagebuf/write/temporary_names.h"
+#include "metrics/refusal.h"
 #include "tonetool/write.h"
 
 namespace tonetool {
@@ -89,66 +91,56 @@ OutputTarget::~OutputTarget() {
     forget(m_slot);
 }
 
-bool OutputTarget::open(std::string& error) {
+void OutputTarget::open() {
     struct stat info {};
     const bool exists = ::lstat(m_final.c_str(), &info) == 0;
-    if (exists && S_ISLNK(info.st_mode)) {
-        error = m_links == Links::Refuse ? "is a symbolic link, which is not followed here"
-                                         : "is a circle of symbolic links";
-        return false;
-    }
-    if (exists && S_ISDIR(info.st_mode)) {
-        error = "is a directory";
-        return false;
-    }
+    if (exists && S_ISLNK(info.st_mode))
+        throw Refusal(m_links == Links::Refuse ? "is a symbolic link, which is not followed here"
+                                               : "is a circle of symbolic links");
+    if (exists && S_ISDIR(info.st_mode))
+        throw Refusal("is a directory");
     if (exists && !S_ISREG(info.st_mode)) {
         m_fd = ::open(m_final.c_str(), O_WRONLY | O_CLOEXEC);
-        error = m_fd < 0 ? reason() : "";
-        return m_fd >= 0;
+        if (m_fd < 0)
+            throw Refusal(reason());
+        return;
     }
-    if (exists && ::access(m_final.c_str(), W_OK) != 0) {
-        error = reason();
-        return false;
-    }
+    if (exists && ::access(m_final.c_str(), W_OK) != 0)
+        throw Refusal(reason());
     remove_abandoned_once(m_final);
-    return open_temporary(error) && (!exists || take_rights(info, error));
+    open_temporary();
+    if (exists)
+        take_rights(info);
 }
 
 // A replaced file keeps its rights, and its owner and group where this user may give it to them; a
 // new one has 0666 less the umask.
-bool OutputTarget::take_rights(const struct stat& old, std::string& error) {
+void OutputTarget::take_rights(const struct stat& old) {
     struct stat own {};
     const bool same =
         ::fstat(m_fd, &own) == 0 && own.st_uid == old.st_uid && own.st_gid == old.st_gid;
     const bool given = same || ::fchown(m_fd, old.st_uid, old.st_gid) == 0 ||
                        ::fchown(m_fd, uid_t(-1), old.st_gid) == 0;
     (void)given; // where that is not allowed it is this user's
-    if (::fchmod(m_fd, old.st_mode & 0777) == 0)
-        return true;
-    error = reason();
-    return false;
+    if (::fchmod(m_fd, old.st_mode & 0777) != 0)
+        throw Refusal(reason());
 }
 
 std::string OutputTarget::in_its_name(const std::string& error, const std::string& written) const {
     return OIIO::Strutil::replace(error, written, m_name, true);
 }
 
-bool OutputTarget::commit(std::string& error) {
+void OutputTarget::commit() {
     const bool regular = !m_temporary.empty();
-    if (regular && ::fsync(m_fd) != 0) {
-        error = reason();
-        return false;
-    }
+    if (regular && ::fsync(m_fd) != 0)
+        throw Refusal(reason());
     const int closed = ::close(m_fd);
     m_fd = -1;
-    if (closed != 0 || (regular && ::rename(m_temporary.c_str(), m_final.c_str()) != 0)) {
-        error = reason();
-        return false;
-    }
+    if (closed != 0 || (regular && ::rename(m_temporary.c_str(), m_final.c_str()) != 0))
+        throw Refusal(reason());
     m_temporary.clear();
     if (regular)
         sync_folder_of(m_final);
-    return true;
 }
 
 // Tells who removes what killed writers left that somebody still writes. False where that was
@@ -171,7 +163,7 @@ std::string OutputTarget::unused_name() const {
     return m_final.substr(0, begin) + temporary_name(m_final.substr(begin), ::getpid(), counter++);
 }
 
-bool OutputTarget::open_temporary(std::string& error) {
+void OutputTarget::open_temporary() {
     for (int attempt = 0; attempt < 100 && m_fd < 0; ++attempt) {
         m_temporary = unused_name();
         m_fd = ::open(m_temporary.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
@@ -183,13 +175,11 @@ bool OutputTarget::open_temporary(std::string& error) {
     if (m_fd < 0) {
         m_temporary.clear();
         const auto slash = m_final.rfind('/');
-        error = "cannot create a file in \"" +
-                (slash == std::string::npos ? "." : m_final.substr(0, slash + 1)) +
-                "\": " + reason();
-        return false;
+        throw Refusal("cannot create a file in \"" +
+                      (slash == std::string::npos ? "." : m_final.substr(0, slash + 1)) +
+                      "\": " + reason());
     }
     m_slot = remember(m_temporary);
-    return true;
 }
 
 bool CheckedProxy::seek(int64_t offset) {
@@ -220,6 +210,11 @@ size_t CheckedProxy::pwrite(const void* data, size_t size, int64_t offset) {
     }
     m_size = std::max(m_size, offset + int64_t(size));
     return size;
+}
+
+void CheckedProxy::check() const {
+    if (!m_failure.empty())
+        throw Refusal(m_failure);
 }
 
 void CheckedProxy::note(const std::string& what) {

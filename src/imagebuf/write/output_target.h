@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The file that an output is written to, until it is whole.
 #pragma once
 
@@ -19,9 +20,9 @@ public:
     OutputTarget& operator=(const OutputTarget&) = delete;
     ~OutputTarget();
 
-    bool open(std::string& error);
+    void open();
     /// Everything to the disk, then the new name in one step, then the folder to the disk.
-    bool commit(std::string& error);
+    void commit();
 
     int fd() const { return m_fd; }
     bool is_device() const { return m_temporary.empty(); }
@@ -37,8 +38,8 @@ public:
 
 private:
     bool hold();
-    bool open_temporary(std::string& error);
-    bool take_rights(const struct stat& old, std::string& error);
+    void open_temporary();
+    void take_rights(const struct stat& old);
 
     std::string m_name, m_final, m_temporary; // m_name: as it was asked for
     Links m_links;
@@ -58,6 +59,7 @@ public:
     size_t pwrite(const void* data, size_t size, int64_t offset) override;
     size_t size() const override { return size_t(m_size); }
     const std::string& failure() const { return m_failure; }
+    void check() const; ///< throws the failure, if there is one
 
 private:
     void note(const std::string& what);

@@ -1,3 +1,6 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "metrics/refusal.h"
+
 #include "imagebuf/write/sure_file.h"
 
 #include <cerrno>
@@ -30,22 +33,17 @@ SureFile::~SureFile() {
         ::close(m_memory);
 }
 
-bool SureFile::open(const OutputTarget& target, int64_t bytes, std::string& error) {
+void SureFile::open(const OutputTarget& target, int64_t bytes) {
     if (has_room(target.fd(), bytes)) {
         m_path = target.path();
-        return true;
+        return;
     }
-    if (is_limited(bytes)) {
-        error = "there may be more bytes than a file may have (ulimit -f)";
-        return false;
-    }
+    if (is_limited(bytes))
+        throw Refusal("there may be more bytes than a file may have (ulimit -f)");
     m_memory = ::memfd_create("tonetool", MFD_CLOEXEC);
-    if (m_memory < 0) {
-        error = std::string("cannot create a file in memory: ") + std::strerror(errno);
-        return false;
-    }
+    if (m_memory < 0)
+        throw Refusal(std::string("cannot create a file in memory: ") + std::strerror(errno));
     m_path = "/proc/self/fd/" + std::to_string(m_memory);
-    return true;
 }
 
 void SureFile::copy_to(CheckedProxy& proxy) const {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Where a writer that must not see a failed write writes to.
 #pragma once
 
@@ -19,7 +20,7 @@ public:
     ~SureFile();
 
     /// For at most so many bytes.
-    bool open(const OutputTarget& target, int64_t bytes, std::string& error);
+    void open(const OutputTarget& target, int64_t bytes);
     const std::string& path() const { return m_path; }
     /// To the target, if it is not there already. A failure is the proxy's.
     void copy_to(CheckedProxy& proxy) const;

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // How the temporary files of outputs are called, beside their targets.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Textures, written with the promise of all other outputs.
 #include <OpenImageIO/imagebufalgo.h>
 #include <OpenImageIO/strutil.h>
@@ -11,6 +12,7 @@
 #include "imagebuf/pixels/has_pixels.h"
 #include "imagebuf/write/output_target.h"
 #include "imagebuf/write/write_checks.h"
+#include "metrics/refusal.h"
 #include "tonetool/texture.h"
 
 namespace tonetool {
@@ -32,6 +34,13 @@ struct Job {
 };
 
 thread_local Job* g_job = nullptr;
+
+struct Current {
+    explicit Current(Job& job) { g_job = &job; }
+    Current(const Current&) = delete;
+    Current& operator=(const Current&) = delete;
+    ~Current() { g_job = nullptr; }
+};
 
 // make_texture opens the file that it writes by a name of its own, and the tiled EXR writer (3.1)
 // waits for ever once a write has failed. It is given this writer, which writes to the job's target
@@ -111,69 +120,57 @@ void declare_format() {
     });
 }
 
-bool make(OIIO::ImageBufAlgo::MakeTextureMode mode, const OIIO::ImageBuf& image, Job& job,
-          ImageSpec config, std::string& error) {
+void make(OIIO::ImageBufAlgo::MakeTextureMode mode, const OIIO::ImageBuf& image, Job& job,
+          ImageSpec config) {
     config.attribute("maketx:fileformatname", kFormat);
     const std::string name = job.target.unused_name();
     std::ostringstream told;
-    g_job = &job;
+    const Current current(job);
     const bool made = OIIO::ImageBufAlgo::make_texture(mode, image, name, config, &told);
-    g_job = nullptr;
     for (const std::string& left : {name, job.opened})
         ::unlink(left.c_str());
-    if (made)
-        return true;
-    error = OIIO::geterror();
-    return false;
+    if (!made)
+        throw Refusal(OIIO::geterror());
 }
 
-bool write_checked(OIIO::ImageBufAlgo::MakeTextureMode mode, const OIIO::ImageBuf& image,
-                   const std::string& filename, const ImageSpec& config, std::string& error) {
+void write_checked(OIIO::ImageBufAlgo::MakeTextureMode mode, const OIIO::ImageBuf& image,
+                   const std::string& filename, const ImageSpec& config) {
     const std::string kind(config.get_string_attribute("maketx:fileformatname"));
     Job job(filename);
     job.writer = ImageOutput::create(kind.empty() ? filename : kind);
-    if (!job.writer) {
-        error = OIIO::geterror();
-        return false;
-    }
+    if (!job.writer)
+        throw Refusal(OIIO::geterror());
     const bool proxied = takes_proxy(*job.writer);
-    if (!job.target.open(error))
-        return false;
-    if (job.target.is_device()) {
-        error = "textures cannot be written to a device or pipe";
-        return false;
-    }
+    job.target.open();
+    if (job.target.is_device())
+        throw Refusal("textures cannot be written to a device or pipe");
     declare_format();
-    const bool made = make(mode, image, job, config, error);
-    if (!job.proxy.failure().empty())
-        error = job.proxy.failure();
-    if (made && job.proxy.failure().empty() && (proxied || reads_back(job.target.path(), 1, error)))
-        return job.target.commit(error);
-    error = job.target.in_its_name(error);
-    return false;
+    const auto said_of_target = [&](const std::string& why) {
+        return job.target.in_its_name(job.proxy.failure().empty() ? why : job.proxy.failure());
+    };
+    refusing_as(said_of_target, [&] {
+        make(mode, image, job, config);
+        job.proxy.check();
+        if (!proxied)
+            check_reads_back(job.target.path(), 1);
+    });
+    job.target.commit();
 }
 
 } // namespace
 
 bool write_texture(OIIO::ImageBufAlgo::MakeTextureMode mode, const OIIO::ImageBuf& image,
                    const std::string& filename, const ImageSpec& config, std::string& error) {
-    return contained(error, [&](std::string& why) {
+    return contained(error, [&] {
         // make_texture() takes what a reader has not read for black.
-        OIIO::ImageBuf whole;
-        if (!has_pixels(image)) {
-            why = with_name(image, "the image holds no pixels");
-            return false;
-        }
-        if (image.deep()) {
-            why = with_name(image, "deep images cannot be turned into textures");
-            return false;
-        }
-        if (is_file_to_read(image)) {
-            if (!read_whole(image, image.nativespec().format, whole, why))
-                return false;
-            return write_checked(mode, whole, filename, config, why);
-        }
-        return write_checked(mode, image, filename, config, why);
+        if (!has_pixels(image))
+            throw Refusal(with_name(image, "the image holds no pixels"));
+        if (image.deep())
+            throw Refusal(with_name(image, "deep images cannot be turned into textures"));
+        const bool on_disk = is_file_to_read(image);
+        const OIIO::ImageBuf whole =
+            on_disk ? read_whole(image, image.nativespec().format) : OIIO::ImageBuf();
+        write_checked(mode, on_disk ? whole : image, filename, config);
     });
 }
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Files that are either the old one or the whole new one.
 #include "tonetool/write.h"
 
@@ -17,18 +18,17 @@
 #include "imagebuf/write/output_target.h"
 #include "imagebuf/write/sure_file.h"
 #include "imagebuf/write/write_checks.h"
+#include "metrics/refusal.h"
 
 namespace tonetool {
 namespace {
 
 using OIIO::Strutil::fmt::format;
 
-// What an image says of a failed read, which it may say at any later moment.
-bool said_error(const OIIO::ImageBuf& image, std::string& error) {
-    if (!image.has_error())
-        return false;
-    error = with_name(image, image.geterror());
-    return true;
+// An image may say of a failed read at any later moment.
+void check_no_error(const OIIO::ImageBuf& image) {
+    if (image.has_error())
+        throw Refusal(with_name(image, image.geterror()));
 }
 
 // In pieces, so that a conversion does not take another image's memory.
@@ -48,8 +48,8 @@ bool write_pixels(const OIIO::ImageBuf& image, OIIO::ImageOutput& out) {
 
 // Takes the writer, to destroy it before its proxy: that of EXR files leaves those of MIP levels
 // open when they are closed, and writes where their tiles lie only then.
-bool write_through(std::unique_ptr<OIIO::ImageOutput> out, const std::vector<OutputImage>& images,
-                   const std::string& filename, std::string& error) {
+void write_through(std::unique_ptr<OIIO::ImageOutput> out, const std::vector<OutputImage>& images,
+                   const std::string& filename) {
     std::vector<OIIO::ImageSpec> specs;
     for (const OutputImage& image : images)
         if (!image.mip_level)
@@ -57,9 +57,8 @@ bool write_through(std::unique_ptr<OIIO::ImageOutput> out, const std::vector<Out
     for (size_t i = 0; i < images.size(); ++i) {
         const OIIO::ImageBuf& image = *images[i].pixels;
         const bool on_disk = is_file_to_read(image);
-        OIIO::ImageBuf read;
-        if (on_disk && !read_whole(image, image.spec().format, read, error))
-            return false;
+        const OIIO::ImageBuf read =
+            on_disk ? read_whole(image, image.spec().format) : OIIO::ImageBuf();
         const bool opened =
             i > 0 ? out->open(filename, images[i].spec,
                               images[i].mip_level ? OIIO::ImageOutput::AppendMIPLevel
@@ -67,17 +66,12 @@ bool write_through(std::unique_ptr<OIIO::ImageOutput> out, const std::vector<Out
                   : (specs.size() > 1 ? out->open(filename, int(specs.size()), specs.data())
                                       : out->open(filename, specs[0]));
         const bool written = opened && write_pixels(on_disk ? read : image, *out);
-        if (said_error(image, error))
-            return false;
-        if (!written) {
-            error = out->geterror();
-            return false;
-        }
+        check_no_error(image);
+        if (!written)
+            throw Refusal(out->geterror());
     }
-    if (out->close())
-        return true;
-    error = out->geterror();
-    return false;
+    if (!out->close())
+        throw Refusal(out->geterror());
 }
 
 size_t count_subimages(const std::vector<OutputImage>& images) {
@@ -86,46 +80,35 @@ size_t count_subimages(const std::vector<OutputImage>& images) {
 }
 
 // The WebP writer (OpenImageIO 2.4) frees memory that it never had when it refuses an image.
-bool takes_image(const OIIO::ImageOutput& out, const OIIO::ImageSpec& spec, std::string& error) {
+void check_takes(const OIIO::ImageOutput& out, const OIIO::ImageSpec& spec) {
     constexpr int most = 16383; // of the format
     const bool webp = std::strcmp(out.format_name(), "webp") == 0;
     if (webp && (spec.nchannels < 3 || spec.nchannels > 4))
-        error = format("webp files have 3 or 4 channels, the image has {}", spec.nchannels);
-    else if (webp && (spec.width > most || spec.height > most))
-        error = format("webp files have at most {} x {} pixels, the image has {} x {}", most, most,
-                       spec.width, spec.height);
-    return error.empty();
+        throw Refusal(format("webp files have 3 or 4 channels, the image has {}", spec.nchannels));
+    if (webp && (spec.width > most || spec.height > most))
+        throw Refusal(format("webp files have at most {} x {} pixels, the image has {} x {}", most,
+                             most, spec.width, spec.height));
 }
 
-bool check_images(const std::vector<OutputImage>& images, const OIIO::ImageOutput& out,
-                  std::string& error) {
-    if (images.empty()) {
-        error = "there is no image to write";
-        return false;
-    }
+void check_images(const std::vector<OutputImage>& images, const OIIO::ImageOutput& out) {
+    if (images.empty())
+        throw Refusal("there is no image to write");
     for (const OutputImage& image : images)
         if (!image.pixels || !image.pixels->initialized() || image.pixels->has_error() ||
             !has_pixels(*image.pixels)) {
-            error = "the image holds no pixels";
-            if (image.pixels && !said_error(*image.pixels, error))
-                error = with_name(*image.pixels, error);
-            return false;
+            const std::string none = "the image holds no pixels";
+            if (image.pixels)
+                check_no_error(*image.pixels);
+            throw Refusal(image.pixels ? with_name(*image.pixels, none) : none);
         }
     for (const OutputImage& image : images)
-        if (image.spec.roi() != image.pixels->roi() ||
-            image.spec.deep != image.pixels->spec().deep) {
-            error = "the spec to write does not have the image's size and channels";
-            return false;
-        }
-    error.clear();
+        if (image.spec.roi() != image.pixels->roi() || image.spec.deep != image.pixels->spec().deep)
+            throw Refusal("the spec to write does not have the image's size and channels");
     for (const OutputImage& image : images)
-        if (!takes_image(out, image.spec, error))
-            return false;
-    if (count_subimages(images) > 1 && !out.supports("multiimage")) {
-        error = format("{} files hold one image, there are {}", out.format_name(), images.size());
-        return false;
-    }
-    return true;
+        check_takes(out, image.spec);
+    if (count_subimages(images) > 1 && !out.supports("multiimage"))
+        throw Refusal(
+            format("{} files hold one image, there are {}", out.format_name(), images.size()));
 }
 
 // Rows that are read back at once.
@@ -207,8 +190,7 @@ bool says_how_it_is_turned(const OIIO::ImageOutput& out) {
 
 // Images whose Orientation their format cannot say are turned as it says. `turned` holds what the
 // images then point to.
-bool turn_upright(std::vector<OutputImage>& images, std::deque<OIIO::ImageBuf>& turned,
-                  std::string& error) {
+void turn_upright(std::vector<OutputImage>& images, std::deque<OIIO::ImageBuf>& turned) {
     for (OutputImage& image : images) {
         OIIO::ImageSpec& spec = image.spec;
         if (!image.upright || spec.deep || spec.depth > 1 ||
@@ -216,8 +198,8 @@ bool turn_upright(std::vector<OutputImage>& images, std::deque<OIIO::ImageBuf>& 
             continue;
         OIIO::ImageBuf whole;
         const bool on_disk = is_file_to_read(*image.pixels);
-        if (on_disk && !read_whole(*image.pixels, image.pixels->spec().format, whole, error))
-            return false;
+        if (on_disk)
+            whole = read_whole(*image.pixels, image.pixels->spec().format);
         const int turn = spec.get_int_attribute("Orientation", 1);
         if (image.pixels->orientation() != turn) {
             if (!on_disk)
@@ -226,10 +208,8 @@ bool turn_upright(std::vector<OutputImage>& images, std::deque<OIIO::ImageBuf>& 
         }
         OIIO::ImageBuf upright =
             OIIO::ImageBufAlgo::reorient(whole.initialized() ? whole : *image.pixels);
-        if (upright.has_error()) {
-            error = upright.geterror();
-            return false;
-        }
+        if (upright.has_error())
+            throw Refusal(upright.geterror());
         turned.push_back(std::move(upright));
         image.pixels = &turned.back();
         const OIIO::ImageSpec& now = turned.back().spec();
@@ -240,54 +220,46 @@ bool turn_upright(std::vector<OutputImage>& images, std::deque<OIIO::ImageBuf>& 
         spec.set_roi_full(now.roi_full());
         spec.attribute("Orientation", 1);
     }
-    return true;
 }
 
-bool write_checked(std::vector<OutputImage> images, const std::string& filename,
-                   std::string& error) {
+void write_checked(std::vector<OutputImage> images, const std::string& filename) {
     const std::string kind = images.empty() ? "" : images.front().format_name;
     auto out = OIIO::ImageOutput::create(kind.empty() ? filename : kind);
-    if (!out) {
-        error = OIIO::geterror();
-        return false;
-    }
-    if (!check_images(images, *out, error))
-        return false;
+    if (!out)
+        throw Refusal(OIIO::geterror());
+    check_images(images, *out);
     std::deque<OIIO::ImageBuf> turned;
-    if (!says_how_it_is_turned(*out) && !turn_upright(images, turned, error))
-        return false;
+    if (!says_how_it_is_turned(*out))
+        turn_upright(images, turned);
     OutputTarget target(filename);
-    if (!target.open(error))
-        return false;
+    target.open();
     CheckedProxy proxy(target);
     if (takes_proxy(*out))
         out->set_ioproxy(&proxy);
-    else if (target.is_device()) {
-        error = format("{} files cannot be written to a device or pipe", out->format_name());
-        return false;
-    }
+    else if (target.is_device())
+        throw Refusal(format("{} files cannot be written to a device or pipe", out->format_name()));
     const bool undescribed = lacks_description(*out, images.front().spec);
     SureFile sure;
     const bool surely = needs_sure_file(*out, images);
-    if (surely && !sure.open(target, most_bytes(images), error))
-        return false;
-    const bool written =
-        write_through(std::move(out), images, surely ? sure.path() : target.path(), error);
-    if (written)
+    if (surely)
+        sure.open(target, most_bytes(images));
+    const auto said_of_target = [&](const std::string& why) {
+        const std::string said = proxy.failure().empty() ? why : proxy.failure();
+        return target.in_its_name(surely ? target.in_its_name(said, sure.path()) : said);
+    };
+    refusing_as(said_of_target, [&] {
+        write_through(std::move(out), images, surely ? sure.path() : target.path());
         sure.copy_to(proxy);
-    if (!proxy.failure().empty())
-        error = proxy.failure();
-    // Writers without a proxy, and those that pass it over (several subimages, deep pixels), have
-    // opened the file by its name.
-    if (!written || !proxy.failure().empty() ||
-        (proxy.size() == 0 && !reads_back(target.path(), count_subimages(images), error))) {
-        error = target.in_its_name(surely ? target.in_its_name(error, sure.path()) : error);
-        return false;
-    }
+        proxy.check();
+        // Writers without a proxy, and those that pass it over (several subimages, deep pixels),
+        // have opened the file by its name.
+        if (proxy.size() == 0)
+            check_reads_back(target.path(), count_subimages(images));
+    });
     if (undescribed)
         clear_description(proxy);
-    error = proxy.failure();
-    return error.empty() && target.commit(error);
+    proxy.check();
+    target.commit();
 }
 
 // Runs a write; an error names the file.
@@ -308,20 +280,18 @@ bool takes_proxy(const OIIO::ImageOutput& out) {
     return out.supports("ioproxy") && std::strcmp(out.format_name(), "tiff") != 0;
 }
 
-bool reads_back(const std::string& path, size_t subimages, std::string& error) {
+void check_reads_back(const std::string& path, size_t subimages) {
     const auto in = OIIO::ImageInput::open(path);
     for (int s = 0; in && s < int(subimages) && read_back_levels(*in, s); ++s)
         if (s + 1 == int(subimages))
-            return true;
-    error = "the file that was written cannot be read back: " +
-            (in ? in->geterror() : OIIO::geterror());
-    return false;
+            return;
+    throw Refusal("the file that was written cannot be read back: " +
+                  (in ? in->geterror() : OIIO::geterror()));
 }
 
 bool write_images(const std::vector<OutputImage>& images, const std::string& filename,
                   std::string& error) {
-    return named(filename, error,
-                 [&](std::string& why) { return write_checked(images, filename, why); });
+    return named(filename, error, [&] { write_checked(images, filename); });
 }
 
 bool write_image(const OIIO::ImageBuf& image, const std::string& filename, std::string& error) {
@@ -330,14 +300,13 @@ bool write_image(const OIIO::ImageBuf& image, const std::string& filename, std::
 
 bool write_bytes(const std::string& bytes, const std::string& filename, std::string& error,
                  Links links) {
-    return named(filename, error, [&](std::string& why) {
+    return named(filename, error, [&] {
         OutputTarget target(filename, links);
-        if (!target.open(why))
-            return false;
+        target.open();
         CheckedProxy proxy(target);
         proxy.write(bytes.data(), bytes.size());
-        why = proxy.failure();
-        return why.empty() && target.commit(why);
+        proxy.check();
+        target.commit();
     });
 }
 

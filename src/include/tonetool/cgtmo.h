@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // CG-TMO: local tone mapping of rendered images, guided by the renderer's own G-buffer.
 //
 // F. Banterle et al., CG-TMO; F. Drago et al., "Adaptive Logarithmic Mapping for Displaying High

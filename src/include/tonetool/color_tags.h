@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The colour tags of file headers: reading them, and keeping them true after a conversion.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Options and results that all comparisons of two images have in common.
 #pragma once
 

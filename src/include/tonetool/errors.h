@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Error maps by the metrics that rendering papers report.
 #pragma once
 

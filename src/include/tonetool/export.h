@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Symbol visibility of the tonetool library: only what carries TONETOOL_API is exported.
 //
 // Before 1.0 a new minor version may change names, signatures and behaviour, without an alias for

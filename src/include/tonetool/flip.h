@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // LDR-FLIP and HDR-FLIP: how different two images look, as a map and as numbers.
 //
 // P. Andersson, J. Nilsson, T. Akenine-Moller, M. Oskarsson, K. Astrom, M. D. Fairchild,

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The lights of a rendered scene: light groups, tables of lights, panoramas.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The results of measurements: plain numbers, no images.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Which subimage of a file a function works on.
 #pragma once
 

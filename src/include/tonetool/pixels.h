@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Which pixels of an image a function reads: layer, colour space, geometry, alpha.
 #pragma once
 

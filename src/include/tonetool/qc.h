@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The facts that a dailies check needs of an image: from its header and its pixels, small enough to
 // keep for every frame of a shot.
 #pragma once

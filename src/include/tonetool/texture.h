@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Writing textures so that a failed or interrupted run never harms the file that was there.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // TMQI: how much of an HDR image its tone-mapped image shows, and how natural that looks.
 //
 // H. Yeganeh, Z. Wang, "Objective Quality Assessment of Tone-Mapped Images", IEEE Transactions on

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Showing HDR images: tone curves, calibration, and the views of OpenColorIO configurations.
 //
 // M. Pettineo, "A Closer Look at Tone Mapping" (2010), the sources that ToneAlgo::tone_curves()

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Everything tonetool offers to C++.
 #pragma once
 

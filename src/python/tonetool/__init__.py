@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """HDR image comparison and tone mapping for rendering.
 
 Images are OpenImageIO.ImageBuf objects, or numpy arrays of height x width (grey) or of height x width x

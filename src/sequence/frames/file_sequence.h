@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The files that a pattern names: "shot.#.exr", "shot.1-10x2%04d.exr", "stereo_%V.exr".
 #pragma once
 

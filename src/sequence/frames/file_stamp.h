@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Whether files have changed since a result was computed from them.
 #pragma once
 

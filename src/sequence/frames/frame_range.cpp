@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "sequence/frames/frame_range.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Frame ranges as oiiotool writes them.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A file name with placeholders for numbers and views. All other text stands for itself: it is no
 // regular expression.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Pairs the frames of several sequences: by number, or by position where explicit ranges say so.
 #pragma once
 

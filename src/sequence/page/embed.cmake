@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 # Writes OUT: the parts of the page (FOLDER, CHART) as C++ strings, each with its SHA-256, by which
 # the page's Content-Security-Policy lets them, and nothing else, run.
 cmake_minimum_required(VERSION 3.25)

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The parts of the report's page, which the build embeds in the program.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The faults that --qc finds in the images of a shot, without a reference.
 //
 // They are computed from the facts of the frames alone (FrameResult::qc) and always for the whole

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Fireflies: lone bright pixels that are neither in their neighbourhood nor in other frames.
 #include <OpenImageIO/strutil.h>
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Headers that differ from those of the other frames: windows, channels, types, compression,
 // metadata.
 #include <OpenImageIO/strutil.h>

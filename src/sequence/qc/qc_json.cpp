@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "sequence/qc/qc_json.h"
 
 #include <stdexcept>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The facts that --qc measured of a frame and the limits it was given, as the text of
 // FrameResult::qc.
 #pragma once

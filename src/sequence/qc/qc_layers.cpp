@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Layers that turn black or are missing, and light groups that do not add up to the beauty.
 #include <OpenImageIO/strutil.h>
 #include <algorithm>

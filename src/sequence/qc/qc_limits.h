@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The faults that --qc looks for, each with its severity and threshold.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Consecutive frames: gaps, duplicates, flicker, jumps.
 #include <OpenImageIO/strutil.h>
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The faults that a single image shows: black, constant, NaN, Inf, negative, alpha.
 #include <OpenImageIO/strutil.h>
 

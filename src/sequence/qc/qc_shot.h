@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The frames of one view while their faults are searched for, and the searches.
 #pragma once
 

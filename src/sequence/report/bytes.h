@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // 8-bit images, by look-up tables that the library's own functions fill.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // An image as the text of a data URI, to be embedded in a page.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The report's files, written at the end of a check.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The report: one HTML file that holds everything it shows and can load nothing.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The images of one frame in the report.
 #pragma once
 

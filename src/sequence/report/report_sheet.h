@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The contact sheet: every frame as a thumbnail with its number and status.
 #pragma once
 

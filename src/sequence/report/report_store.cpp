@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "sequence/report/report_store.h"
 
 #include <OpenImageIO/filesystem.h>

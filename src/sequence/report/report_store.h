@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Keeps the images of a shot's frames while it is checked, until the report is written.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "sequence/report/report_text.h"
 
 #include <OpenImageIO/strutil.h>

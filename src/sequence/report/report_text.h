@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Texts in a page: escaping, the template, and the Content-Security-Policy.
 #pragma once
 

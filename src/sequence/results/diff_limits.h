@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What --diff lets pass, and the options that say so.
 #pragma once
 

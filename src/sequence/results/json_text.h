@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Everything that the JSON files of checks have in common: their first keys, their errors, their
 // layout.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The library's summaries as measurements of a check.
 #pragma once
 

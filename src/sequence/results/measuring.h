@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The commands of a check that measure, and what their numbers are.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "sequence/results/probe.h"
 
 #include <OpenImageIO/deepdata.h>
@@ -84,9 +85,11 @@ Probe probed(const std::vector<std::string>& files) {
     for (const std::string& file : files) {
         std::string why;
         std::optional<Size> size;
-        const bool read = contained(why, [&](std::string& reason) {
+        const bool read = contained(why, [&] {
+            std::string reason;
             size = readable(file, reason);
-            return size.has_value();
+            if (!size)
+                throw Refusal(reason);
         });
         if (!read) {
             return {Status::Unreadable,

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Finds why a frame could not be checked, from its files alone.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The results of a check: those of each frame, and the verdict of the shot.
 //
 // In JSON (results_json.h) these are objects whose keys are the names of the fields here; nothing

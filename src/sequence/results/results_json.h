@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The versioned JSON form of results. Numbers come back to the bit; NaN and infinities are the
 // texts "nan", "inf", "-inf". Fields that are empty or unset are left out; bytes of names that are
 // no UTF-8 become U+FFFD.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The exposures of a shot: measured frame by frame, combined, and kept in files.
 #pragma once
 

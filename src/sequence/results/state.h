@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // --state: the results of finished frames, kept so that a killed run can be continued.
 #pragma once
 

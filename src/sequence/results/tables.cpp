@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "sequence/results/tables.h"
 
 #include <OpenImageIO/strutil.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Results as tables for other programs: CSV and JUnit's XML.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What the words of a check ask of its measurements.
 #pragma once
 

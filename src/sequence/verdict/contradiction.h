@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Numbers of a measurement that contradict each other. What is wrong is the end of a sentence,
 // empty where nothing is.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Whether a measurement was held to the limits that its check asks for.
 #pragma once
 

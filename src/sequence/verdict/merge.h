@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // --merge: the results of parts of a shot as one.
 #pragma once
 

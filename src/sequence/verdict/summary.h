@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What a file of results says of all its frames together.
 #pragma once
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """A differential case: one command line, or several joined by &&, and what may differ in it."""
 
 import shlex

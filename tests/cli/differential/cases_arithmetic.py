@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Arithmetic of images and constants, values in range, arithmetic on subimages."""
 
 from case import table

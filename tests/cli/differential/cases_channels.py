@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Channels, subimages, MIP levels, deep images, the stack."""
 
 from case import table

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Colour management, premultiplication, colour maps."""
 
 from case import table

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Created images, drawing, filters, Fourier transforms."""
 
 from case import table

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Errors: one of every command at least, together with those of the other tables."""
 
 from case import table

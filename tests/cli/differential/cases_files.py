@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Reading and writing: formats, data types, options of outputs and inputs."""
 
 from case import table

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Windows, resampling, rotations, warps, compositing and mosaics."""
 
 from case import table

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Expressions, control flow, wildcards, frames, views, and where oiiotool is lenient."""
 
 from case import table

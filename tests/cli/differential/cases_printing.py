@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """What is printed: information, statistics, comparisons; and metadata."""
 
 from case import table

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """What oiiotool takes without saying so: hidden commands, modifiers that no help lists, and what
 comes of values that are left out, of files without alpha, of deep files."""
 

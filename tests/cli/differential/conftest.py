@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """The differential tests: the same command lines by tonetool --compat and by stock oiiotool."""
 
 import os

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """How two image files differ: every subimage and MIP level, pixels by their bits, metadata."""
 
 import numpy as np

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """The small images that the differential cases read. Every byte follows from fixed seeds."""
 
 import shutil

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Cases that leave no state behind run several in one process, since starting one takes most of
 the time: "a --x -o out.exr" and "b --y -o out.exr" become "a --x -o one.exr b --y -o two.exr"."""
 

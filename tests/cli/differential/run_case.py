@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Runs a case through a program in a fresh folder, and says how two runs differ."""
 
 import hashlib

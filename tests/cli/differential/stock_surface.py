@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """What oiiotool 2.4.7 takes: read out of its help and its binary, and, where neither says it, written
 down here from its manual, its changelog and what it was seen to look for while it ran."""
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Every case of the tables: exit status, files, images and text are those of stock oiiotool."""
 
 import pytest

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """What oiiotool takes against the tables, and the registry against both: no command or modifier
 without a case, no command without help and an error case."""
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Ten chains as productions write them, on sequences of twenty frames."""
 
 import pytest

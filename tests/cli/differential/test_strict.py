@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Without --compat nothing that oiiotool takes is refused but what loses work there."""
 
 import os

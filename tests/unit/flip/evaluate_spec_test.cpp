@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What flip::evaluate promises, whatever its kernels do to be quick.
 #include <gtest/gtest.h>
 

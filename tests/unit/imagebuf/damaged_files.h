@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Files that cannot be read whole, each in its own way.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Images as files of a test's own folder.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Small images for tests, the same on every machine.
 #pragma once
 

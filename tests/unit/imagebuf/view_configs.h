@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Configurations of OpenColorIO, written into a test's own folder.
 #pragma once
 

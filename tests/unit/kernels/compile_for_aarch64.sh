@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: BSD-3-Clause
 # compile_for_aarch64.sh <src> <folder that holds hwy/> [-D...] <source of src/kernels>...
 # Checks, without writing anything, that the kernels compile for 64-bit ARM. 77: no compiler for it.
 set -euo pipefail

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Every curve of the registry, with several values of its parameters.
 #pragma once
 
@@ -5,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "metrics/refusal.h"
 #include "tonemap/curves.h"
 
 namespace tonetool::kernels {
@@ -20,10 +22,12 @@ struct CurveCase {
 inline std::vector<CurveCase> cases_of(const tonemap::Curve& curve) {
     std::vector<CurveCase> cases;
     const auto add = [&](const std::map<std::string, double>& given, const std::string& what) {
-        tonemap::CurveValues values;
-        std::string error;
-        if (tonemap::curve_values(curve, given, false, values, error))
+        try {
+            const auto values = tonemap::curve_values(curve, given, false);
             cases.push_back({curve.name + what, curve.make(values), given.empty()});
+        } catch (const Refusal&) {
+            // These do not go together.
+        }
     };
     add({}, "");
     for (const auto& p : curve.parameters)

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The tests of the lanes compare with the reference implementation; here it meets numbers that the
 // published program gives.
 #include "kernels/flip_reference.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Lanes on every instruction set of this machine against the double-precision reference
 // implementation.
 #include "kernels/flip_tile.h"

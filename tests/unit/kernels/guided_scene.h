@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Small images with G-buffers, the same on every machine and with every standard library.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // How close float lanes must come to the double-precision reference implementation, and what they
 // are compared on.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Ways to run tasks, under which results must not differ.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "tonemap/curves.h"
 
 #include <gmock/gmock.h>
@@ -10,6 +11,7 @@
 
 #include "curve_cases.h"
 #include "kernels/curve_reference.h"
+#include "refusal.h"
 #include "tonemap/rational.h"
 
 namespace tonetool::tonemap {
@@ -20,12 +22,7 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 
 std::string error_of(const char* name, const std::map<std::string, double>& given) {
-    CurveValues values = {-1};
-    std::string error;
-    const bool fine = curve_values(*find_curve(name), given, false, values, error);
-    EXPECT_EQ(fine, error.empty());
-    EXPECT_EQ(fine, values != CurveValues{-1}) << "left alone where there is an error";
-    return error;
+    return refusal([&] { curve_values(*find_curve(name), given, false); });
 }
 
 TEST(Curves, AreNamedOnceAndDescribed) {
@@ -64,19 +61,12 @@ TEST(Curves, ParameterNamesAreListedOnce) {
 
 TEST(CurveValues, AreDefaultsWithThoseGiven) {
     const Curve& drago = *find_curve("drago");
-    CurveValues values;
-    std::string error;
-    ASSERT_TRUE(curve_values(drago, {}, false, values, error));
-    EXPECT_THAT(values, ElementsAre(5, 0.85));
-    ASSERT_TRUE(curve_values(drago, {{"bias", 0.7}}, false, values, error));
-    EXPECT_THAT(values, ElementsAre(5, 0.7));
+    EXPECT_THAT(curve_values(drago, {}, false), ElementsAre(5, 0.85));
+    EXPECT_THAT(curve_values(drago, {{"bias", 0.7}}, false), ElementsAre(5, 0.7));
     const Curve& aces = *find_curve("aces");
-    ASSERT_TRUE(curve_values(aces, {}, false, values, error));
-    EXPECT_THAT(values, ElementsAre(1));
-    ASSERT_TRUE(curve_values(aces, {}, true, values, error));
-    EXPECT_THAT(values, ElementsAre(0.6));
-    ASSERT_TRUE(curve_values(aces, {{"prescale", 0.8}}, true, values, error));
-    EXPECT_THAT(values, ElementsAre(0.8));
+    EXPECT_THAT(curve_values(aces, {}, false), ElementsAre(1));
+    EXPECT_THAT(curve_values(aces, {}, true), ElementsAre(0.6));
+    EXPECT_THAT(curve_values(aces, {{"prescale", 0.8}}, true), ElementsAre(0.8));
 }
 
 TEST(CurveValues, SayWhatWouldBeValid) {
@@ -134,9 +124,7 @@ TEST(Curves, WhiteBecomesOne) {
             for (double white : {0.5, 1.0, 11.2, 1000.0}) {
                 if (p.name != std::string("white") || row.name == std::string("exponential"))
                     continue; // the latter reaches 1 - 1/e there
-                CurveValues values;
-                std::string error;
-                ASSERT_TRUE(curve_values(row, {{"white", white}}, false, values, error)) << error;
+                const CurveValues values = curve_values(row, {{"white", white}}, false);
                 EXPECT_NEAR(curve_reference(row.make(values), white), 1, 1e-12) << row.name;
             }
 }
@@ -167,11 +155,8 @@ TEST(Coefficients, OfNamedCurvesAreThoseKnown) {
 TEST(Coefficients, MakeTheSameCurveAsTheName) {
     for (const std::string& name : rational_curve_names()) {
         const auto k = rational_curve(name)->k;
-        CurveValues values;
-        std::string error;
-        ASSERT_TRUE(curve_values(*find_curve(name), {}, true, values, error));
-        kernels::CurveNumbers numbers;
-        ASSERT_TRUE(coefficient_curve({k.begin(), k.end()}, numbers, error));
+        const CurveValues values = curve_values(*find_curve(name), {}, true);
+        const kernels::CurveNumbers numbers = coefficient_curve({k.begin(), k.end()});
         EXPECT_EQ(numbers.p, find_curve(name)->make(values).p) << name;
     }
 }
@@ -185,12 +170,8 @@ TEST(Coefficients, MustBeSixAndUsable) {
                  {{1, 2, 3, 4, 5, 6, 7}, "not 7"},
                  {{0, inf, 0, 0, 0, 1}, "not finite"},
                  {{0, 1, 0, 0, 0, 0}, "denominator is 0"}};
-    for (const auto& c : cases) {
-        kernels::CurveNumbers numbers;
-        std::string error;
-        EXPECT_FALSE(coefficient_curve(c.k, numbers, error));
-        EXPECT_THAT(error, HasSubstr(c.word));
-    }
+    for (const auto& c : cases)
+        EXPECT_THAT(refusal([&] { coefficient_curve(c.k); }), HasSubstr(c.word));
 }
 
 } // namespace

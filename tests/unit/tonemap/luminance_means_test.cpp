@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "tonemap/luminance_means.h"
 
 #include <gtest/gtest.h>

@@ -1,7 +1,9 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include <gmock/gmock.h>
 
 #include "imagebuf/aov/gbuffer.h"
 #include "images.h"
+#include "refusal.h"
 
 namespace tonetool {
 namespace {
@@ -34,10 +36,7 @@ std::string name_of(const std::optional<GuideChannels>& guide) {
 }
 
 GBufferNames found(const ImageSpec& spec, const GuideOptions& options = {}) {
-    GBufferNames names;
-    std::string error;
-    EXPECT_TRUE(find_gbuffer(spec, options, names, error)) << error;
-    return names;
+    return find_gbuffer(spec, options);
 }
 
 Names found_names(const ImageSpec& spec, const GuideOptions& options = {}) {
@@ -46,10 +45,7 @@ Names found_names(const ImageSpec& spec, const GuideOptions& options = {}) {
 }
 
 std::string failure(const ImageSpec& spec, const GuideOptions& options) {
-    GBufferNames names;
-    std::string error;
-    EXPECT_FALSE(find_gbuffer(spec, options, names, error));
-    return error;
+    return refusal([&] { find_gbuffer(spec, options); });
 }
 
 struct Case {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "imagebuf/aov/gbuffer.h"
 
 #include <gmock/gmock.h>
@@ -6,6 +7,7 @@
 #include <limits>
 
 #include "files.h"
+#include "refusal.h"
 
 namespace tonetool {
 namespace {
@@ -58,14 +60,8 @@ ImageBuf scene(const Change& change = {}, OIIO::TypeDesc format = OIIO::TypeFloa
 
 GBuffer read(const ImageBuf& image, const GuideOptions& options = {}, ROI region = {},
              int nthreads = 1) {
-    GBufferNames names;
-    GBuffer out;
-    std::string error;
-    EXPECT_TRUE(find_gbuffer(image.spec(), options, names, error)) << error;
-    EXPECT_TRUE(
-        read_gbuffer(image, names, region.defined() ? region : image.roi(), nthreads, out, error))
-        << error;
-    return out;
+    return read_gbuffer(image, find_gbuffer(image.spec(), options),
+                        region.defined() ? region : image.roi(), nthreads);
 }
 
 GuideOptions without(bool position, bool normal, bool albedo, bool depth) {
@@ -397,12 +393,10 @@ TEST(GBuffer, FromFilesAsFromMemory) {
 }
 
 TEST(GBuffer, WhatCannotBeReadIsAnError) {
-    GBuffer g;
-    std::string error;
-    EXPECT_FALSE(read_gbuffer(ImageBuf(), {}, ROI(0, 1, 0, 1), 1, g, error));
-    EXPECT_EQ(error, "guide image: is not initialized");
-    EXPECT_FALSE(read_gbuffer(scene(), {}, ROI(0, 0, 0, 1), 1, g, error));
-    EXPECT_EQ(error, "the region holds no pixel");
+    EXPECT_EQ(refusal([] { read_gbuffer(ImageBuf(), {}, ROI(0, 1, 0, 1), 1); }),
+              "guide image: is not initialized");
+    EXPECT_EQ(refusal([] { read_gbuffer(scene(), {}, ROI(0, 0, 0, 1), 1); }),
+              "the region holds no pixel");
 }
 
 TEST(GBuffer, OfRenderedScenes) {

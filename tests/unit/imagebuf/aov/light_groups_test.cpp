@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "imagebuf/aov/light_groups.h"
 
 #include <gmock/gmock.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What the headers of Radiance files and ICC profiles say of the colour.
 #include <OpenImageIO/filesystem.h>
 #include <cmath>

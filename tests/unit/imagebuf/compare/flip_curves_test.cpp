@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // HDR-FLIP under every tone curve of the registry.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What is not colour: NaN, Inf, negative values, alpha.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Options of LDR-FLIP and HDR-FLIP: what they do and what is refused.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

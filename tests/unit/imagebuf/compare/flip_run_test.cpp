@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Regions, threads and several tests: none of them changes a bit.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Laws of LDR-FLIP and HDR-FLIP as a caller sees them, and what they refuse.
 #include "tonetool/flip.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // HDR-FLIP and LDR-FLIP against error maps of the published C++ program (see the MANIFEST beside
 // the goldens). Every line of a results.jsonl is one comparison.
 //

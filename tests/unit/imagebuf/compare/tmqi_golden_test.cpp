@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // TMQI against the numbers of the authors' program (see the MANIFEST beside the goldens).
 #include <gtest/gtest.h>
 

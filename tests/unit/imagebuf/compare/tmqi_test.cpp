@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "tonetool/tmqi.h"
 
 #include <gmock/gmock.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "tonetool/lut.h"
 
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Bands of rows, from memory or from files, give the bits of the whole image.
 #include "imagebuf/pixels/bands.h"
 
@@ -8,6 +9,7 @@
 
 #include "files.h"
 #include "imagebuf/compare/flip_run.h"
+#include "refusal.h"
 
 namespace tonetool {
 namespace {
@@ -35,16 +37,14 @@ HdrFlipOptions all_maps() {
 Outcome run(const ImageBuf& reference, const Images& tests, const HdrFlipOptions& options,
             int band_rows, ROI roi = {}) {
     Outcome out;
-    FlipPlan plan;
-    EXPECT_TRUE(plan_hdr(options, plan, out.error)) << out.error;
+    FlipPlan plan = plan_hdr(options);
     plan.band_rows = band_rows;
     std::vector<ImageBuf> dst(tests.size());
     std::vector<ImageBuf*> to;
     for (ImageBuf& image : dst)
         to.push_back(&image);
-    const bool good =
-        run_flip(plan, reference, tests, to, roi, 0, out.maps, out.results, out.error);
-    EXPECT_EQ(good, out.error.empty());
+    out.error =
+        refusal([&] { run_flip(plan, reference, tests, to, roi, 0, out.maps, out.results); });
     return out;
 }
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Every public function that takes images, over files that cannot be read whole.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

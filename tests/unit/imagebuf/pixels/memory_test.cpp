@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The bound on memory: what it admits and what it refuses.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -5,6 +6,7 @@
 #include "files.h"
 #include "imagebuf/pixels/bands.h"
 #include "imagebuf/pixels/paged_array.h"
+#include "refusal.h"
 #include "tonetool/flip.h"
 
 namespace tonetool {
@@ -40,8 +42,7 @@ uint64_t held(const Bands& bands, int begin, int end) {
 TEST(Bands, StayWithinTheBound) {
     for (uint64_t memory : {119, 120, 125, 140, 160}) {
         Bands bands;
-        std::string error;
-        ASSERT_TRUE(bands.plan(memory * kMega, needs(), kRegion, kRegion, error)) << error;
+        bands.plan(memory * kMega, needs(), kRegion, kRegion);
         EXPECT_FALSE(bands.one());
         int count = 0;
         for (int begin = kRegion.ybegin; begin < kRegion.yend; ++count) {
@@ -53,8 +54,7 @@ TEST(Bands, StayWithinTheBound) {
         EXPECT_GT(count, 1);
     }
     Bands bands;
-    std::string error;
-    ASSERT_TRUE(bands.plan(400 * kMega, needs(), kRegion, kRegion, error));
+    bands.plan(400 * kMega, needs(), kRegion, kRegion);
     EXPECT_TRUE(bands.one());
     EXPECT_EQ(bands.end_of(kRegion.ybegin), kRegion.yend);
     EXPECT_EQ(bands.threads(), 8);
@@ -62,12 +62,11 @@ TEST(Bands, StayWithinTheBound) {
 
 TEST(Bands, ABoundThatIsTooSmallSaysWhatWouldDo) {
     Bands bands;
-    std::string error;
-    EXPECT_FALSE(bands.plan(100 * kMega, needs(), kRegion, kRegion, error));
-    EXPECT_THAT(error, AllOf(HasSubstr("memory is 100M"), HasSubstr("needs at least 118M"),
-                             HasSubstr("8M for its maps")));
-    EXPECT_TRUE(bands.plan(118 * kMega, needs(), kRegion, kRegion, error));
-    EXPECT_FALSE(bands.plan(117 * kMega, needs(), kRegion, kRegion, error));
+    EXPECT_THAT(refusal([&] { bands.plan(100 * kMega, needs(), kRegion, kRegion); }),
+                AllOf(HasSubstr("memory is 100M"), HasSubstr("needs at least 118M"),
+                      HasSubstr("8M for its maps")));
+    EXPECT_NO_THROW(bands.plan(118 * kMega, needs(), kRegion, kRegion));
+    EXPECT_THROW(bands.plan(117 * kMega, needs(), kRegion, kRegion), Refusal);
 }
 
 TEST(Memory, ThePublicFunctionsKnowTheBound) {

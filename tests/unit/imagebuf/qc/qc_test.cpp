@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "tonetool/qc.h"
 
 #include <OpenImageIO/filesystem.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "tonetool/cgtmo.h"
 
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The base by Poisson subsets of the window against the base by all of it, on rendered G-buffers.
 #include <gtest/gtest.h>
 

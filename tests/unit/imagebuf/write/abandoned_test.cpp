@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include <OpenImageIO/filesystem.h>
 #include <chrono>
 #include <fcntl.h>

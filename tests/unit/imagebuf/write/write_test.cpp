@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "tonetool/texture.h"
 #include "tonetool/write.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "sequence/frames/name_pattern.h"
 
 #include <gmock/gmock.h>
