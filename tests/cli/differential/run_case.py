@@ -94,7 +94,9 @@ def normalised(text, without=""):
     text = re.sub(r"\.[0-9a-f]{8}\.temp\.", ".", text)
     text = re.sub(r"\.(\w+\.\w+)\.\d+-\d+\.\w+", r"\1", text)
     text = re.sub(r"\b\d+(\.\d+)? ?[KMG]?B(?![\w=])", "SIZE", text)
-    text = re.sub(r"\b\d+\.\d+ ?s\b|(?<=: )\s*\d+\.\d\d$", "TIME", text, flags=re.M)
+    # A server that forks for the program is older than a minute on a slow machine: "2m 3.1s".
+    text = re.sub(r"(\b\d+h )?(\b\d+m )?\b\d+\.\d+ ?s\b|(?<=: )\s*\d+\.\d\d$", "TIME", text,
+                  flags=re.M)
     lines = [line.rstrip() for line in text.strip().splitlines()]
     return "\n".join(line for line in lines if not without or not re.search(without, line))
 
