@@ -27,8 +27,8 @@ void plan_common(const FlipOptions& options, FlipPlan& plan) {
                            : flip::pixels_per_degree(options.distance, options.width,
                                                      options.pixels_across);
     if (!(plan.ppd >= kPpdRange.low && plan.ppd <= kPpdRange.high))
-        throw Refusal(format("distance, width and pixels make {} pixels per degree: must be {} "
-                             "to {}",
+        throw Refusal(format("ppd, of distance, width and pixels, is {}: must be {} to {} pixels "
+                             "per degree",
                              plan.ppd, kPpdRange.low, kPpdRange.high));
     plan.evaluation.taps = flip::lane_taps(flip::make_taps(plan.ppd));
 }

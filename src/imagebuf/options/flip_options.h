@@ -15,7 +15,7 @@ namespace tonetool {
 inline constexpr Range kPpdRange{flip::kMinPixelsPerDegree, flip::kMaxPixelsPerDegree};
 inline constexpr Range kPeakRange{1, 10000}; ///< of a display, in cd/m2
 /// How the result of a view can be encoded.
-inline const std::vector<std::string> kViewEncodings = {"srgb", "gamma2.2", "rec1886", "gamma2.6",
+inline const std::vector<std::string> kViewEncodings = {"srgb", "rec1886", "gamma2.2", "gamma2.6",
                                                         "linear"};
 inline constexpr Range kStopsRange{flip::kMinStops, flip::kMaxStops};
 

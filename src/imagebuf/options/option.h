@@ -124,9 +124,9 @@ struct Option {
                        : format("{} is {}: must be {}", key, value, valid_numbers());
         } else if constexpr (std::is_same_v<T, std::string>) {
             const std::string& value = options.*member;
-            const bool empty = value.empty() && (Owner().*member).empty();
+            const bool unset = value.empty() && !otherwise.empty();
             const bool known = std::find(list.begin(), list.end(), value) != list.end();
-            return list.empty() || empty || known ? "" : unknown_name(key, value, list);
+            return list.empty() || unset || known ? "" : unknown_name(key, value, list);
         } else {
             return "";
         }
