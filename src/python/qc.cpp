@@ -84,9 +84,9 @@ void add_layers(Module& module) {
 
 void add_picture(Module& module) {
     using P = QcPicture;
-    ResultClass<P>(module, "QcPicture", "The colour that a viewer looks at.")
-        .field("layer", &P::layer, "\"\" for the plain R, G, B.")
-        .field("space", &P::space, "Colour space the stored values were read in.")
+    ResultClass<P> picture(module, "QcPicture", "The colour that a viewer looks at.");
+    visit_source<P>(visitor(picture));
+    picture
         .field("thumbnail", &P::thumbnail,
                "Mean luminance of 32 x 18 cells of the display window, in 1/1000 stop.")
         .field("peaks", &P::peaks, "Largest component of the same cells, in the same unit.")

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "imagebuf/options/summary_fields.h"
 #include "python/function.h"
 
 namespace tonetool::python {
@@ -77,6 +78,12 @@ private:
     py::class_<Result> m_class;
     std::vector<Parameter> m_fields;
 };
+
+/// For summary_fields.h: adds the fields that it is shown.
+template <class Result>
+auto visitor(ResultClass<Result>& result) {
+    return [&result](const SummaryField& f, auto member) { result.field(f.name, member, f.text); };
+}
 
 /// Structs that are fields of others; `given` is the name of their class.
 template <class Struct>
