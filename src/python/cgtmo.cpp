@@ -10,11 +10,6 @@
 
 namespace tonetool::python {
 
-template <>
-struct Python<CgTmoSummary> : Nested<CgTmoSummary> {
-    static std::string given() { return "CgTmoSummary"; }
-};
-
 namespace {
 
 using O = On<CgTmoOptions>;

@@ -9,15 +9,6 @@
 
 namespace tonetool::python {
 
-template <>
-struct Python<FlipPool> : Nested<FlipPool> {
-    static std::string given() { return "FlipPool"; }
-};
-template <>
-struct Python<FlipSide> : Nested<FlipSide> {
-    static std::string given() { return "FlipSide"; }
-};
-
 template <class O>
 Fields<O> pair_fields() {
     return {

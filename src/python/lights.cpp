@@ -9,15 +9,6 @@
 namespace tonetool::python {
 
 template <>
-struct Python<LightGroupSummary> : Nested<LightGroupSummary> {
-    static std::string given() { return "LightGroupSummary"; }
-};
-template <>
-struct Python<LightIndexSummary> : Nested<LightIndexSummary> {
-    static std::string given() { return "LightIndexSummary"; }
-};
-
-template <>
 const Table<LightOptions>& table_of<LightOptions>() {
     using O = LightOptions;
     static const Table<O> table = {

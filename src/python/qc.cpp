@@ -7,27 +7,6 @@
 
 namespace tonetool::python {
 
-template <>
-struct Python<QcSpot> : Nested<QcSpot> {
-    static std::string given() { return "QcSpot"; }
-};
-template <>
-struct Python<QcCount> : Nested<QcCount> {
-    static std::string given() { return "QcCount"; }
-};
-template <>
-struct Python<QcLayer> : Nested<QcLayer> {
-    static std::string given() { return "QcLayer"; }
-};
-template <>
-struct Python<QcPart> : Nested<QcPart> {
-    static std::string given() { return "QcPart"; }
-};
-template <>
-struct Python<QcPicture> : Nested<QcPicture> {
-    static std::string given() { return "QcPicture"; }
-};
-
 namespace {
 
 struct FactsOptions : QcOptions {

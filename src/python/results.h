@@ -85,12 +85,6 @@ auto visitor(ResultClass<Result>& result) {
     return [&result](const SummaryField& f, auto member) { result.field(f.name, member, f.text); };
 }
 
-/// Structs that are fields of others; `given` is the name of their class.
-template <class Struct>
-struct Nested {
-    static py::object to(const Struct& v) { return py::cast(v); }
-};
-
 /// What a function returns beside an image.
 template <class Summary>
 struct Imaged {

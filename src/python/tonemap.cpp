@@ -8,15 +8,6 @@
 
 namespace tonetool::python {
 
-template <>
-struct Python<CalibrationSummary> : Nested<CalibrationSummary> {
-    static std::string given() { return "CalibrationSummary"; }
-};
-template <>
-struct Python<TonemapSummary> : Nested<TonemapSummary> {
-    static std::string given() { return "TonemapSummary"; }
-};
-
 namespace {
 
 const std::string kSource =
