@@ -83,6 +83,8 @@ FlipMaps::FlipMaps(const FlipPlan& plan, const Exposures& exposures, const ROI& 
     }
     if (plan.hdr && plan.hdr_options.want_exposure_map)
         m_index = make_image(1);
+    // A vector that grows copies the pixels of its ImageBufs.
+    m_pictures.reserve(exposures.stops.size());
     if (plan.hdr && plan.hdr_options.want_exposures)
         for (double stops : exposures.stops)
             m_pictures.push_back({stops, make_image(3), make_image(3),

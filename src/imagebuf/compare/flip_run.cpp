@@ -296,6 +296,8 @@ private:
 void run_flip(const FlipPlan& plan, const ImageBuf& reference,
               const std::vector<const ImageBuf*>& tests, const std::vector<ImageBuf*>& dst, ROI roi,
               int nthreads, std::vector<ImageBuf>& maps, std::vector<FlipResult>& results) {
+    maps.reserve(tests.size());
+    results.reserve(tests.size());
     std::vector<FittedTest> fitted(tests.size());
     bool one_region = true;
     for (size_t t = 0; t < tests.size(); ++t) {

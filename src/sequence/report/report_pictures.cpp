@@ -118,6 +118,7 @@ private:
     std::vector<Shown> show(const Linear& linear, const std::vector<double>& stops) const {
         const ImageBuf& reference = m_request.reference ? linear.reference : linear.test;
         std::vector<Shown> shown;
+        shown.reserve(stops.size());
         if (!m_request.hdr) {
             for (double exposure : stops)
                 shown.push_back({exposure, displayed(reference), displayed(linear.test)});
