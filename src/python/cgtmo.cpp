@@ -10,11 +10,6 @@
 
 namespace tonetool::python {
 
-template <>
-struct Python<CgTmoSummary> : Nested<CgTmoSummary> {
-    static std::string given() { return "CgTmoSummary"; }
-};
-
 namespace {
 
 using O = On<CgTmoOptions>;
@@ -43,10 +38,9 @@ py::object run(std::vector<py::object>& images, const O& options) {
 
 void add_results(Module& module) {
     using S = CgTmoSummary;
-    ResultClass<S>(module, "CgTmoSummary", "What CG-TMO found and used.")
-        .field("layer", &S::layer, "\"\" for the plain R, G, B.")
-        .field("space", &S::space, "Colour space the stored values were read in.")
-        .field("position", &S::position, "Layer that was used; \"\": none.")
+    ResultClass<S> result(module, "CgTmoSummary", "What CG-TMO found and used.");
+    visit_source<S>(visitor(result));
+    result.field("position", &S::position, "Layer that was used; \"\": none.")
         .field("normal", &S::normal, "Layer that was used; \"\": none.")
         .field("albedo", &S::albedo, "Layer that was used; \"\": none.")
         .field("depth", &S::depth, "Layer that was used; \"\": none.")

@@ -4,20 +4,10 @@
 
 #include <string>
 
-#include "imagebuf/compare/fields.h"
 #include "python/results.h"
 #include "tonetool/compare.h"
 
 namespace tonetool::python {
-
-template <>
-struct Python<FlipPool> : Nested<FlipPool> {
-    static std::string given() { return "FlipPool"; }
-};
-template <>
-struct Python<FlipSide> : Nested<FlipSide> {
-    static std::string given() { return "FlipSide"; }
-};
 
 template <class O>
 Fields<O> pair_fields() {
@@ -38,12 +28,6 @@ Fields<O> pair_fields() {
             "Quantities of the map to pool beside the usual ones: \"p99.95\" (any percentile), "
             "\"above0.2\" (the share of the pixels whose error is above 0.2)."),
     };
-}
-
-/// For imagebuf/compare/fields.h: adds the fields that it is shown.
-template <class S>
-auto visitor(ResultClass<S>& result) {
-    return [&result](const SummaryField& f, auto member) { result.field(f.name, member, f.text); };
 }
 
 template <class S>

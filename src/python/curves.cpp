@@ -6,16 +6,6 @@
 
 namespace tonetool::python {
 
-template <>
-struct Python<ToneCurveParameter> : Nested<ToneCurveParameter> {
-    static std::string given() { return "ToneCurveParameter"; }
-};
-
-template <>
-struct Python<ToneCurveInfo> : Nested<ToneCurveInfo> {
-    static std::string given() { return "ToneCurveInfo"; }
-};
-
 namespace {
 
 const std::string kSource = "The publication that tone_curves() names for each curve.";

@@ -8,11 +8,6 @@
 
 namespace tonetool::python {
 
-template <>
-struct Python<ErrorSummary> : Nested<ErrorSummary> {
-    static std::string given() { return "ErrorSummary"; }
-};
-
 namespace {
 
 const std::string kSource =

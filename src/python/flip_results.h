@@ -10,11 +10,6 @@
 
 namespace tonetool::python {
 
-template <>
-struct Python<FlipSummary> : Nested<FlipSummary> {
-    static std::string given() { return "FlipSummary"; }
-};
-
 struct ExposureObject {
     double stops = 0;
     py::object reference, test, flip;
@@ -24,11 +19,6 @@ struct FlipObject : Imaged<FlipSummary> {
     std::vector<ExposureObject> exposures;
 };
 struct FilmstripObject : Imaged<FlipSummary> {};
-
-template <>
-struct Python<ExposureObject> : Nested<ExposureObject> {
-    static std::string given() { return "FlipExposure"; }
-};
 
 /// Maps become what the reference is.
 py::object flip_object(OIIO::ImageBuf&& map, FlipResult&& result, const InputImage& reference);

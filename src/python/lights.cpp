@@ -9,15 +9,6 @@
 namespace tonetool::python {
 
 template <>
-struct Python<LightGroupSummary> : Nested<LightGroupSummary> {
-    static std::string given() { return "LightGroupSummary"; }
-};
-template <>
-struct Python<LightIndexSummary> : Nested<LightIndexSummary> {
-    static std::string given() { return "LightIndexSummary"; }
-};
-
-template <>
 const Table<LightOptions>& table_of<LightOptions>() {
     using O = LightOptions;
     static const Table<O> table = {
@@ -107,8 +98,8 @@ void add_index_results(Module& module) {
 
 void add_panorama(Module& module) {
     using P = PanoramaStats;
-    ResultClass<P>(module, "PanoramaStats", "Luminances of a latitude-longitude panorama.")
-        .field("pixels", &P::pixels, "Of the display window.")
+    ResultClass<P> result(module, "PanoramaStats", "Luminances of a latitude-longitude panorama.");
+    result.field("pixels", &P::pixels, "Of the display window.")
         .field("nonfinite", &P::nonfinite, "Not in any figure.")
         .field("negative", &P::negative, "With a negative component, which counts as 0.")
         .field("uncovered", &P::uncovered, "Outside the data window: not in any figure.")
@@ -116,10 +107,9 @@ void add_panorama(Module& module) {
         .field("harmonic", &P::harmonic, "Harmonic mean of L + 1e-6.")
         .field("mean", &P::mean, "Arithmetic mean.")
         .field("median", &P::median, "Median.")
-        .field("max", &P::max, "Maximum.")
-        .field("layer", &P::layer, "\"\" for the plain R, G, B.")
-        .field("space", &P::space, "Colour space the stored values were read in.")
-        .finish();
+        .field("max", &P::max, "Maximum.");
+    visit_source<P>(visitor(result));
+    result.finish();
     using O = StatsOptions;
     define(
         module,

@@ -43,23 +43,11 @@ py::object exposure(std::vector<py::object>& arguments, const Options& options) 
 
 void add_stats(Module& module) {
     using S = LuminanceStats;
-    ResultClass<S>(module, "LuminanceStats", "Luminance over the finite pixels of an image.")
-        .field("pixels", &S::pixels, "In the data window or the region.")
-        .field("nonfinite", &S::nonfinite, "With NaN or Inf: not in any figure below.")
-        .field("negative", &S::negative, "Finite, with a negative component, which counts as 0.")
-        .field("black", &S::black, "Luminance exactly 0.")
-        .field("min", &S::min, "Smallest.")
-        .field("max", &S::max, "Largest.")
-        .field("mean", &S::mean, "Arithmetic mean.")
-        .field("median", &S::median, "The upper median, as HDR-FLIP takes it.")
-        .field("median_lit", &S::median_lit, "The same over luminance above 0.")
-        .field("log_average", &S::log_average, "Geometric mean over luminance above 0.")
-        .field("p1", &S::p1, "Nearest-rank percentile.")
-        .field("p99", &S::p99, "Nearest-rank percentile.")
-        .field("p999", &S::p999, "Percentile 99.9.")
-        .field("layer", &S::layer, "\"\" for the plain R, G, B.")
-        .field("space", &S::space, "Colour space the stored values were read in.")
-        .finish();
+    ResultClass<S> result(module, "LuminanceStats",
+                          "Luminance over the finite pixels of an image.");
+    visit_luminance(visitor(result));
+    visit_source<S>(visitor(result));
+    result.finish();
 }
 
 } // namespace

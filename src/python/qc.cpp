@@ -7,27 +7,6 @@
 
 namespace tonetool::python {
 
-template <>
-struct Python<QcSpot> : Nested<QcSpot> {
-    static std::string given() { return "QcSpot"; }
-};
-template <>
-struct Python<QcCount> : Nested<QcCount> {
-    static std::string given() { return "QcCount"; }
-};
-template <>
-struct Python<QcLayer> : Nested<QcLayer> {
-    static std::string given() { return "QcLayer"; }
-};
-template <>
-struct Python<QcPart> : Nested<QcPart> {
-    static std::string given() { return "QcPart"; }
-};
-template <>
-struct Python<QcPicture> : Nested<QcPicture> {
-    static std::string given() { return "QcPicture"; }
-};
-
 namespace {
 
 struct FactsOptions : QcOptions {
@@ -84,9 +63,9 @@ void add_layers(Module& module) {
 
 void add_picture(Module& module) {
     using P = QcPicture;
-    ResultClass<P>(module, "QcPicture", "The colour that a viewer looks at.")
-        .field("layer", &P::layer, "\"\" for the plain R, G, B.")
-        .field("space", &P::space, "Colour space the stored values were read in.")
+    ResultClass<P> picture(module, "QcPicture", "The colour that a viewer looks at.");
+    visit_source<P>(visitor(picture));
+    picture
         .field("thumbnail", &P::thumbnail,
                "Mean luminance of 32 x 18 cells of the display window, in 1/1000 stop.")
         .field("peaks", &P::peaks, "Largest component of the same cells, in the same unit.")

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "imagebuf/options/summary_fields.h"
 #include "python/function.h"
 
 namespace tonetool::python {
@@ -78,11 +79,11 @@ private:
     std::vector<Parameter> m_fields;
 };
 
-/// Structs that are fields of others; `given` is the name of their class.
-template <class Struct>
-struct Nested {
-    static py::object to(const Struct& v) { return py::cast(v); }
-};
+/// For summary_fields.h: adds the fields that it is shown.
+template <class Result>
+auto visitor(ResultClass<Result>& result) {
+    return [&result](const SummaryField& f, auto member) { result.field(f.name, member, f.text); };
+}
 
 /// What a function returns beside an image.
 template <class Summary>

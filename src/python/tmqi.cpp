@@ -7,15 +7,6 @@
 
 namespace tonetool::python {
 
-template <>
-struct Python<TmqiScore> : Nested<TmqiScore> {
-    static std::string given() { return "TmqiScore"; }
-};
-template <>
-struct Python<TmqiSummary> : Nested<TmqiSummary> {
-    static std::string given() { return "TmqiSummary"; }
-};
-
 namespace {
 
 const std::string kSource = "H. Yeganeh, Z. Wang, \"Objective Quality Assessment of Tone-Mapped "

@@ -8,15 +8,6 @@
 
 namespace tonetool::python {
 
-template <>
-struct Python<CalibrationSummary> : Nested<CalibrationSummary> {
-    static std::string given() { return "CalibrationSummary"; }
-};
-template <>
-struct Python<TonemapSummary> : Nested<TonemapSummary> {
-    static std::string given() { return "TonemapSummary"; }
-};
-
 namespace {
 
 const std::string kSource =
@@ -85,10 +76,9 @@ void add_results(Module& module) {
         .field("pixels", &C::pixels, "That the statistics are of.")
         .finish();
     using S = TonemapSummary;
-    ResultClass<S>(module, "TonemapSummary", "What a picture was tone mapped with.")
-        .field("layer", &S::layer, "\"\" for the plain R, G, B.")
-        .field("space", &S::space, "Colour space the stored values were read in.")
-        .field("curve", &S::curve, "Curve, \"coeffs\", or \"display/view\".")
+    ResultClass<S> result(module, "TonemapSummary", "What a picture was tone mapped with.");
+    visit_source<S>(visitor(result));
+    result.field("curve", &S::curve, "Curve, \"coeffs\", or \"display/view\".")
         .field("parameters", &S::parameters, "Of the curve.")
         .field("on", &S::on, "\"rgb\", \"luminance\" or \"color\".")
         .field("calibration", &S::calibration, "The exposure that was found.")

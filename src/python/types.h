@@ -47,9 +47,13 @@ std::vector<std::pair<std::string, py::object>> to_pairs(py::handle value, const
                                                          const std::string& wanted);
 
 /// Of T: `from` checks and converts a value; `wanted` and `given` are the annotations of parameters
-/// and of results; `to` is the way back.
+/// and of results; `to` is the way back. A T without a specialization is a class of results that
+/// was added before.
 template <class T, class = void>
-struct Python;
+struct Python {
+    static std::string given() { return py::str(py::type::of<T>().attr("__name__")); }
+    static py::object to(const T& v) { return py::cast(v); }
+};
 
 template <>
 struct Python<double> {

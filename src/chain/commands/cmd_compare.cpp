@@ -67,6 +67,7 @@ Compared compare(Session& session, const Call& call, const Look& look, const Com
     const auto view = shown_bytes(session, call) > 0      ? shown_input
                       : look.again && session.memory == 0 ? color_input
                                                           : color_source;
+    done.views.reserve(call.images.size()); // else the pixels are copied
     for (const ImagePtr& image : call.images) {
         const PixelOptions& options = done.views.empty() ? look.reference : look.tests;
         done.views.push_back(view(session, call, *image, options));

@@ -2,7 +2,7 @@
 // Commands that measure luminance and change exposure.
 #include "chain/commands/color_input.h"
 #include "chain/commands/commands.h"
-#include "chain/commands/flip_args.h"
+#include "chain/commands/flip_report.h"
 #include "text/error.h"
 
 namespace tonetool::chain {
@@ -19,28 +19,6 @@ void run_exposure(Session& session, const Call& call) {
     session.push(Image::derived(image, std::move(result)));
 }
 
-Lines luminance_lines(const std::string& label, const LuminanceStats& stats,
-                      const std::string& name) {
-    Lines lines(label);
-    lines.add("image", name);
-    lines.add("layer", stats.layer.empty() ? "R,G,B" : stats.layer);
-    lines.add("space", stats.space);
-    lines.add("pixels", stats.pixels);
-    lines.add("nonfinite", stats.nonfinite);
-    lines.add("negative", stats.negative);
-    lines.add("black", stats.black);
-    lines.add("min", stats.min);
-    lines.add("max", stats.max);
-    lines.add("mean", stats.mean);
-    lines.add("median", stats.median);
-    lines.add("median-lit", stats.median_lit);
-    lines.add("log-average", stats.log_average);
-    lines.add("p1", stats.p1);
-    lines.add("p99", stats.p99);
-    lines.add("p99.9", stats.p999);
-    return lines;
-}
-
 void run_luminance(Session& session, const Call& call) {
     const Image& image = *call.images[0];
     const std::string label = call.row().label();
@@ -53,7 +31,11 @@ void run_luminance(Session& session, const Call& call) {
         session.warning(label, std::to_string(stats.nonfinite) + " non-finite pixels in " +
                                    image.name() + " are in no figure");
     }
-    session.report(luminance_lines(label, stats, image.name()).text);
+    Lines lines(label);
+    lines.add("image", image.name());
+    visit_source<LuminanceStats>(fields(lines, stats));
+    visit_luminance(fields(lines, stats));
+    session.report(lines.text);
     session.produced = true;
     session.push(call.images[0]);
 }

@@ -2,7 +2,6 @@
 #include "chain/commands/flip_report.h"
 
 #include "chain/commands/check_part.h"
-#include "imagebuf/compare/fields.h"
 #include "sequence/results/measuring.h"
 #include "text/error.h"
 
@@ -12,14 +11,6 @@ namespace {
 
 std::string at(int x, int y) {
     return " at " + std::to_string(x) + "," + std::to_string(y);
-}
-
-// For imagebuf/compare/fields.h: of the summary, or of the image that is called so.
-template <class Summary>
-auto fields(Lines& lines, const Summary& summary, const std::string& of = "") {
-    return [&lines, &summary, of](const SummaryField& field, auto member) {
-        lines.add(key_name(field, of), said(field, summary.*member));
-    };
 }
 
 void add_side(Lines& lines, const std::string& side, const std::string& file,

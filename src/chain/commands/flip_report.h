@@ -8,9 +8,18 @@
 
 #include "chain/commands/commands.h"
 #include "chain/commands/flip_args.h"
+#include "imagebuf/options/summary_fields.h"
 #include "sequence/results/results.h"
 
 namespace tonetool::chain {
+
+// For summary_fields.h: of the summary, or of the image that is called so.
+template <class Summary>
+auto fields(Lines& lines, const Summary& summary, const std::string& of = "") {
+    return [&lines, &summary, of](const SummaryField& field, auto member) {
+        lines.add(key_name(field, of), said(field, summary.*member));
+    };
+}
 
 // The summary, one fact a line, each with "LABEL: " before it. `first` and `second` are the names
 // of the images.

@@ -4,7 +4,7 @@
 #include <OpenImageIO/strutil.h>
 #include <algorithm>
 
-#include "imagebuf/compare/fields.h"
+#include "imagebuf/options/summary_fields.h"
 
 namespace tonetool {
 namespace {
@@ -32,7 +32,7 @@ struct Writer {
     void add(const std::string& name, int64_t value) const { count(name, value); }
     void add(const std::string& name, const std::string& value) const { text(name, value); }
 
-    /// For fields.h: of the summary, or of the image that is called so.
+    /// For summary_fields.h: of the summary, or of the image that is called so.
     template <class Summary>
     auto fields(const Summary& summary, const std::string& of = "") const {
         return [this, &summary, of](const SummaryField& field, auto member) {

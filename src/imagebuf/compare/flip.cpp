@@ -93,6 +93,20 @@ bool hdr_flip(std::vector<ImageBuf>& dst, const ImageBuf& reference,
     return false;
 }
 
+bool flip_exposed(std::vector<FlipExposure>& dst, const ImageBuf& reference, const ImageBuf& test,
+                  std::string& error, const HdrFlipOptions& options,
+                  const std::vector<double>& stops, ROI roi, int nthreads) {
+    dst.clear();
+    return contained(error, [&] {
+        ImageBuf unused;
+        std::vector<ImageBuf> maps;
+        std::vector<FlipResult> results;
+        run_flip(plan_shown(options, stops), reference, {&test}, {&unused}, roi, nthreads, maps,
+                 results);
+        dst = std::move(results[0].exposures);
+    });
+}
+
 std::vector<std::string> flip_tonemappers() {
     return tonemap::curve_names();
 }

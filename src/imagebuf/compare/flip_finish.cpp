@@ -59,11 +59,11 @@ bool takes_map(const ImageBuf& dst, const ROI& roi) {
 } // namespace
 
 size_t map_bytes(const FlipPlan& plan, size_t exposures) {
-    size_t planes = 1;
+    size_t planes = plan.only_shown ? 0 : 1;
     if (plan.hdr && plan.hdr_options.want_exposure_map)
         planes += 2;
     if (plan.hdr && plan.hdr_options.want_exposures)
-        planes += 7 * exposures;
+        planes += (plan.only_shown ? 6 : 7) * exposures;
     return planes * sizeof(float);
 }
 
@@ -83,9 +83,12 @@ FlipMaps::FlipMaps(const FlipPlan& plan, const Exposures& exposures, const ROI& 
     }
     if (plan.hdr && plan.hdr_options.want_exposure_map)
         m_index = make_image(1);
+    // A vector that grows copies the pixels of its ImageBufs.
+    m_pictures.reserve(exposures.stops.size());
     if (plan.hdr && plan.hdr_options.want_exposures)
         for (double stops : exposures.stops)
-            m_pictures.push_back({stops, make_image(3), make_image(3), make_image(1)});
+            m_pictures.push_back({stops, make_image(3), make_image(3),
+                                  plan.only_shown ? ImageBuf() : make_image(1)});
     for (FlipExposure& picture : m_pictures)
         for (ImageBuf* image : {&picture.reference, &picture.test})
             image->specmod().attribute("oiio:ColorSpace", "Linear");
@@ -125,21 +128,21 @@ void FlipMaps::take(int begin, int end, const ColorPlanes& reference, const Colo
     std::mutex lock;
     make_parallel(m_nthreads)(end - begin, [&](int64_t i) {
         const int y = begin + int(i);
+        for (FlipExposure& picture : m_pictures) {
+            tone_map_row(y, picture.stops, reference, picture.reference);
+            tone_map_row(y, picture.stops, test, picture.test);
+        }
+        if (m_plan.only_shown)
+            return;
         if (m_plan.alpha())
             compare_alpha(y, sides);
         if (nonfinite)
             override_nonfinite(y, sides);
         const Unseen found = unseen(y, sides);
-        {
-            const std::lock_guard<std::mutex> hold(lock);
-            m_unseen.differing += found.differing;
-            m_unseen.white += found.white;
-            m_unseen.black += found.black;
-        }
-        for (FlipExposure& picture : m_pictures) {
-            tone_map_row(y, picture.stops, reference, picture.reference);
-            tone_map_row(y, picture.stops, test, picture.test);
-        }
+        const std::lock_guard<std::mutex> hold(lock);
+        m_unseen.differing += found.differing;
+        m_unseen.white += found.white;
+        m_unseen.black += found.black;
     });
 }
 
@@ -367,6 +370,9 @@ void FlipMaps::make_stops() {
 
 void FlipMaps::finish(const ColorPlanes& reference, const ColorPlanes& test, const Found& found,
                       ImageBuf& map, FlipResult& result) {
+    result.exposures = std::move(m_pictures);
+    if (m_plan.only_shown)
+        return;
     if (m_unbounded && (reference.counts.nonfinite > 0 || test.counts.nonfinite > 0))
         resolve_largest();
     result.summary = summarize({reference, test}, found);
@@ -378,7 +384,6 @@ void FlipMaps::finish(const ColorPlanes& reference, const ColorPlanes& test, con
         result.exposure_index = std::move(m_index);
         result.exposure_stops = std::move(m_stops);
     }
-    result.exposures = std::move(m_pictures);
 }
 
 } // namespace tonetool

@@ -33,7 +33,8 @@ public:
     /// Rows of the roi that have been evaluated from these planes: lets alpha and non-finite pixels
     /// enter the map, counts, makes the pictures that were asked for.
     void take(int begin, int end, const ColorPlanes& reference, const ColorPlanes& test);
-    /// Pools; the counts of the planes are complete. Leaves the map in `map`.
+    /// Pools; the counts of the planes are complete. Leaves the map in `map`, unless the
+    /// plan only shows.
     void finish(const ColorPlanes& reference, const ColorPlanes& test, const Found& found,
                 OIIO::ImageBuf& map, FlipResult& result);
 

@@ -136,16 +136,30 @@ FlipPlan plan_errors(const ErrorOptions& options, const metrics::PixelError& pix
     return plan;
 }
 
+FlipPlan plan_shown(const HdrFlipOptions& options, const std::vector<double>& stops) {
+    HdrFlipOptions all = options;
+    all.want_exposures = true;
+    all.want_exposure_map = false;
+    FlipPlan plan = plan_hdr(all);
+    plan.only_shown = true;
+    for (double exposure : stops)
+        if (!(exposure >= kStopsRange.low && exposure <= kStopsRange.high))
+            throw Refusal(format("an exposure is {} stops: must be {} to {}", exposure,
+                                 kStopsRange.low, kStopsRange.high));
+    plan.evaluation.stops = stops;
+    return plan;
+}
+
 bool needs_luminance(const FlipPlan& plan) {
     const HdrFlipOptions& o = plan.hdr_options;
-    return plan.hdr &&
+    return plan.evaluation.stops.empty() &&
            ((needs_max(o) && !o.max_luminance) || (needs_median(o) && !o.median_luminance));
 }
 
 Exposures choose_exposures(const FlipPlan& plan, const metrics::ExposureStats& stats) {
     Exposures exposures;
     exposures.stops = plan.evaluation.stops;
-    if (!plan.hdr)
+    if (!exposures.stops.empty())
         return exposures;
     const HdrFlipOptions& o = plan.hdr_options;
     const bool need_max = needs_max(o), need_median = needs_median(o);
@@ -170,8 +184,8 @@ void check_curve(const FlipPlan& plan, const Exposures& exposures, double larges
     const std::vector<double>& coeffs = plan.hdr_options.curve.coeffs;
     if (!plan.hdr || plan.hdr_options.view || coeffs.empty())
         return;
-    const double exposed =
-        std::min(largest * std::exp2(exposures.stops.back()), double(kernels::kLargestExposed));
+    const double stops = *std::max_element(exposures.stops.begin(), exposures.stops.end());
+    const double exposed = std::min(largest * std::exp2(stops), double(kernels::kLargestExposed));
     const std::string fault = tonemap::curve_fault(plan.evaluation.curve.k, exposed);
     if (!fault.empty())
         throw Refusal("coeffs " + OIIO::Strutil::join(coeffs, ",") + ": " + fault);

@@ -31,10 +31,13 @@ struct FlipPlan {
     std::optional<double> bright;                   ///< scene value of a grey that is shown bright
     int band_rows = 0;                              ///< as in MemoryNeeds
     std::optional<metrics::PixelError> pixel_error; ///< instead of FLIP
+    bool only_shown = false;                        ///< the exposed images alone, no map
     metrics::PoolRequest pool;                      ///< quantities beside the usual ones
-    flip::Evaluation evaluation; ///< the stops of HDR-FLIP follow once the reference is read
+    /// Where no stops are given, those of HDR-FLIP follow once the reference is read.
+    flip::Evaluation evaluation;
 
     bool baked() const { return hdr_options.view && !hdr_options.exact; }
+    bool filters() const { return !pixel_error && !only_shown; }
     bool alpha() const { return common.alpha == AlphaPolicy::Error; }
 };
 
@@ -43,6 +46,9 @@ FlipPlan plan_hdr(const HdrFlipOptions& options);
 /// `pixel_error` instead of FLIP, if `exposed` at the exposures that HDR-FLIP would take.
 FlipPlan plan_errors(const ErrorOptions& options, const metrics::PixelError& pixel_error,
                      bool exposed);
+
+/// HDR-FLIP's images without its map, at these stops; none: at the exposures that it would take.
+FlipPlan plan_shown(const HdrFlipOptions& options, const std::vector<double>& stops);
 
 /// The exposures of one comparison and what they were derived from.
 struct Exposures {
@@ -55,12 +61,12 @@ struct Exposures {
 /// Whether the reference must be measured before its exposures are known.
 bool needs_luminance(const FlipPlan& plan);
 
-/// Exposures for a reference of these statistics, which are looked at only where they are needed.
-/// LDR-FLIP gets stop 0 alone.
+/// Exposures for a reference of these statistics, which are looked at only where they are needed:
+/// not where the plan has stops already, as LDR-FLIP has stop 0.
 Exposures choose_exposures(const FlipPlan& plan, const metrics::ExposureStats& stats);
 
 /// A user's coefficients must be sound up to `largest`, the largest component of any image, at the
-/// last exposure.
+/// largest exposure.
 void check_curve(const FlipPlan& plan, const Exposures& exposures, double largest);
 
 } // namespace tonetool

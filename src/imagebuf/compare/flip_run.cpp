@@ -39,7 +39,7 @@ public:
         : m_plan(plan),
           m_image(reference),
           m_nthreads(nthreads),
-          m_reach(plan.pixel_error ? 0 : flip::filter_radius(plan.evaluation.taps)) {}
+          m_reach(plan.filters() ? flip::filter_radius(plan.evaluation.taps) : 0) {}
 
     /// `held`: bytes that earlier groups have made.
     void run(const FittedTest* fitted, const std::vector<ImageBuf*>& dst, const ROI& roi,
@@ -101,7 +101,7 @@ private:
 
     // The pixels are looked at once more only where something tells the two apart.
     int64_t ignored_alpha(size_t test) const {
-        if (m_plan.alpha() || m_fitted[test].resized() ||
+        if (m_plan.only_shown || m_plan.alpha() || m_fitted[test].resized() ||
             m_reference.planes.counts.alpha_digest == m_tests[test].planes.counts.alpha_digest)
             return 0;
         return count_alpha_differences(m_image, m_reference.planes.choice, m_fitted[test].image(),
@@ -122,7 +122,7 @@ private:
         m_needs = {};
         m_needs.reach = m_reach;
         m_needs.band_rows = m_plan.band_rows;
-        if (!m_plan.pixel_error)
+        if (m_plan.filters())
             m_needs.thread =
                 flip::work_bytes(bounded(), m_roi.width(), m_tests.size(), keeps_each());
         m_needs.threads = oiio::threads_of(m_nthreads);
@@ -148,7 +148,10 @@ private:
     // The exposures, and what is compared if it fits.
     void measure() {
         constexpr size_t usual_exposures = 16;
-        make_bands(size_t(m_plan.hdr_options.num_exposures.value_or(usual_exposures)));
+        const std::vector<double>& given = m_plan.evaluation.stops;
+        make_bands(given.empty()
+                       ? size_t(m_plan.hdr_options.num_exposures.value_or(usual_exposures))
+                       : given.size());
         if (m_bands.one())
             read(m_region.ybegin, m_region.yend);
         metrics::ExposureStats stats;
@@ -216,7 +219,7 @@ private:
 
     // How far a baked view is off, on the rows that were just read.
     void measure_bakes(size_t from, size_t count, int fresh) {
-        if (!m_plan.baked())
+        if (!m_plan.baked() || m_plan.only_shown)
             return;
         const auto measure = [&](const ColorPlanes& planes) {
             m_exposures.bake.add(
@@ -240,11 +243,10 @@ private:
     }
 
     void evaluate(size_t from, size_t count, int begin, int end, std::vector<FlipMaps>& maps) {
-        if (m_plan.pixel_error)
-            for (size_t t = from; t < from + count; ++t)
-                evaluate_pixels(t, begin, end, maps[t]);
-        else
+        if (m_plan.filters())
             evaluate_flip(from, count, begin, end, maps);
+        for (size_t t = from; t < from + count && m_plan.pixel_error; ++t)
+            evaluate_pixels(t, begin, end, maps[t]);
         for (size_t t = from; t < from + count; ++t)
             maps[t].take(begin, end, m_reference.planes, m_tests[t].planes);
     }
@@ -294,6 +296,8 @@ private:
 void run_flip(const FlipPlan& plan, const ImageBuf& reference,
               const std::vector<const ImageBuf*>& tests, const std::vector<ImageBuf*>& dst, ROI roi,
               int nthreads, std::vector<ImageBuf>& maps, std::vector<FlipResult>& results) {
+    maps.reserve(tests.size());
+    results.reserve(tests.size());
     std::vector<FittedTest> fitted(tests.size());
     bool one_region = true;
     for (size_t t = 0; t < tests.size(); ++t) {

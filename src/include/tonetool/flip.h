@@ -151,6 +151,23 @@ TONETOOL_API bool hdr_flip(std::vector<OIIO::ImageBuf>& dst, const OIIO::ImageBu
                            std::vector<FlipResult>* results = nullptr, OIIO::ROI roi = {},
                            int nthreads = 0);
 
+/// The pair as hdr_flip compares it, without the comparison: FlipExposure::reference and test at
+/// each of these exposures in stops, -126 to 127, in the order given; none: at the exposures that
+/// hdr_flip would choose. They are, to the bit, those of FlipResult::exposures; `flip` is empty.
+/// An image alone is its own reference.
+///
+/// Shapes, ROI, orientation, memory (24 bytes per pixel and exposure): as hdr_flip. Colour: linear
+/// Rec.709, negative values 0, exposed by 2^stops, then behind the curve or view that `options`
+/// choose: display-linear Rec.709 in [0,1]. Alpha: not in the images. NaN, Inf: a pixel that is
+/// non-finite in one image shows the other's colour, in both it is black. A baked view's error is
+/// not measured. The want_ options are ignored, so are the options of exposures where stops are
+/// given. Returns false with the reason in `error`, as hdr_flip; `dst` is then empty.
+TONETOOL_API bool flip_exposed(std::vector<FlipExposure>& dst, const OIIO::ImageBuf& reference,
+                               const OIIO::ImageBuf& test, std::string& error,
+                               const HdrFlipOptions& options = {},
+                               const std::vector<double>& stops = {}, OIIO::ROI roi = {},
+                               int nthreads = 0);
+
 /// The names of the tone curves that HDR-FLIP takes: all of the registry.
 TONETOOL_API std::vector<std::string> flip_tonemappers();
 

@@ -24,6 +24,7 @@ using OIIO::ROI;
 constexpr int kLargeQuality = 82, kMapQuality = 85, kSmallQuality = 72;
 
 struct Shown {
+    double stops = 0;
     ImageBuf reference, test; ///< 8 bits, sRGB-encoded
 };
 
@@ -49,8 +50,6 @@ public:
             m_look.pixels.from.clear();
         m_look.alpha = AlphaPolicy::Ignore;
         m_look.size = SizePolicy::Match;
-        m_look.want_exposure_map = false;
-        m_look.want_exposures = true;
         m_look.memory = 0;
         m_whole.chbegin = 0;
         m_whole.chend = 1;
@@ -60,11 +59,16 @@ public:
         FramePictures pictures;
         const PixelSize small = fitted(m_whole, kThumbnailSide);
         const Linear linear = read(m_whole, m_request.full ? fitted(m_whole, kPictureSide) : small);
-        const std::vector<double> stops = exposures(linear);
+        std::vector<double> stops = exposures(linear);
         const double middle = (stops.front() + stops.back()) / 2;
-        draw_small(pictures, linear, middle, small);
+        if (!m_request.full)
+            stops.clear();
+        stops.push_back(middle);
+        std::vector<Shown> shown = show(linear, stops);
+        draw_small(pictures, shown.back().test, small);
+        shown.pop_back();
         if (m_request.full)
-            draw_large(pictures, linear, stops);
+            draw_large(pictures, shown);
         draw_spots(pictures, middle);
         return pictures;
     }
@@ -98,29 +102,36 @@ private:
             return {0};
         if (!m_request.exposures.empty())
             return chosen(m_request.exposures);
-        HdrFlipOptions look = m_look;
-        look.want_exposures = false;
-        FlipResult result;
-        ImageBuf map;
-        const bool found =
-            ToneAlgo::hdr_flip(map, linear.test, linear.test, look, &result, {}, m_nthreads);
-        return found ? chosen(result.summary.exposures) : std::vector<double>{0};
+        std::vector<FlipExposure> found;
+        std::string error;
+        const ROI one_pixel(0, 1, 0, 1);
+        if (!ToneAlgo::flip_exposed(found, linear.test, linear.test, error, m_look, {}, one_pixel,
+                                    m_nthreads))
+            return {0};
+        std::vector<double> stops;
+        for (const FlipExposure& at : found)
+            stops.push_back(at.stops);
+        return chosen(stops);
     }
 
-    // The pair as it is compared at one exposure.
-    Shown show(const Linear& linear, double stops) const {
+    // The pair as it is compared at these exposures.
+    std::vector<Shown> show(const Linear& linear, const std::vector<double>& stops) const {
         const ImageBuf& reference = m_request.reference ? linear.reference : linear.test;
-        if (!m_request.hdr)
-            return {displayed(reference), displayed(linear.test)};
-        HdrFlipOptions look = m_look;
-        look.start_exposure = look.stop_exposure = stops;
-        look.num_exposures = 1;
-        FlipResult result;
-        ImageBuf map;
-        if (!ToneAlgo::hdr_flip(map, reference, linear.test, look, &result, {}, m_nthreads))
-            throw std::runtime_error(map.geterror());
-        return {srgb_bytes(result.exposures.at(0).reference),
-                srgb_bytes(result.exposures.at(0).test)};
+        std::vector<Shown> shown;
+        shown.reserve(stops.size());
+        if (!m_request.hdr) {
+            for (double exposure : stops)
+                shown.push_back({exposure, displayed(reference), displayed(linear.test)});
+            return shown;
+        }
+        std::vector<FlipExposure> exposed;
+        std::string error;
+        if (!ToneAlgo::flip_exposed(exposed, reference, linear.test, error, m_look, stops, {},
+                                    m_nthreads))
+            throw std::runtime_error(error);
+        for (const FlipExposure& at : exposed)
+            shown.push_back({at.stops, srgb_bytes(at.reference), srgb_bytes(at.test)});
+        return shown;
     }
 
     std::string uri(ImageBuf picture, Encoding encoding, int quality = kLargeQuality) const {
@@ -137,10 +148,8 @@ private:
         return srgb_bytes(result);
     }
 
-    void draw_small(FramePictures& pictures, const Linear& linear, double stops,
-                    const PixelSize& side) const {
-        const Shown shown = show(linear, stops);
-        pictures.small_test = uri(resized(shown.test, side), Encoding::Jpeg, kSmallQuality);
+    void draw_small(FramePictures& pictures, const ImageBuf& test, const PixelSize& side) const {
+        pictures.small_test = uri(resized(test, side), Encoding::Jpeg, kSmallQuality);
         if (m_request.error) {
             const ImageBuf error = reduced_maps(*m_request.error, nullptr, side).error;
             pictures.small_error =
@@ -148,21 +157,16 @@ private:
         }
     }
 
-    void draw_large(FramePictures& pictures, const Linear& linear,
-                    const std::vector<double>& exposures) const {
+    void draw_large(FramePictures& pictures, const std::vector<Shown>& exposures) const {
         const PixelSize side = fitted(m_whole, kPictureSide);
         pictures.width = side.width;
         pictures.height = side.height;
         if (lies_on_its_side(m_orientation))
             std::swap(pictures.width, pictures.height);
-        for (double stops : exposures) {
-            const Shown shown = show(linear, stops);
-            const auto large = [&](const ImageBuf& image) {
-                return uri(image, Encoding::Jpeg, kLargeQuality);
-            };
+        for (const Shown& shown : exposures)
             pictures.exposures.push_back(
-                {stops, m_request.reference ? large(shown.reference) : "", large(shown.test)});
-        }
+                {shown.stops, m_request.reference ? uri(shown.reference, Encoding::Jpeg) : "",
+                 uri(shown.test, Encoding::Jpeg)});
         if (m_request.error)
             draw_maps(pictures, side);
     }
@@ -199,7 +203,7 @@ private:
     SpotPictures spot(const Position& at, const ROI& near, double stops) const {
         const PixelSize side{near.width(), near.height()};
         const Linear linear = read(near, side);
-        Shown shown = show(linear, stops);
+        Shown shown = std::move(show(linear, {stops}).front());
         SpotPictures result;
         result.at = at;
         mark_nonfinite(shown.test, *m_request.test, m_request.look.pixels, near);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sequence/results/measurement.h"
 
-#include "imagebuf/compare/fields.h"
+#include "imagebuf/options/summary_fields.h"
 
 namespace tonetool::sequence {
 
@@ -17,7 +17,7 @@ void add(Measurement& to, const std::string& key, const std::string& value) {
     to.settings.emplace_back(key, value);
 }
 
-// For imagebuf/compare/fields.h: of the summary, or of the image that is called so.
+// For summary_fields.h: of the summary, or of the image that is called so.
 template <class Summary>
 auto fields(Measurement& to, const Summary& summary, const std::string& of = "") {
     return [&to, &summary, of](const SummaryField& field, auto member) {

@@ -9,12 +9,14 @@
 #include <set>
 
 #include "images.h"
+#include "view_configs.h"
 
 namespace tonetool {
 namespace {
 
 using testing::Each;
 using testing::HasSubstr;
+using ToneAlgo::flip_exposed;
 using ToneAlgo::hdr_flip;
 using ToneAlgo::ldr_flip;
 
@@ -235,6 +237,82 @@ TEST(FlipQuantity, PercentilesAndSharesThatWereAskedFor) {
                     HasSubstr("unknown quantity"))
             << name;
     }
+}
+
+// What flip_exposed() shows is what hdr_flip() compared, at its own exposures and at single ones.
+void expect_shown_as_compared(const ImageBuf& reference, const ImageBuf& test,
+                              HdrFlipOptions options) {
+    options.want_exposures = true;
+    const FlipResult compared = run(reference, test, options).result;
+    std::vector<FlipExposure> all, one;
+    std::string error;
+    ASSERT_TRUE(flip_exposed(all, reference, test, error, options)) << error;
+    ASSERT_EQ(all.size(), compared.exposures.size());
+    for (size_t i = 0; i < all.size(); ++i) {
+        const FlipExposure& wanted = compared.exposures[i];
+        ASSERT_TRUE(flip_exposed(one, reference, test, error, options, {wanted.stops}, {}, 1))
+            << error;
+        for (const FlipExposure& shown : {all[i], one.at(0)}) {
+            EXPECT_EQ(shown.stops, wanted.stops);
+            EXPECT_EQ(values(shown.reference), values(wanted.reference));
+            EXPECT_EQ(values(shown.test), values(wanted.test));
+            EXPECT_EQ(shown.test.spec().get_string_attribute("oiio:ColorSpace"), "Linear");
+            EXPECT_FALSE(shown.flip.initialized());
+        }
+    }
+}
+
+TEST(Exposed, IsWhatHdrFlipComparesToTheBit) {
+    const auto reference = with_pixel(noise(70, 41, 1), 3, 4, {NAN, 1, 2});
+    const auto test = with_pixel(disturbed(noise(70, 41, 1), 0.3, 2), 9, 9, {1, INFINITY, -1});
+    const Folder folder;
+    for (const char* curve : {"aces", "hable", "reinhard", "drago", "agx"}) {
+        SCOPED_TRACE(curve);
+        HdrFlipOptions options;
+        options.curve.name = curve;
+        expect_shown_as_compared(reference, test, options);
+        options.curve.on = "luminance";
+        expect_shown_as_compared(reference, test, options);
+    }
+    HdrFlipOptions options;
+    options.view = ViewOptions();
+    options.view->config = write_text(folder / "config.ocio", kConfig);
+    options.view->display = "sRGB";
+    options.view->view = "SDR";
+    for (const bool exact : {false, true}) {
+        SCOPED_TRACE(exact);
+        options.exact = exact;
+        expect_shown_as_compared(reference, test, options);
+    }
+}
+
+TEST(Exposed, TakesAnyExposuresARegionAndOneImage) {
+    const auto image = noise(30, 20, 1);
+    std::vector<FlipExposure> whole, part;
+    std::string error;
+    ASSERT_TRUE(flip_exposed(whole, image, image, error, {}, {4, -2.5})) << error;
+    ASSERT_EQ(whole.size(), 2u);
+    EXPECT_EQ(whole[0].stops, 4);
+    EXPECT_EQ(values(whole[1].reference), values(whole[1].test));
+    const ROI roi(5, 8, 2, 4);
+    ASSERT_TRUE(flip_exposed(part, image, image, error, {}, {4}, roi)) << error;
+    EXPECT_EQ(part.at(0).test.spec().width, 3);
+    EXPECT_EQ(pixel_of(part[0].test, 6, 3), pixel_of(whole[0].test, 6, 3));
+}
+
+TEST(Exposed, RefusesWhatHdrFlipRefuses) {
+    const auto image = noise(30, 20, 1), black = constant(30, 20, {0, 0, 0});
+    const auto why = [&](const ImageBuf& reference, const std::vector<double>& stops) {
+        std::vector<FlipExposure> shown(1);
+        std::string error;
+        EXPECT_FALSE(flip_exposed(shown, reference, image, error, {}, stops));
+        EXPECT_TRUE(shown.empty());
+        return error;
+    };
+    EXPECT_THAT(why(image, {0, 500}), HasSubstr("an exposure is 500 stops: must be -126 to 127"));
+    EXPECT_THAT(why(image, {NAN}), HasSubstr("must be -126 to 127"));
+    EXPECT_THAT(why(black, {}), HasSubstr("the reference is black"));
+    EXPECT_THAT(why(noise(8, 8, 1), {0}), HasSubstr("display window"));
 }
 
 } // namespace

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The fields that the summaries of comparisons have in common, each written once: what writes
+// The fields of summaries that are shown in more than one place, each written once: what writes
 // attributes, prints lines, keeps the record of a check or makes classes of Python visits them. A
 // visitor is called with a SummaryField and a pointer to the member.
 #pragma once
@@ -57,13 +57,19 @@ inline int64_t said(const SummaryField&, int64_t value) {
     return value;
 }
 
+/// How an image was read: of any summary.
+template <class S, class Visit>
+void visit_source(const Visit& visit) {
+    visit(SummaryField{"layer", "\"\" for the plain R, G, B.", nullptr, nullptr, "R,G,B"},
+          &S::layer);
+    visit(SummaryField{"space", "Colour space the stored values were read in."}, &S::space);
+}
+
 /// Of each image: how it was read, and what was found in it.
 template <class Visit>
 void visit_side(const Visit& visit) {
     using S = FlipSide;
-    visit(SummaryField{"layer", "\"\" for the plain R, G, B.", nullptr, nullptr, "R,G,B"},
-          &S::layer);
-    visit(SummaryField{"space", "Colour space the stored values were read in."}, &S::space);
+    visit_source<S>(visit);
     visit(SummaryField{"nonfinite", "Pixels with NaN or Inf."}, &S::nonfinite);
     visit(SummaryField{"negative", "Pixels with a negative component, which counts as 0."},
           &S::negative);
@@ -133,6 +139,26 @@ void visit_shown_luminance(const Visit& visit) {
     visit(
         SummaryField{"deviation", "Of the picture, that n follows from.", nullptr, "ldr-deviation"},
         &S::deviation);
+}
+
+/// Of one image.
+template <class Visit>
+void visit_luminance(const Visit& visit) {
+    using S = LuminanceStats;
+    visit(SummaryField{"pixels", "In the data window or the region."}, &S::pixels);
+    visit(SummaryField{"nonfinite", "With NaN or Inf: not in any figure below."}, &S::nonfinite);
+    visit(SummaryField{"negative", "Finite, with a negative component, which counts as 0."},
+          &S::negative);
+    visit(SummaryField{"black", "Luminance exactly 0."}, &S::black);
+    visit(SummaryField{"min", "Smallest."}, &S::min);
+    visit(SummaryField{"max", "Largest."}, &S::max);
+    visit(SummaryField{"mean", "Arithmetic mean."}, &S::mean);
+    visit(SummaryField{"median", "The upper median, as HDR-FLIP takes it."}, &S::median);
+    visit(SummaryField{"median_lit", "The same over luminance above 0."}, &S::median_lit);
+    visit(SummaryField{"log_average", "Geometric mean over luminance above 0."}, &S::log_average);
+    visit(SummaryField{"p1", "Nearest-rank percentile."}, &S::p1);
+    visit(SummaryField{"p99", "Nearest-rank percentile."}, &S::p99);
+    visit(SummaryField{"p999", "Percentile 99.9.", nullptr, "p99.9"}, &S::p999);
 }
 
 /// "S1" of the finest of TMQI's scales.
