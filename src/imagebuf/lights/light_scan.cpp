@@ -3,7 +3,6 @@
 
 #include <OpenImageIO/strutil.h>
 #include <algorithm>
-#include <cmath>
 
 #include "imagebuf/color/luminance_plane.h"
 #include "imagebuf/pixels/parallel.h"
@@ -15,9 +14,8 @@ namespace {
 
 using OIIO::Strutil::fmt::format;
 
-// Shares of the light: of a pixel's, to be among those that light it; of the picture's, that groups
-// may miss.
-constexpr double kContributes = 0.01, kAdditive = 0.05;
+// The share of a pixel's light that makes a group one of those that light it.
+constexpr double kContributes = 0.01;
 
 void luminances(const ColorPlanes& planes, int y, float* out) {
     const float* rgb[3];
@@ -42,14 +40,6 @@ void LightScan::open(const OIIO::ImageBuf& image, const PixelOptions& beauty,
     }
 }
 
-// The largest component of the picture. Where it was clamped, many pixels have it.
-void LightScan::find_ceiling() {
-    ColorPlanes planes = m_beauty.planes();
-    for (int y = m_region.ybegin; y < m_region.yend; y += kLuminanceRows)
-        m_beauty.read(y, std::min(y + kLuminanceRows, m_region.yend), planes);
-    m_ceiling = planes.counts.largest;
-}
-
 void LightScan::read_band(int begin, int end) {
     m_beauty.read(begin, end, m_beauty_planes);
     for (size_t g = 0; g < m_readers.size(); ++g)
@@ -57,7 +47,6 @@ void LightScan::read_band(int begin, int end) {
 }
 
 void LightScan::run(const Sink& sink) {
-    find_ceiling();
     m_beauty_planes = m_beauty.planes();
     m_planes.clear();
     for (const ColorReader& reader : m_readers)
@@ -79,17 +68,12 @@ void LightScan::run(const Sink& sink) {
 
 void LightScan::scan_row(int y, Row& row, int* indices) const {
     const size_t count = m_groups.size(), width = size_t(m_region.width());
-    std::vector<float> all((count + 1) * width);
+    std::vector<float> all(count * width);
     std::vector<const float*> light(count);
     for (size_t g = 0; g < count; ++g) {
         light[g] = all.data() + g * width;
         luminances(m_planes[g], y, all.data() + g * width);
     }
-    float* picture = all.data() + count * width;
-    luminances(m_beauty_planes, y, picture);
-    const float* rgb[3];
-    m_beauty_planes.row(m_region.xbegin, y, rgb);
-    const uint8_t* nonfinite = m_beauty_planes.nonfinite.data() + m_beauty_planes.at(y);
     row.pixels.resize(count);
     row.maxima.resize(count);
     for (size_t x = 0; x < width; ++x) {
@@ -103,11 +87,25 @@ void LightScan::scan_row(int y, Row& row, int* indices) const {
             ++row.pixels[size_t(indices[x])];
         else
             ++row.unlit;
-        if (nonfinite[x] || std::max({rgb[0][x], rgb[1][x], rgb[2][x]}) >= m_ceiling)
-            continue;
-        row.beauty_light += picture[x];
-        row.group_light += total;
-        row.off += std::abs(total - picture[x]);
+    }
+    compare_row(y, row.compared);
+}
+
+// Pixels that are not finite somewhere do not count, as in --qc.
+void LightScan::compare_row(int y, metrics::GroupScan& out) const {
+    const size_t begin = m_beauty_planes.at(y), end = begin + size_t(m_region.width());
+    for (size_t at = begin; at < end; ++at) {
+        double groups[3] = {0, 0, 0};
+        bool finite = !m_beauty_planes.nonfinite[at];
+        for (const ColorPlanes& planes : m_planes) {
+            finite = finite && !planes.nonfinite[at];
+            for (size_t c = 0; c < 3; ++c)
+                groups[c] += double(planes.plane[c][at]);
+        }
+        const auto& beauty = m_beauty_planes.plane;
+        if (finite)
+            out.add({beauty[0][at], beauty[1][at], beauty[2][at]}, groups,
+                    m_region.xbegin + int64_t(at - begin), y);
     }
 }
 
@@ -133,9 +131,7 @@ void LightScan::add(const Row& row) {
         m_groups[g].maximum = std::max(m_groups[g].maximum, row.maxima[g]);
     }
     m_unlit += row.unlit;
-    m_beauty_light += row.beauty_light;
-    m_group_light += row.group_light;
-    m_off += row.off;
+    m_compared.add(row.compared);
 }
 
 double LightScan::percentile(size_t group, double share) const {
@@ -149,10 +145,6 @@ double LightScan::percentile(size_t group, double share) const {
     return order.find({metrics::Wanted::percentile(share)})[0];
 }
 
-bool LightScan::additive() const {
-    return difference() <= kAdditive;
-}
-
 std::vector<std::string> LightScan::warnings() const {
     std::vector<std::string> out;
     int64_t nonfinite = 0;
@@ -164,7 +156,7 @@ std::vector<std::string> LightScan::warnings() const {
     if (!additive())
         out.push_back(format("the light groups do not add up to the picture: their light is {:.3g} "
                              "of its, and pixels differ by {:.3g} (at most {} is expected)",
-                             sum(), difference(), kAdditive));
+                             sum(), difference(), LightIndexSummary::kMostDifference));
     return out;
 }
 
