@@ -68,7 +68,6 @@ private:
     std::vector<float> convert(const float* const (&in)[3], const size_t (&step)[3],
                                size_t count) const;
     const float* staged(const Stage& stage, int y, size_t which) const;
-    size_t step_bytes() const;
 
     struct Place {
         size_t run = 0;

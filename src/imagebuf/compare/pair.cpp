@@ -121,10 +121,6 @@ ROI plane_of(ROI r) {
     return r;
 }
 
-bool same_window(const ROI& a, const ROI& b) {
-    return a.xbegin == b.xbegin && a.xend == b.xend && a.ybegin == b.ybegin && a.yend == b.yend;
-}
-
 void check_orientation(const ImageBuf& reference, const ImageBuf& test) {
     const int r = orientation_of(reference.spec()), t = orientation_of(test.spec());
     if (r != t)

@@ -7,6 +7,7 @@
 
 #include "imagebuf/pixels/parallel.h"
 #include "imagebuf/qc/qc_header.h"
+#include "kernels/curve.h"
 #include "metrics/refusal.h"
 
 namespace tonetool {
@@ -15,9 +16,6 @@ namespace {
 using metrics::Spike;
 using OIIO::ImageBuf;
 using OIIO::ROI;
-
-constexpr size_t kStep = size_t(32) << 20;
-constexpr double kRec709[3] = {0.2126, 0.7152, 0.0722}; // luminance, ITU-R BT.709
 
 std::string fingerprint(const void* data, size_t bytes) {
     const auto hash = OIIO::farmhash::Fingerprint128(static_cast<const char*>(data), bytes);
@@ -44,7 +42,7 @@ void QcScan::open(const std::vector<const ImageBuf*>& parts, const QcOptions& op
     open_parts(parts);
     for (size_t c = 0; c < 3; ++c)
         for (size_t p = 0; p < 3; ++p)
-            m_weights[c] += kRec709[p] * m_space.to_rec709[p][c];
+            m_weights[c] += kernels::kLuminance[p] * m_space.to_rec709[p][c];
     list_layers();
     place_cells();
     if (has_picture())
@@ -125,7 +123,7 @@ void QcScan::run() {
         last = std::max(last, part.window.yend);
     }
     for (int begin = first; begin < last;) {
-        const int end = std::min(begin + m_parts[0].source.rows_at_once(begin, kStep), last);
+        const int end = std::min(begin + m_parts[0].source.rows_at_once(begin), last);
         read_band(begin, end);
         std::vector<Row> rows(size_t(end - begin));
         make_parallel(m_nthreads)(end - begin,
