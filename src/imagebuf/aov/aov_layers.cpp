@@ -37,8 +37,10 @@ Split split(const std::string& full, const std::set<std::string>& all) {
 void place(AovLayer& layer, const std::string& component, int channel) {
     const std::string names[3][3] = {{"r", "red", "x"}, {"g", "green", "y"}, {"b", "blue", "z"}};
     for (size_t i = 0; i < 3; ++i) {
-        if ((component == names[i][0] || component == names[i][1]) && layer.rgb[i] < 0)
-            layer.rgb[i] = channel;
+        if (component == names[i][0] || component == names[i][1]) {
+            layer.twice = layer.twice || layer.rgb[i] >= 0;
+            layer.rgb[i] = layer.rgb[i] < 0 ? channel : layer.rgb[i];
+        }
         if (component == names[i][2] && layer.xyz[i] < 0)
             layer.xyz[i] = channel;
     }
@@ -54,11 +56,8 @@ void place(AovLayer& layer, const std::string& component, int channel) {
 AovLayer named(const std::string& prefix, const OIIO::ImageSpec& spec) {
     AovLayer layer;
     layer.plain = prefix.empty();
-    layer.name = prefix;
     // In a file of many parts the name of the part may be all there is.
-    for (const char* key : {"oiio:subimagename", "name"})
-        if (layer.name.empty())
-            layer.name = spec.get_string_attribute(key);
+    layer.name = layer.plain ? part_name(spec) : prefix;
     const LayerName split = split_layer(layer.name);
     layer.home = split.home;
     layer.token = split.token;
@@ -74,6 +73,11 @@ int AovLayer::scalar() const {
     if (t >= 0)
         return t;
     return count == 1 ? first : has_rgb() ? rgb[0] : -1;
+}
+
+std::string part_name(const OIIO::ImageSpec& spec) {
+    const std::string name = spec.get_string_attribute("oiio:subimagename");
+    return name.empty() ? std::string(spec.get_string_attribute("name")) : name;
 }
 
 std::vector<AovLayer> aov_layers(const OIIO::ImageSpec& spec) {

@@ -3,6 +3,7 @@
 #include <OpenImageIO/strutil.h>
 #include <algorithm>
 #include <map>
+#include <set>
 
 #include "imagebuf/aov/aov_layers.h"
 #include "imagebuf/aov/color_names.h"
@@ -22,57 +23,24 @@ constexpr const char* kPlain = "R,G,B";
 constexpr const char* kBeautyNames[] = {"combined", "rgba",  "rgb",        "c",     "ci",
                                         "beauty",   "color", "finalimage", "final", "image"};
 
-// 0..3 for R, G, B, A in either case or written out, -1 for any other component.
-int component(const std::string& name) {
-    const std::string n = lower(name);
-    constexpr const char* names[4][2] = {
-        {"r", "red"}, {"g", "green"}, {"b", "blue"}, {"a", "alpha"}};
-    for (int i = 0; i < 4; ++i)
-        if (n == names[i][0] || n == names[i][1])
-            return i;
-    return -1;
-}
-
 struct Layer {
     std::string name; // "" for plain R,G,B
     std::string part; // of plain R,G,B: what the part of the file is called
     int channel[4] = {-1, -1, -1, -1};
     bool twice = false; // a colour is there in two spellings, "R" and "red"
-    bool has_color() const { return channel[0] >= 0 && channel[1] >= 0 && channel[2] >= 0; }
     std::string shown() const { return name.empty() ? kPlain : name; }
     AovKind kind() const { return kind_of_layer(split_layer(name.empty() ? part : name).token); }
 };
 
-std::string part_of(const OIIO::ImageSpec& spec) {
-    for (const char* key : {"oiio:subimagename", "name"})
-        if (const std::string name = spec.get_string_attribute(key); !name.empty())
-            return name;
-    return "";
-}
-
-// In the order of the file.
+// Those with colour, in the order of the file.
 std::vector<Layer> find_layers(const OIIO::ImageSpec& spec) {
     std::vector<Layer> layers;
-    for (int i = 0; i < spec.nchannels; ++i) {
-        const std::string full = spec.channel_name(i);
-        const auto dot = full.rfind('.');
-        const std::string prefix = dot == std::string::npos ? "" : full.substr(0, dot);
-        const int c = component(dot == std::string::npos ? full : full.substr(dot + 1));
-        if (c < 0)
-            continue;
-        auto at = std::find_if(layers.begin(), layers.end(),
-                               [&](const Layer& l) { return l.name == prefix; });
-        if (at == layers.end())
-            at = layers.insert(layers.end(), Layer{prefix, "", {-1, -1, -1, -1}, false});
-        if (prefix.empty())
-            at->part = part_of(spec);
-        at->twice = at->twice || (c < 3 && at->channel[c] >= 0);
-        if (at->channel[c] < 0)
-            at->channel[c] = i;
-    }
-    layers.erase(
-        std::remove_if(layers.begin(), layers.end(), [](const Layer& l) { return !l.has_color(); }),
-        layers.end());
+    for (const AovLayer& from : aov_layers(spec))
+        if (from.has_rgb())
+            layers.push_back({from.plain ? "" : from.name,
+                              from.plain ? from.name : "",
+                              {from.rgb[0], from.rgb[1], from.rgb[2], from.alpha},
+                              from.twice});
     return layers;
 }
 
@@ -97,7 +65,8 @@ std::string prefix_of(const std::string& channel) {
 }
 
 bool is_alpha(const std::string& channel) {
-    return component(last_part(channel)) == 3;
+    const std::string last = last_part(channel);
+    return last == "a" || last == "alpha";
 }
 
 // The alpha beside a channel of this layer, -1 if there is none.
@@ -113,8 +82,10 @@ int alpha_beside(const OIIO::ImageSpec& spec, int channel) {
 Layer grey_layer(const OIIO::ImageSpec& spec, int channel) {
     const std::string name(spec.channel_name(channel));
     const std::string prefix = prefix_of(name), last = last_part(name);
-    const bool plain = prefix.empty() && (last == "y" || component(last) >= 0);
-    Layer layer{plain ? "" : prefix.empty() ? name : prefix, part_of(spec), {}, false};
+    static const std::set<std::string> names = {"y", "r",    "red", "g",    "green",
+                                                "b", "blue", "a",   "alpha"};
+    const bool plain = prefix.empty() && names.count(last) > 0;
+    Layer layer{plain ? "" : prefix.empty() ? name : prefix, part_name(spec), {}, false};
     std::fill_n(layer.channel, 3, channel);
     layer.channel[3] = alpha_beside(spec, channel);
     return layer;
