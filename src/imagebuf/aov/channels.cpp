@@ -1,16 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which channels of an image are its colour.
+#include "imagebuf/aov/channels.h"
+
 #include <OpenImageIO/strutil.h>
 #include <algorithm>
 #include <map>
 #include <set>
 
 #include "imagebuf/aov/aov_layers.h"
-#include "imagebuf/aov/color_names.h"
-#include "imagebuf/pixels/colorimetry.h"
-#include "imagebuf/pixels/guard.h"
 #include "metrics/refusal.h"
-#include "tonetool/pixels.h"
 
 namespace tonetool {
 namespace {
@@ -234,9 +231,9 @@ std::vector<Layer> of_part(const OIIO::ImageSpec& spec, const std::vector<Layer>
 }
 
 std::string no_layer_text(const OIIO::ImageSpec& spec, const std::vector<Layer>& layers,
-                          const PixelOptions& options) {
-    if (!options.layer.empty())
-        return "no colour layer \"" + options.layer + "\"; layers with R,G,B: " + list(layers);
+                          const std::string& name) {
+    if (!name.empty())
+        return "no colour layer \"" + name + "\"; layers with R,G,B: " + list(layers);
     const auto grey = layers.empty() ? grey_picture(spec) : std::vector<Layer>{};
     if (layers.size() == 1 || !grey.empty())
         return data_text(spec, layers.empty() ? grey[0] : layers[0]);
@@ -281,15 +278,15 @@ bool holds_only_data(const OIIO::ImageSpec& spec) {
            (!layers.empty() || grey.empty() || !is_grey_picture(spec, grey[0]));
 }
 
-ColorChoice chosen_color(const OIIO::ImageSpec& spec, const PixelOptions& options) {
+ColorChoice chosen_channels(const OIIO::ImageSpec& spec, const std::string& name) {
     const auto layers = find_layers(spec);
-    auto found = options.layer.empty() ? beauty(spec, layers) : named(layers, options.layer);
-    if (found.empty() && !options.layer.empty())
-        found = of_part(spec, layers, options.layer);
-    if (found.empty() && !options.layer.empty())
-        found = named_grey(spec, options.layer);
+    auto found = name.empty() ? beauty(spec, layers) : named(layers, name);
+    if (found.empty() && !name.empty())
+        found = of_part(spec, layers, name);
+    if (found.empty() && !name.empty())
+        found = named_grey(spec, name);
     if (found.empty())
-        throw Refusal(no_layer_text(spec, layers, options));
+        throw Refusal(no_layer_text(spec, layers, name));
     if (found.size() > 1)
         throw Refusal(std::to_string(found.size()) + " layers could be meant: " + list(found) +
                       "; pass layer= one of them");
@@ -301,24 +298,14 @@ ColorChoice chosen_color(const OIIO::ImageSpec& spec, const PixelOptions& option
     choice.b = layer.channel[2];
     choice.a = layer.channel[3];
     choice.layer = layer.name;
-    const ColorSpace space = find_space(spec, options);
-    choice.space = space.name;
-    choice.display_encoded = space.encoded();
     return choice;
 }
 
-namespace ToneAlgo {
-
-bool find_color(const OIIO::ImageSpec& spec, const PixelOptions& options, ColorChoice& choice,
-                std::string& error) {
-    return contained(error, [&] { choice = chosen_color(spec, options); });
-}
-std::vector<std::string> color_layers(const OIIO::ImageSpec& spec) {
+std::vector<std::string> ToneAlgo::color_layers(const OIIO::ImageSpec& spec) {
     std::vector<std::string> names;
     for (const Layer& layer : find_layers(spec))
         names.push_back(layer.shown());
     return names;
 }
 
-} // namespace ToneAlgo
 } // namespace tonetool

@@ -3,7 +3,7 @@
 #include <OpenImageIO/strutil.h>
 #include <algorithm>
 
-#include "imagebuf/aov/color_names.h"
+#include "imagebuf/aov/channels.h"
 #include "imagebuf/pixels/guard.h"
 #include "imagebuf/pixels/names.h"
 #include "metrics/refusal.h"

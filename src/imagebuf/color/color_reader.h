@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "imagebuf/pixels/colorimetry.h"
+#include "imagebuf/color/color_source.h"
 #include "imagebuf/pixels/planes.h"
 #include "imagebuf/pixels/row_source.h"
 #include "tonetool/pixels.h"

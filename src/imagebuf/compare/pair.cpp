@@ -9,7 +9,7 @@
 #include <cstring>
 #include <limits>
 
-#include "imagebuf/aov/color_names.h"
+#include "imagebuf/aov/channels.h"
 #include "imagebuf/pixels/allocation.h"
 #include "imagebuf/pixels/bands.h"
 #include "imagebuf/pixels/names.h"

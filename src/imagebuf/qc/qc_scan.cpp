@@ -5,6 +5,7 @@
 #include <OpenImageIO/strutil.h>
 #include <algorithm>
 
+#include "imagebuf/aov/channels.h"
 #include "imagebuf/pixels/parallel.h"
 #include "imagebuf/qc/qc_header.h"
 #include "kernels/curve.h"

@@ -8,7 +8,7 @@
 
 #include "imagebuf/aov/aov_layers.h"
 #include "imagebuf/aov/light_groups.h"
-#include "imagebuf/pixels/colorimetry.h"
+#include "imagebuf/color/color_source.h"
 #include "imagebuf/pixels/row_source.h"
 #include "metrics/fault_scan.h"
 #include "tonetool/qc.h"

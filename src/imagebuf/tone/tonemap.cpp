@@ -7,6 +7,7 @@
 #include <cmath>
 #include <mutex>
 
+#include "imagebuf/color/color_source.h"
 #include "imagebuf/color/curve_plan.h"
 #include "imagebuf/color/tone_rows.h"
 #include "imagebuf/color/view.h"
