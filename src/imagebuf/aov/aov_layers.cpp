@@ -24,8 +24,8 @@ bool is_component(const std::string& word) {
 Split split(const std::string& full, const std::set<std::string>& all) {
     const auto dot = full.rfind('.');
     const std::string last = dot == std::string::npos ? full : full.substr(dot + 1);
-    if (is_component(lower_case(last)))
-        return {dot == std::string::npos ? "" : full.substr(0, dot), lower_case(last)};
+    if (is_component(lower(last)))
+        return {dot == std::string::npos ? "" : full.substr(0, dot), lower(last)};
     const std::string stem = full.substr(0, full.size() - 1);
     const char end = full.empty() ? '\0' : full.back();
     if (last.size() > 1 && end >= 'x' && end <= 'z' && all.count(stem + "x") > 0 &&
@@ -104,7 +104,7 @@ LayerName split_layer(const std::string& layer) {
     const std::string last = layer.substr(dot + 1), before = layer.substr(0, dot);
     const LayerName split = split_layer(before);
     // Stereo pairs of Blender are "ViewLayer.Position.left".
-    if (lower_case(last) == "left" || lower_case(last) == "right")
+    if (lower(last) == "left" || lower(last) == "right")
         return {split.home + "." + last, split.token};
     // Mitsuba's manual calls a layer "dd.y".
     if (last == "x" || last == "y")

@@ -7,12 +7,11 @@
 #include <set>
 
 #include "imagebuf/aov/aov_layers.h"
+#include "imagebuf/pixels/names.h"
 #include "metrics/refusal.h"
 
 namespace tonetool {
 namespace {
-
-using OIIO::Strutil::lower;
 
 constexpr const char* kPlain = "R,G,B";
 

@@ -43,7 +43,7 @@ std::vector<std::string> differing_tags(const OIIO::ImageSpec& reference,
 }
 
 std::string last_word(const std::string& layer) {
-    return lower_case(layer.substr(layer.rfind('.') + 1));
+    return lower(layer.substr(layer.rfind('.') + 1));
 }
 
 // Whether two layers are the same by their names: renderers have their own for the beauty.

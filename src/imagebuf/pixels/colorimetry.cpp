@@ -14,8 +14,6 @@
 namespace tonetool {
 namespace {
 
-using OIIO::Strutil::lower;
-
 constexpr double kD65[2] = {0.3127, 0.3290};
 // Exponents that files state of values that are encoded for a screen.
 constexpr double kLeastGamma = 1, kMostGamma = 4;
