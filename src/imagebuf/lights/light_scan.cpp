@@ -6,6 +6,7 @@
 
 #include "imagebuf/color/luminance_plane.h"
 #include "imagebuf/pixels/parallel.h"
+#include "imagebuf/pixels/row_source.h"
 #include "metrics/luminance.h"
 #include "metrics/order_statistics.h"
 
@@ -32,7 +33,6 @@ void LightScan::open(const OIIO::ImageBuf& image, const PixelOptions& beauty,
     m_region = region;
     m_nthreads = nthreads;
     m_readers = std::vector<ColorReader>(groups.size());
-    m_beauty.open(image, beauty, region, false, nthreads);
     for (size_t g = 0; g < groups.size(); ++g) {
         const PixelOptions pixels{groups[g].layer, beauty.from};
         m_readers[g].open(image, pixels, region, false, nthreads);
@@ -40,20 +40,15 @@ void LightScan::open(const OIIO::ImageBuf& image, const PixelOptions& beauty,
     }
 }
 
-void LightScan::read_band(int begin, int end) {
-    m_beauty.read(begin, end, m_beauty_planes);
-    for (size_t g = 0; g < m_readers.size(); ++g)
-        m_readers[g].read(begin, end, m_planes[g]);
-}
-
 void LightScan::run(const Sink& sink) {
-    m_beauty_planes = m_beauty.planes();
+    compare();
     m_planes.clear();
     for (const ColorReader& reader : m_readers)
         m_planes.push_back(reader.planes());
     for (int begin = m_region.ybegin; begin < m_region.yend; begin += kLuminanceRows) {
         const int end = std::min(begin + kLuminanceRows, m_region.yend);
-        read_band(begin, end);
+        for (size_t g = 0; g < m_readers.size(); ++g)
+            m_readers[g].read(begin, end, m_planes[g]);
         std::vector<Row> rows(size_t(end - begin));
         make_parallel(m_nthreads)(end - begin, [&](int64_t i) {
             std::vector<int> indices(size_t(m_region.width()));
@@ -88,24 +83,41 @@ void LightScan::scan_row(int y, Row& row, int* indices) const {
         else
             ++row.unlit;
     }
-    compare_row(y, row.compared);
 }
 
-// Pixels that are not finite somewhere do not count, as in --qc.
-void LightScan::compare_row(int y, metrics::GroupScan& out) const {
-    const size_t begin = m_beauty_planes.at(y), end = begin + size_t(m_region.width());
-    for (size_t at = begin; at < end; ++at) {
-        double groups[3] = {0, 0, 0};
-        bool finite = !m_beauty_planes.nonfinite[at];
-        for (const ColorPlanes& planes : m_planes) {
-            finite = finite && !planes.nonfinite[at];
-            for (size_t c = 0; c < 3; ++c)
-                groups[c] += double(planes.plane[c][at]);
-        }
-        const auto& beauty = m_beauty_planes.plane;
-        if (finite)
-            out.add({beauty[0][at], beauty[1][at], beauty[2][at]}, groups,
-                    m_region.xbegin + int64_t(at - begin), y);
+// Compares the values as they are stored, as --qc does: in Rec.709 the light of a group may be
+// negative, and would be cut off.
+void LightScan::compare() {
+    ColorChoice picture;
+    ColorSpace space;
+    find_picture(deciding_spec(*m_image), m_pixels, picture, space);
+    const int channels = m_image->nchannels();
+    const OIIO::ROI window = OIIO::roi_intersection(m_image->roi(), m_region);
+    RowSource source;
+    source.open(*m_image, {{0, channels}});
+    const size_t width = size_t(source.width()) * size_t(channels);
+    std::vector<float> rows;
+    for (int begin = window.ybegin, end = begin; begin < window.yend; begin = end) {
+        end = std::min(begin + source.rows_at_once(begin), window.yend);
+        rows.resize(width * size_t(end - begin));
+        source.read(begin, end, 0, rows.data());
+        std::vector<metrics::GroupScan> compared(size_t(end - begin));
+        make_parallel(m_nthreads)(end - begin, [&](int64_t i) {
+            float* row = rows.data() + width * size_t(i);
+            if (space.encoded())
+                std::transform(row, row + width, row,
+                               [&](float v) { return float(space.light(double(v), 1)); });
+            const metrics::ChannelRow pixels{row + (window.xbegin - source.left()) * channels,
+                                             channels, window.width(), window.xbegin, begin + i};
+            std::vector<metrics::RowChannel> groups;
+            for (const ScannedGroup& one : m_groups)
+                for (const int channel : one.group.channel)
+                    groups.push_back({pixels, channel});
+            compared[size_t(i)].add_row(
+                {{pixels, picture.r}, {pixels, picture.g}, {pixels, picture.b}}, groups);
+        });
+        for (const metrics::GroupScan& row : compared)
+            m_compared.add(row);
     }
 }
 
@@ -131,7 +143,6 @@ void LightScan::add(const Row& row) {
         m_groups[g].maximum = std::max(m_groups[g].maximum, row.maxima[g]);
     }
     m_unlit += row.unlit;
-    m_compared.add(row.compared);
 }
 
 double LightScan::percentile(size_t group, double share) const {

@@ -51,12 +51,10 @@ private:
         std::vector<int64_t> pixels;
         std::vector<double> maxima;
         int64_t unlit = 0;
-        metrics::GroupScan compared;
     };
 
-    void read_band(int begin, int end);
+    void compare();
     void scan_row(int y, Row& row, int* indices) const;
-    void compare_row(int y, metrics::GroupScan& out) const;
     int choose(const float* const* light, size_t x, double total) const;
     bool goes_before(size_t a, size_t b, const float* const* light, size_t x) const;
     void add(const Row& row);
@@ -65,8 +63,6 @@ private:
     PixelOptions m_pixels;
     OIIO::ROI m_region;
     int m_nthreads = 0;
-    ColorReader m_beauty;
-    ColorPlanes m_beauty_planes;
     std::vector<ColorReader> m_readers;
     std::vector<ColorPlanes> m_planes;
     std::vector<std::optional<double>> m_values;

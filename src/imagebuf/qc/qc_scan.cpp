@@ -190,7 +190,7 @@ void QcScan::scan_picture_row(int y, Row& row) const {
             rgb[3 * x + c] = pixels.pixels[x * size_t(pixels.stride) + size_t(channels[c])];
     row.hash = fingerprint(rgb.data(), rgb.size() * sizeof(float));
     if (!m_groups.empty() && !m_space.encoded())
-        scan_groups(y, rgb, row);
+        scan_groups(y, row);
     scan_alpha(y, rgb, row);
     if (m_space.encoded() || m_space.scale != 1)
         for (float& v : rgb)
@@ -219,26 +219,16 @@ void QcScan::scan_alpha(int y, const std::vector<float>& rgb, Row& row) const {
 }
 
 // Where a group has no pixel it has no light.
-void QcScan::scan_groups(int y, const std::vector<float>& rgb, Row& row) const {
-    const ROI& window = picture_window();
-    std::vector<double> light(rgb.size());
+void QcScan::scan_groups(int y, Row& row) const {
+    const auto at = [&](int channel) {
+        const Place place = place_of(channel);
+        return metrics::RowChannel{row_of(place.part, y), place.channel};
+    };
+    std::vector<metrics::RowChannel> groups;
     for (const LightGroup& group : m_groups)
-        for (size_t c = 0; c < 3; ++c) {
-            const Place place = place_of(group.channel[c]);
-            const metrics::ChannelRow pixels = row_of(place.part, y);
-            if (!pixels.pixels)
-                continue;
-            const int64_t from = std::max<int64_t>(window.xbegin, pixels.x);
-            const int64_t to = std::min<int64_t>(window.xend, pixels.x + pixels.width);
-            for (int64_t x = from; x < to; ++x)
-                light[size_t(3 * (x - window.xbegin)) + c] +=
-                    pixels.pixels[(x - pixels.x) * pixels.stride + place.channel];
-        }
-    for (size_t x = 0; 3 * x < rgb.size(); ++x) {
-        const float picture[3] = {rgb[3 * x], rgb[3 * x + 1], rgb[3 * x + 2]};
-        const double groups[3] = {light[3 * x], light[3 * x + 1], light[3 * x + 2]};
-        row.groups.add(picture, groups, window.xbegin + int64_t(x), y);
-    }
+        for (const int channel : group.channel)
+            groups.push_back(at(channel));
+    row.groups.add_row({at(m_choice.r), at(m_choice.g), at(m_choice.b)}, groups);
 }
 
 void QcScan::add(int y, const Row& row) {
