@@ -9,8 +9,6 @@
 namespace tonetool::flip {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
-
 // Contrast sensitivity in the frequency domain as sums of Gaussians a sqrt(pi/b) exp(-pi^2 x^2 / b)
 // (HPG 2020, Table 1); x in degrees.
 constexpr double kYb = 0.0047, kCxB = 0.0053;
@@ -26,7 +24,7 @@ using Taps = std::vector<double>;
 Taps gaussian(double amplitude, double b, double ppd, int radius) {
     Taps taps;
     for (int i = 0; i <= radius; ++i)
-        taps.push_back(amplitude * std::exp(-kPi * kPi * (i / ppd) * (i / ppd) / b));
+        taps.push_back(amplitude * std::exp(-M_PI * M_PI * (i / ppd) * (i / ppd) / b));
     return taps;
 }
 
@@ -89,20 +87,20 @@ std::vector<float> on_steps(const Taps& taps) {
 } // namespace
 
 double pixels_per_degree(double distance, double width, double pixels) {
-    return distance * (pixels / width) * (kPi / 180.0);
+    return distance * (pixels / width) * (M_PI / 180.0);
 }
 
 kernels::FlipTaps<double> make_taps(double ppd) {
     kernels::FlipTaps<double> taps;
     const double widest = std::max({kYb, kCxB, kCzB1, kCzB2});
-    const int radius = int(std::ceil(3.0 * std::sqrt(widest / (2.0 * kPi * kPi)) * ppd));
+    const int radius = int(std::ceil(3.0 * std::sqrt(widest / (2.0 * M_PI * M_PI)) * ppd));
     taps.y = gaussian(1.0, kYb, ppd, radius);
     taps.cx = gaussian(1.0, kCxB, ppd, radius);
     scale(taps.y, 1.0 / two_sided_sum(taps.y));
     scale(taps.cx, 1.0 / two_sided_sum(taps.cx));
     // The amplitude is applied in both passes, hence its square root.
-    taps.cz1 = gaussian(std::sqrt(kCzA1 * std::sqrt(kPi / kCzB1)), kCzB1, ppd, radius);
-    taps.cz2 = gaussian(std::sqrt(kCzA2 * std::sqrt(kPi / kCzB2)), kCzB2, ppd, radius);
+    taps.cz1 = gaussian(std::sqrt(kCzA1 * std::sqrt(M_PI / kCzB1)), kCzB1, ppd, radius);
+    taps.cz2 = gaussian(std::sqrt(kCzA2 * std::sqrt(M_PI / kCzB2)), kCzB2, ppd, radius);
     const double norm = 1.0 / std::hypot(two_sided_sum(taps.cz1), two_sided_sum(taps.cz2));
     scale(taps.cz1, norm);
     scale(taps.cz2, norm);

@@ -7,6 +7,9 @@
 
 namespace tonetool::kernels {
 
+/// Weights of luminance (ITU-R BT.709).
+inline constexpr std::array<double, 3> kLuminance = {0.2126, 0.7152, 0.0722};
+
 /// The formulas. tonemap/curves_*.cpp makes the numbers of each curve and says what they are;
 /// curve_reference.cpp is the plainest use of them.
 enum class CurveKind {
@@ -36,7 +39,7 @@ struct CurveNumbers {
 /// How a curve is applied to a pixel.
 struct CurveUse {
     bool on_luminance = false; ///< T(L) (C/L)^saturation instead of T(C); not where channels mix
-    std::array<double, 3> weights{0.2126, 0.7152, 0.0722}; ///< of luminance
+    std::array<double, 3> weights = kLuminance; ///< of luminance
     double saturation = 1;
     bool clamp = true; ///< the result to [0,1]
 };

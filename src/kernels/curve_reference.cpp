@@ -146,10 +146,8 @@ double curve_reference(const CurveNumbers& curve, double x) {
         return lottes(curve.p, x);
     case CurveKind::Uchimura:
         return uchimura(curve.p, x);
-    default: {
-        constexpr std::array<double, 3> weights = {kLuminance[0], kLuminance[1], kLuminance[2]};
-        return luminance(weights, mixed(curve, {x, x, x}));
-    }
+    default:
+        return luminance(kLuminance, mixed(curve, {x, x, x}));
     }
 }
 

@@ -6,6 +6,8 @@
 #include <array>
 #include <cstddef>
 
+#include "kernels/curve.h"
+
 namespace tonetool::kernels {
 
 /// Drago's curve as a local operator: Ld = T(Lb) (L / Lb), and C' = (C / L)^saturation Ld.
@@ -15,8 +17,8 @@ struct LocalCurve {
     double bias = 0.85;
     double display_maximum = 100; ///< cd/m2
     double saturation = 1;
-    std::array<double, 3> weights{0.2126, 0.7152, 0.0722}; ///< of luminance
-    bool log_base = false;                                 ///< the base is a natural logarithm
+    std::array<double, 3> weights = kLuminance; ///< of luminance
+    bool log_base = false;                      ///< the base is a natural logarithm
 };
 
 /// Luminance of `count` pixels. These functions take any count, and in and out may be the same.

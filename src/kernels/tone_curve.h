@@ -6,6 +6,8 @@
 #include <cstddef>
 #include <functional>
 
+#include "kernels/curve.h"
+
 namespace tonetool::kernels {
 
 enum class ToneKind {
@@ -26,9 +28,6 @@ struct ToneCurve {
 /// overlap. Called by several threads at a time.
 using ToneRows = std::function<void(const float* const in[3], float* const out[3], ptrdiff_t count,
                                     float scale)>;
-
-/// Luminance weights of the exposures and of Reinhard's curve (Rec.709, as published).
-inline constexpr double kLuminance[3] = {0.2126, 0.7152, 0.0722};
 
 /// Exposed values are cut off here before the curve: x^2 stays finite in float and every curve
 /// has long reached its end. Without it an infinite x^2 / x^2 turns a bright pixel black.

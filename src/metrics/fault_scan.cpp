@@ -127,6 +127,16 @@ void GroupScan::Sums::add(const Sums& later) {
         worst = later.worst;
 }
 
+void GroupScan::add_row(const RowChannel (&picture)[3], const std::vector<RowChannel>& groups) {
+    const ChannelRow& row = picture[0].row;
+    for (int64_t x = row.x; x < row.x + row.width; ++x) {
+        double light[3] = {0, 0, 0};
+        for (size_t i = 0; i < groups.size(); ++i)
+            light[i % 3] += double(groups[i].at(x));
+        add({picture[0].at(x), picture[1].at(x), picture[2].at(x)}, light, x, row.y);
+    }
+}
+
 void GroupScan::add(const float (&picture)[3], const double (&groups)[3], int64_t x, int64_t y) {
     Sums pixel;
     for (int c = 0; c < 3; ++c) {

@@ -70,12 +70,22 @@ void find_spikes(const float* const (&rows)[2 * Spike::kRadius + 1], int64_t wid
 /// Keeps the `most` largest fireflies, by value, then position.
 void keep_largest(std::vector<Spike>& spikes, size_t most);
 
+/// One channel of a row; 0 where the row has no pixel.
+struct RowChannel {
+    ChannelRow row;
+    int channel = 0;
+    float at(int64_t x) const {
+        const bool inside = row.pixels && x >= row.x && x < row.x + row.width;
+        return inside ? row.pixels[(x - row.x) * row.stride + channel] : 0;
+    }
+};
+
 /// Whether light groups add up to the beauty. Pixels at the beauty's largest component may be
 /// clamped: they count only where there are no others.
 class GroupScan {
 public:
-    /// Adds a pixel of the beauty and the sum of its groups.
-    void add(const float (&picture)[3], const double (&groups)[3], int64_t x, int64_t y);
+    /// Adds a row of the beauty; `groups` are the red, green and blue of one group after the other.
+    void add_row(const RowChannel (&picture)[3], const std::vector<RowChannel>& groups);
     void add(const GroupScan& later);
 
     double sum() const;        ///< light of the groups divided by that of the beauty
@@ -88,6 +98,8 @@ private:
         Hit worst;
         void add(const Sums& later);
     };
+    // Adds a pixel of the beauty and the sum of its groups.
+    void add(const float (&picture)[3], const double (&groups)[3], int64_t x, int64_t y);
     const Sums& chosen() const { return m_below.picture > 0 ? m_below : m_at; }
 
     float m_ceiling = -1;

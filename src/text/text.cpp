@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "text/text.h"
 
+#include <OpenImageIO/strutil.h>
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <cstdio>
-#include <limits>
-#include <locale>
 #include <sstream>
 
 #include "text/printable.h"
@@ -13,40 +13,6 @@
 namespace tonetool {
 
 namespace {
-
-bool is_digit(char c) {
-    return c >= '0' && c <= '9';
-}
-
-size_t skip_digits(const std::string& text, size_t at) {
-    while (at < text.size() && is_digit(text[at]))
-        ++at;
-    return at;
-}
-
-size_t skip_sign(const std::string& text, size_t at) {
-    return at < text.size() && (text[at] == '-' || text[at] == '+') ? at + 1 : at;
-}
-
-// [sign] digits [. digits] [e [sign] digits], with a digit on at least one side of the point.
-bool is_decimal(const std::string& text) {
-    size_t begin = skip_sign(text, 0);
-    size_t at = skip_digits(text, begin);
-    size_t digits = at - begin;
-    if (at < text.size() && text[at] == '.') {
-        size_t end = skip_digits(text, at + 1);
-        digits += end - (at + 1);
-        at = end;
-    }
-    if (digits == 0)
-        return false;
-    if (at < text.size() && (text[at] == 'e' || text[at] == 'E')) {
-        begin = skip_sign(text, at + 1);
-        at = skip_digits(text, begin);
-        return at > begin && at == text.size();
-    }
-    return at == text.size();
-}
 
 std::string printed(const char* format, double value) {
     char buffer[64];
@@ -57,31 +23,25 @@ std::string printed(const char* format, double value) {
 } // namespace
 
 std::optional<double> parse_number(const std::string& text) {
-    if (!is_decimal(text))
+    // Else strtod would skip spaces and read "nan", "inf" and "0x10", too.
+    if (text.empty() || text.find_first_not_of("0123456789.eE+-") != std::string::npos)
         return std::nullopt;
-    std::istringstream stream(text);
-    stream.imbue(std::locale::classic());
-    double value = 0;
-    stream >> value;
-    if (stream.fail() || !std::isfinite(value))
-        return std::nullopt;
-    return value;
+    char* end = nullptr;
+    const double value = OIIO::Strutil::strtod(text.c_str(), &end);
+    return *end == '\0' && std::isfinite(value) ? std::optional<double>(value) : std::nullopt;
 }
 
 std::optional<int> parse_integer(const std::string& text) {
-    size_t begin = skip_sign(text, 0);
-    if (begin == text.size() || skip_digits(text, begin) != text.size())
-        return std::nullopt;
-    std::istringstream stream(text);
-    stream.imbue(std::locale::classic());
+    const bool plus = text.size() > 1 && text[0] == '+' && text[1] != '-';
+    const char *begin = text.data() + (plus ? 1 : 0), *end = text.data() + text.size();
     int value = 0;
-    stream >> value;
-    return stream.fail() ? std::nullopt : std::optional<int>(value);
+    const auto [at, problem] = std::from_chars(begin, end, value);
+    return problem == std::errc() && at == end ? std::optional<int>(value) : std::nullopt;
 }
 
 std::optional<uint64_t> parse_size(const std::string& text) {
     const std::string units = "KMG";
-    size_t end = skip_digits(text, 0);
+    size_t end = std::min(text.find_first_not_of("0123456789"), text.size());
     size_t unit = end + 1 == text.size() ? units.find(text[end]) : std::string::npos;
     if (end == 0 || end > 18 || (end < text.size() && unit == std::string::npos))
         return std::nullopt;

@@ -24,8 +24,8 @@ bool is_component(const std::string& word) {
 Split split(const std::string& full, const std::set<std::string>& all) {
     const auto dot = full.rfind('.');
     const std::string last = dot == std::string::npos ? full : full.substr(dot + 1);
-    if (is_component(lower_case(last)))
-        return {dot == std::string::npos ? "" : full.substr(0, dot), lower_case(last)};
+    if (is_component(lower(last)))
+        return {dot == std::string::npos ? "" : full.substr(0, dot), lower(last)};
     const std::string stem = full.substr(0, full.size() - 1);
     const char end = full.empty() ? '\0' : full.back();
     if (last.size() > 1 && end >= 'x' && end <= 'z' && all.count(stem + "x") > 0 &&
@@ -37,8 +37,10 @@ Split split(const std::string& full, const std::set<std::string>& all) {
 void place(AovLayer& layer, const std::string& component, int channel) {
     const std::string names[3][3] = {{"r", "red", "x"}, {"g", "green", "y"}, {"b", "blue", "z"}};
     for (size_t i = 0; i < 3; ++i) {
-        if ((component == names[i][0] || component == names[i][1]) && layer.rgb[i] < 0)
-            layer.rgb[i] = channel;
+        if (component == names[i][0] || component == names[i][1]) {
+            layer.twice = layer.twice || layer.rgb[i] >= 0;
+            layer.rgb[i] = layer.rgb[i] < 0 ? channel : layer.rgb[i];
+        }
         if (component == names[i][2] && layer.xyz[i] < 0)
             layer.xyz[i] = channel;
     }
@@ -54,11 +56,8 @@ void place(AovLayer& layer, const std::string& component, int channel) {
 AovLayer named(const std::string& prefix, const OIIO::ImageSpec& spec) {
     AovLayer layer;
     layer.plain = prefix.empty();
-    layer.name = prefix;
     // In a file of many parts the name of the part may be all there is.
-    for (const char* key : {"oiio:subimagename", "name"})
-        if (layer.name.empty())
-            layer.name = spec.get_string_attribute(key);
+    layer.name = layer.plain ? part_name(spec) : prefix;
     const LayerName split = split_layer(layer.name);
     layer.home = split.home;
     layer.token = split.token;
@@ -74,6 +73,11 @@ int AovLayer::scalar() const {
     if (t >= 0)
         return t;
     return count == 1 ? first : has_rgb() ? rgb[0] : -1;
+}
+
+std::string part_name(const OIIO::ImageSpec& spec) {
+    const std::string name = spec.get_string_attribute("oiio:subimagename");
+    return name.empty() ? std::string(spec.get_string_attribute("name")) : name;
 }
 
 std::vector<AovLayer> aov_layers(const OIIO::ImageSpec& spec) {
@@ -100,7 +104,7 @@ LayerName split_layer(const std::string& layer) {
     const std::string last = layer.substr(dot + 1), before = layer.substr(0, dot);
     const LayerName split = split_layer(before);
     // Stereo pairs of Blender are "ViewLayer.Position.left".
-    if (lower_case(last) == "left" || lower_case(last) == "right")
+    if (lower(last) == "left" || lower(last) == "right")
         return {split.home + "." + last, split.token};
     // Mitsuba's manual calls a layer "dd.y".
     if (last == "x" || last == "y")

@@ -20,8 +20,9 @@ struct AovLayer {
     bool plain = false; ///< its channels are called R, G, B, Z and no more
     int xyz[3] = {-1, -1, -1};
     int rgb[3] = {-1, -1, -1};
-    int t = -1;     ///< Mitsuba's component of a distance
-    int first = -1; ///< its first channel
+    bool twice = false; ///< a colour is there in two spellings, "R" and "red"
+    int t = -1;         ///< Mitsuba's component of a distance
+    int first = -1;     ///< its first channel
     int count = 0;
     int alpha = -1;
     std::vector<int> channels; ///< all, in the order of the file
@@ -34,6 +35,9 @@ struct AovLayer {
     /// The channel of a quantity that needs only one, or -1.
     int scalar() const;
 };
+
+/// What a part of a file is called; often "".
+std::string part_name(const OIIO::ImageSpec& spec);
 
 /// In the order of the file.
 std::vector<AovLayer> aov_layers(const OIIO::ImageSpec& spec);

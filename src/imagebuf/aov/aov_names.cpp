@@ -162,7 +162,7 @@ std::string first_word(const std::string& token) {
     for (char& c : rest)
         c = std::isalnum(static_cast<unsigned char>(c)) ? c : ' ';
     for (const std::string& word : OIIO::Strutil::splits(rest))
-        if (!has(remarks, lower_case(word)) && !OIIO::Strutil::string_is_int(word))
+        if (!has(remarks, lower(word)) && !OIIO::Strutil::string_is_int(word))
             return "";
     return plain_word(token.substr(0, end));
 }
@@ -216,7 +216,7 @@ AovKind kind_of_layer(const std::string& token) {
 
 std::string plain_word(const std::string& name) {
     std::string word;
-    for (const char c : lower_case(name)) {
+    for (const char c : lower(name)) {
         const auto byte = static_cast<unsigned char>(c);
         if (std::isalnum(byte) || byte >= 0x80) // letters of other alphabets tell names apart
             word += c;

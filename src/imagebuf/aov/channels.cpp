@@ -1,20 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which channels of an image are its colour.
+#include "imagebuf/aov/channels.h"
+
 #include <OpenImageIO/strutil.h>
 #include <algorithm>
 #include <map>
+#include <set>
 
 #include "imagebuf/aov/aov_layers.h"
-#include "imagebuf/aov/color_names.h"
-#include "imagebuf/pixels/colorimetry.h"
-#include "imagebuf/pixels/guard.h"
+#include "imagebuf/pixels/names.h"
 #include "metrics/refusal.h"
-#include "tonetool/pixels.h"
 
 namespace tonetool {
 namespace {
-
-using OIIO::Strutil::lower;
 
 constexpr const char* kPlain = "R,G,B";
 
@@ -22,57 +19,24 @@ constexpr const char* kPlain = "R,G,B";
 constexpr const char* kBeautyNames[] = {"combined", "rgba",  "rgb",        "c",     "ci",
                                         "beauty",   "color", "finalimage", "final", "image"};
 
-// 0..3 for R, G, B, A in either case or written out, -1 for any other component.
-int component(const std::string& name) {
-    const std::string n = lower(name);
-    constexpr const char* names[4][2] = {
-        {"r", "red"}, {"g", "green"}, {"b", "blue"}, {"a", "alpha"}};
-    for (int i = 0; i < 4; ++i)
-        if (n == names[i][0] || n == names[i][1])
-            return i;
-    return -1;
-}
-
 struct Layer {
     std::string name; // "" for plain R,G,B
     std::string part; // of plain R,G,B: what the part of the file is called
     int channel[4] = {-1, -1, -1, -1};
     bool twice = false; // a colour is there in two spellings, "R" and "red"
-    bool has_color() const { return channel[0] >= 0 && channel[1] >= 0 && channel[2] >= 0; }
     std::string shown() const { return name.empty() ? kPlain : name; }
     AovKind kind() const { return kind_of_layer(split_layer(name.empty() ? part : name).token); }
 };
 
-std::string part_of(const OIIO::ImageSpec& spec) {
-    for (const char* key : {"oiio:subimagename", "name"})
-        if (const std::string name = spec.get_string_attribute(key); !name.empty())
-            return name;
-    return "";
-}
-
-// In the order of the file.
+// Those with colour, in the order of the file.
 std::vector<Layer> find_layers(const OIIO::ImageSpec& spec) {
     std::vector<Layer> layers;
-    for (int i = 0; i < spec.nchannels; ++i) {
-        const std::string full = spec.channel_name(i);
-        const auto dot = full.rfind('.');
-        const std::string prefix = dot == std::string::npos ? "" : full.substr(0, dot);
-        const int c = component(dot == std::string::npos ? full : full.substr(dot + 1));
-        if (c < 0)
-            continue;
-        auto at = std::find_if(layers.begin(), layers.end(),
-                               [&](const Layer& l) { return l.name == prefix; });
-        if (at == layers.end())
-            at = layers.insert(layers.end(), Layer{prefix, "", {-1, -1, -1, -1}, false});
-        if (prefix.empty())
-            at->part = part_of(spec);
-        at->twice = at->twice || (c < 3 && at->channel[c] >= 0);
-        if (at->channel[c] < 0)
-            at->channel[c] = i;
-    }
-    layers.erase(
-        std::remove_if(layers.begin(), layers.end(), [](const Layer& l) { return !l.has_color(); }),
-        layers.end());
+    for (const AovLayer& from : aov_layers(spec))
+        if (from.has_rgb())
+            layers.push_back({from.plain ? "" : from.name,
+                              from.plain ? from.name : "",
+                              {from.rgb[0], from.rgb[1], from.rgb[2], from.alpha},
+                              from.twice});
     return layers;
 }
 
@@ -97,7 +61,8 @@ std::string prefix_of(const std::string& channel) {
 }
 
 bool is_alpha(const std::string& channel) {
-    return component(last_part(channel)) == 3;
+    const std::string last = last_part(channel);
+    return last == "a" || last == "alpha";
 }
 
 // The alpha beside a channel of this layer, -1 if there is none.
@@ -113,8 +78,10 @@ int alpha_beside(const OIIO::ImageSpec& spec, int channel) {
 Layer grey_layer(const OIIO::ImageSpec& spec, int channel) {
     const std::string name(spec.channel_name(channel));
     const std::string prefix = prefix_of(name), last = last_part(name);
-    const bool plain = prefix.empty() && (last == "y" || component(last) >= 0);
-    Layer layer{plain ? "" : prefix.empty() ? name : prefix, part_of(spec), {}, false};
+    static const std::set<std::string> names = {"y", "r",    "red", "g",    "green",
+                                                "b", "blue", "a",   "alpha"};
+    const bool plain = prefix.empty() && names.count(last) > 0;
+    Layer layer{plain ? "" : prefix.empty() ? name : prefix, part_name(spec), {}, false};
     std::fill_n(layer.channel, 3, channel);
     layer.channel[3] = alpha_beside(spec, channel);
     return layer;
@@ -263,9 +230,9 @@ std::vector<Layer> of_part(const OIIO::ImageSpec& spec, const std::vector<Layer>
 }
 
 std::string no_layer_text(const OIIO::ImageSpec& spec, const std::vector<Layer>& layers,
-                          const PixelOptions& options) {
-    if (!options.layer.empty())
-        return "no colour layer \"" + options.layer + "\"; layers with R,G,B: " + list(layers);
+                          const std::string& name) {
+    if (!name.empty())
+        return "no colour layer \"" + name + "\"; layers with R,G,B: " + list(layers);
     const auto grey = layers.empty() ? grey_picture(spec) : std::vector<Layer>{};
     if (layers.size() == 1 || !grey.empty())
         return data_text(spec, layers.empty() ? grey[0] : layers[0]);
@@ -310,15 +277,15 @@ bool holds_only_data(const OIIO::ImageSpec& spec) {
            (!layers.empty() || grey.empty() || !is_grey_picture(spec, grey[0]));
 }
 
-ColorChoice chosen_color(const OIIO::ImageSpec& spec, const PixelOptions& options) {
+ColorChoice chosen_channels(const OIIO::ImageSpec& spec, const std::string& name) {
     const auto layers = find_layers(spec);
-    auto found = options.layer.empty() ? beauty(spec, layers) : named(layers, options.layer);
-    if (found.empty() && !options.layer.empty())
-        found = of_part(spec, layers, options.layer);
-    if (found.empty() && !options.layer.empty())
-        found = named_grey(spec, options.layer);
+    auto found = name.empty() ? beauty(spec, layers) : named(layers, name);
+    if (found.empty() && !name.empty())
+        found = of_part(spec, layers, name);
+    if (found.empty() && !name.empty())
+        found = named_grey(spec, name);
     if (found.empty())
-        throw Refusal(no_layer_text(spec, layers, options));
+        throw Refusal(no_layer_text(spec, layers, name));
     if (found.size() > 1)
         throw Refusal(std::to_string(found.size()) + " layers could be meant: " + list(found) +
                       "; pass layer= one of them");
@@ -330,24 +297,14 @@ ColorChoice chosen_color(const OIIO::ImageSpec& spec, const PixelOptions& option
     choice.b = layer.channel[2];
     choice.a = layer.channel[3];
     choice.layer = layer.name;
-    const ColorSpace space = find_space(spec, options);
-    choice.space = space.name;
-    choice.display_encoded = space.encoded();
     return choice;
 }
 
-namespace ToneAlgo {
-
-bool find_color(const OIIO::ImageSpec& spec, const PixelOptions& options, ColorChoice& choice,
-                std::string& error) {
-    return contained(error, [&] { choice = chosen_color(spec, options); });
-}
-std::vector<std::string> color_layers(const OIIO::ImageSpec& spec) {
+std::vector<std::string> ToneAlgo::color_layers(const OIIO::ImageSpec& spec) {
     std::vector<std::string> names;
     for (const Layer& layer : find_layers(spec))
         names.push_back(layer.shown());
     return names;
 }
 
-} // namespace ToneAlgo
 } // namespace tonetool

@@ -15,9 +15,6 @@ namespace {
 using OIIO::ImageBuf;
 using OIIO::ROI;
 
-// What is read at once.
-constexpr size_t kStep = size_t(32) << 20;
-
 struct Plane {
     std::vector<float>* to;
     int channel;
@@ -124,7 +121,7 @@ void Reader::read() {
     m_source.open(m_image, runs_of(channels));
     std::vector<std::vector<float>> rows(m_source.runs().size());
     for (int first = window.ybegin; first < window.yend;) {
-        const int last = std::min(first + m_source.rows_at_once(first, kStep), window.yend);
+        const int last = std::min(first + m_source.rows_at_once(first), window.yend);
         for (size_t r = 0; r < rows.size(); ++r) {
             rows[r].resize(size_t(last - first) * size_t(m_source.width()) *
                            size_t(m_source.runs()[r].count()));

@@ -24,7 +24,7 @@ constexpr int kWeakRank = 100, kNoRank = 1000;
 
 bool is_vray(const ImageSpec& spec, const std::vector<AovLayer>& layers) {
     const auto says_so = [](const OIIO::ParamValue& p) {
-        return starts_with(lower_case(p.name().string()), "vray");
+        return starts_with(lower(p.name().string()), "vray");
     };
     const auto is_named_so = [](const AovLayer& l) {
         return starts_with(l.pass, "vray") || starts_with(l.pass, "lightselect");
@@ -133,7 +133,7 @@ const AovLayer* Finder::named(Guide guide, const std::string& name) const {
         valid.push_back(full);
         if (full == name)
             exact.push_back(&layer);
-        if (lower_case(full) == lower_case(name))
+        if (lower(full) == lower(name))
             any_case.push_back(&layer);
         if (!layer.pass.empty() && layer.pass == plain_word(name))
             by_pass.push_back(&layer);

@@ -27,7 +27,7 @@ bool is_something_else(const std::string& group) {
 // name.
 std::string group_after(const std::string& token, const std::string& prefix) {
     const size_t n = prefix.size();
-    if (n == 0 || token.size() < n + 2 || lower_case(token.substr(0, n)) != lower_case(prefix) ||
+    if (n == 0 || token.size() < n + 2 || lower(token.substr(0, n)) != lower(prefix) ||
         std::string("_ .-").find(token[n]) == std::string::npos)
         return "";
     return token.substr(n + 1);

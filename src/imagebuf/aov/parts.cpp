@@ -3,7 +3,7 @@
 #include <OpenImageIO/strutil.h>
 #include <algorithm>
 
-#include "imagebuf/aov/color_names.h"
+#include "imagebuf/aov/channels.h"
 #include "imagebuf/pixels/guard.h"
 #include "imagebuf/pixels/names.h"
 #include "metrics/refusal.h"
@@ -45,8 +45,8 @@ std::string view_in_name(const std::string& name, const std::vector<std::string>
     std::vector<std::string> words;
     OIIO::Strutil::split(OIIO::Strutil::replace(name, "_", ".", true), words, ".");
     for (const std::string& word : words)
-        if (is_eye(lower_case(word)) || std::count(views.begin(), views.end(), word) > 0)
-            return lower_case(word);
+        if (is_eye(lower(word)) || std::count(views.begin(), views.end(), word) > 0)
+            return lower(word);
     return "";
 }
 
@@ -55,7 +55,7 @@ std::string without_view(const std::string& name, const std::string& view) {
     std::vector<std::string> words, kept;
     OIIO::Strutil::split(OIIO::Strutil::replace(name, "_", ".", true), words, ".");
     for (const std::string& word : words)
-        if (view.empty() || lower_case(word) != view)
+        if (view.empty() || lower(word) != view)
             kept.push_back(word);
     return kept.size() == words.size() ? name : OIIO::Strutil::join(kept, ".");
 }
@@ -67,11 +67,11 @@ Picture picture_of(const ImageSpec& spec, int part, const std::string& layer) {
     picture.part = part;
     picture.name = plain ? std::string(spec.get_string_attribute("oiio:subimagename")) : layer;
     picture.shown = picture.name.empty() ? layer : picture.name;
-    picture.view = lower_case(std::string(spec.get_string_attribute("view")));
+    picture.view = lower(std::string(spec.get_string_attribute("view")));
     if (picture.view.empty())
         picture.view = view_in_name(picture.name, views);
     if (picture.view.empty() && !views.empty())
-        picture.view = lower_case(views.front());
+        picture.view = lower(views.front());
     const std::string name = without_view(picture.name, picture.view);
     picture.data = is_data_name(name);
     picture.beauty = name.empty() || is_beauty_name(name);
@@ -108,8 +108,7 @@ int rank_of(const ImageSpec& spec, const std::string& name) {
     };
     if (fits([&](const std::string& one) { return one == name; }))
         return 3;
-    return fits([&](const std::string& one) { return lower_case(one) == lower_case(name); }) ? 2
-                                                                                             : 1;
+    return fits([&](const std::string& one) { return lower(one) == lower(name); }) ? 2 : 1;
 }
 
 // Parts of one view that all answer to its name: its beauty.

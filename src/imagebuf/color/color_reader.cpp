@@ -19,8 +19,7 @@ using OIIO::ROI;
 
 // Rows per task of an image in memory: worth a task, but small beside the image.
 constexpr int kRowsInMemory = 64;
-// What is read from a file at once. Decoders want enough rows for all threads.
-constexpr size_t kStep = size_t(32) << 20, kFrugalStep = size_t(2) << 20;
+constexpr size_t kFrugalStep = size_t(2) << 20;
 
 // A hash of a pixel and its place; sums of these do not depend on the order.
 uint64_t digest(size_t place, const double (&v)[3]) {
@@ -110,10 +109,6 @@ size_t ColorReader::row_bytes() const {
     return size_t(m_region.width()) * (3 * sizeof(float) + 1 + (m_alpha ? sizeof(float) : 0));
 }
 
-size_t ColorReader::step_bytes() const {
-    return m_frugal ? kFrugalStep : kStep;
-}
-
 size_t ColorReader::frugal_bytes() const {
     return kFrugalStep + m_source.decoder_bytes();
 }
@@ -182,7 +177,9 @@ void ColorReader::fill(int begin, int end, ColorPlanes& planes) {
 void ColorReader::fill_from_file(int begin, int end, ColorPlanes& planes) {
     std::mutex lock;
     for (int first = begin; first < end;) {
-        const int last = std::min(first + m_source.rows_at_once(first, step_bytes()), end);
+        const int rows =
+            m_frugal ? m_source.rows_at_once(first, kFrugalStep) : m_source.rows_at_once(first);
+        const int last = std::min(first + rows, end);
         fetch(first, last, m_stage);
         make_parallel(m_nthreads)(last - first, [&](int64_t row) {
             ColorCounts counts;

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "imagebuf/pixels/colorimetry.h"
+#include "imagebuf/color/color_source.h"
 #include "imagebuf/pixels/planes.h"
 #include "imagebuf/pixels/row_source.h"
 #include "tonetool/pixels.h"
@@ -68,7 +68,6 @@ private:
     std::vector<float> convert(const float* const (&in)[3], const size_t (&step)[3],
                                size_t count) const;
     const float* staged(const Stage& stage, int y, size_t which) const;
-    size_t step_bytes() const;
 
     struct Place {
         size_t run = 0;

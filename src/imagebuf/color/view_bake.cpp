@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The light of a view in a table, and how far that is from the view.
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <thread>
 
 #include "imagebuf/color/view_light.h"
+#include "imagebuf/pixels/tasks.h"
 
 namespace tonetool {
 namespace {
@@ -44,8 +44,9 @@ kernels::CubeShape choose_shape(const DisplayLight& light) {
 }
 
 void bake_plane(const LightSource& source, const std::vector<float>& levels, int r,
-                std::vector<float>& plane, kernels::LightCube& cube) {
+                kernels::LightCube& cube) {
     const auto n = ptrdiff_t(levels.size());
+    std::vector<float> plane(3 * levels.size() * levels.size());
     float* to = plane.data();
     for (float green : levels)
         for (float blue : levels) {
@@ -66,18 +67,8 @@ std::unique_ptr<kernels::LightCube> bake(const LightSource& source,
     std::vector<float> levels(size_t(shape.size));
     for (int i = 0; i < shape.size; ++i)
         levels[size_t(i)] = float(cube->level(i));
-    std::atomic<int> next{0};
-    const auto work = [&](std::vector<float> plane) {
-        for (int r = next++; r < shape.size; r = next++)
-            bake_plane(source, levels, r, plane, *cube);
-    };
-    const std::vector<float> plane(3 * levels.size() * levels.size());
-    std::vector<std::thread> others;
-    for (unsigned t = 1; t < std::min(kBakingThreads, std::thread::hardware_concurrency()); ++t)
-        others.emplace_back(work, plane);
-    work(plane);
-    for (std::thread& thread : others)
-        thread.join();
+    on_own_threads(shape.size, int(std::min(kBakingThreads, std::thread::hardware_concurrency())),
+                   [&](int64_t r) { bake_plane(source, levels, int(r), *cube); });
     return cube;
 }
 

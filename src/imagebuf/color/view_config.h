@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A view of an OpenColorIO configuration, chosen and checked. Only view*.cpp and
-// lut*.cpp include this.
+// A view of an OpenColorIO configuration, chosen and checked. Only color_source.cpp,
+// view*.cpp and lut*.cpp include this.
 #pragma once
 
 #include <OpenColorIO/OpenColorIO.h>

@@ -10,6 +10,7 @@
 #include "imagebuf/compare/pair.h"
 #include "imagebuf/compare/quantities.h"
 #include "imagebuf/pixels/allocation.h"
+#include "imagebuf/pixels/deliver.h"
 #include "imagebuf/pixels/parallel.h"
 #include "kernels/flip_tile.h"
 #include "metrics/pooling.h"
@@ -49,13 +50,6 @@ constexpr float kWhite = 0.9956f, kBlack = 0.5f / 255 / 12.92f;
 // Marks the largest error while it is not known yet: below every error.
 constexpr float kLargest = -1;
 
-// Whether a map of these pixels can be computed in an image's own.
-bool takes_map(const ImageBuf& dst, const ROI& roi) {
-    return dst.initialized() && dst.nchannels() == 1 && dst.pixeltype() == OIIO::TypeFloat &&
-           dst.localpixels() && dst.roi().contains(roi) &&
-           dst.scanline_stride() == OIIO::stride_t(sizeof(float)) * roi.width();
-}
-
 } // namespace
 
 size_t map_bytes(const FlipPlan& plan, size_t exposures) {
@@ -77,7 +71,8 @@ FlipMaps::FlipMaps(const FlipPlan& plan, const Exposures& exposures, const ROI& 
       m_unbounded(plan.pixel_error && !plan.pixel_error->bounded()),
       m_error(make_image(1)),
       m_alpha(plan.alpha() ? size_t(roi.height()) : 0) {
-    if (takes_map(dst, roi)) {
+    const auto stride = OIIO::stride_t(sizeof(float)) * roi.width();
+    if (takes_map(dst, roi) && dst.scanline_stride() == stride) { // it is computed in place
         const OIIO::ImageSpec spec = m_error.spec();
         m_error = ImageBuf(spec, dst.pixeladdr(roi.xbegin, roi.ybegin));
     }

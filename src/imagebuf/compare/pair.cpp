@@ -9,7 +9,7 @@
 #include <cstring>
 #include <limits>
 
-#include "imagebuf/aov/color_names.h"
+#include "imagebuf/aov/channels.h"
 #include "imagebuf/pixels/allocation.h"
 #include "imagebuf/pixels/bands.h"
 #include "imagebuf/pixels/names.h"
@@ -43,7 +43,7 @@ std::vector<std::string> differing_tags(const OIIO::ImageSpec& reference,
 }
 
 std::string last_word(const std::string& layer) {
-    return lower_case(layer.substr(layer.rfind('.') + 1));
+    return lower(layer.substr(layer.rfind('.') + 1));
 }
 
 // Whether two layers are the same by their names: renderers have their own for the beauty.
@@ -119,10 +119,6 @@ ROI plane_of(ROI r) {
     r.chbegin = 0;
     r.chend = 1;
     return r;
-}
-
-bool same_window(const ROI& a, const ROI& b) {
-    return a.xbegin == b.xbegin && a.xend == b.xend && a.ybegin == b.ybegin && a.yend == b.yend;
 }
 
 void check_orientation(const ImageBuf& reference, const ImageBuf& test) {

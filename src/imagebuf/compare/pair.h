@@ -13,8 +13,6 @@ namespace tonetool {
 
 /// The region in x and y, of one channel.
 OIIO::ROI plane_of(OIIO::ROI r);
-/// The same pixels in x and y.
-bool same_window(const OIIO::ROI& a, const OIIO::ROI& b);
 
 /// Refuses pictures that their tags turn differently: they have different pixels at the same place.
 void check_orientation(const OIIO::ImageBuf& reference, const OIIO::ImageBuf& test);

@@ -24,7 +24,6 @@ using OIIO::Strutil::fmt::format;
 constexpr double kMostIndex = 1e9, kWhole = 0.01;
 // Values of a layer; what has more is no index.
 constexpr size_t kMostValues = 1 << 20;
-constexpr size_t kStep = size_t(32) << 20;
 
 bool is_index(const AovLayer& layer) {
     static const char* const names[] = {"lightindex", "m", "lightid", "lightidx"};
@@ -96,7 +95,7 @@ void count_values(const ImageBuf& image, const IndexLayer& layer, ValueCounts& c
     const ROI roi = image.roi();
     std::vector<float> rows;
     for (int first = roi.ybegin; first < roi.yend;) {
-        const int last = std::min(first + source.rows_at_once(first, kStep), roi.yend);
+        const int last = std::min(first + source.rows_at_once(first), roi.yend);
         rows.resize(size_t(last - first) * size_t(source.width()));
         source.read(first, last, 0, rows.data());
         count_runs(rows, counts, nans);

@@ -13,10 +13,6 @@ namespace {
 using OIIO::ImageBuf;
 using OIIO::Strutil::fmt::format;
 
-bool same_window(const OIIO::ROI& a, const OIIO::ROI& b) {
-    return a.xbegin == b.xbegin && a.xend == b.xend && a.ybegin == b.ybegin && a.yend == b.yend;
-}
-
 // Takes the light if it is brighter.
 void take(LightMaximum::Found& found, double luminance, const std::string& light, bool measured) {
     if (luminance <= found.luminance)

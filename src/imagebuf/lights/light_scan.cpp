@@ -3,10 +3,10 @@
 
 #include <OpenImageIO/strutil.h>
 #include <algorithm>
-#include <cmath>
 
 #include "imagebuf/color/luminance_plane.h"
 #include "imagebuf/pixels/parallel.h"
+#include "imagebuf/pixels/row_source.h"
 #include "metrics/luminance.h"
 #include "metrics/order_statistics.h"
 
@@ -15,9 +15,8 @@ namespace {
 
 using OIIO::Strutil::fmt::format;
 
-// Shares of the light: of a pixel's, to be among those that light it; of the picture's, that groups
-// may miss.
-constexpr double kContributes = 0.01, kAdditive = 0.05;
+// The share of a pixel's light that makes a group one of those that light it.
+constexpr double kContributes = 0.01;
 
 void luminances(const ColorPlanes& planes, int y, float* out) {
     const float* rgb[3];
@@ -34,7 +33,6 @@ void LightScan::open(const OIIO::ImageBuf& image, const PixelOptions& beauty,
     m_region = region;
     m_nthreads = nthreads;
     m_readers = std::vector<ColorReader>(groups.size());
-    m_beauty.open(image, beauty, region, false, nthreads);
     for (size_t g = 0; g < groups.size(); ++g) {
         const PixelOptions pixels{groups[g].layer, beauty.from};
         m_readers[g].open(image, pixels, region, false, nthreads);
@@ -42,29 +40,15 @@ void LightScan::open(const OIIO::ImageBuf& image, const PixelOptions& beauty,
     }
 }
 
-// The largest component of the picture. Where it was clamped, many pixels have it.
-void LightScan::find_ceiling() {
-    ColorPlanes planes = m_beauty.planes();
-    for (int y = m_region.ybegin; y < m_region.yend; y += kLuminanceRows)
-        m_beauty.read(y, std::min(y + kLuminanceRows, m_region.yend), planes);
-    m_ceiling = planes.counts.largest;
-}
-
-void LightScan::read_band(int begin, int end) {
-    m_beauty.read(begin, end, m_beauty_planes);
-    for (size_t g = 0; g < m_readers.size(); ++g)
-        m_readers[g].read(begin, end, m_planes[g]);
-}
-
 void LightScan::run(const Sink& sink) {
-    find_ceiling();
-    m_beauty_planes = m_beauty.planes();
+    compare();
     m_planes.clear();
     for (const ColorReader& reader : m_readers)
         m_planes.push_back(reader.planes());
     for (int begin = m_region.ybegin; begin < m_region.yend; begin += kLuminanceRows) {
         const int end = std::min(begin + kLuminanceRows, m_region.yend);
-        read_band(begin, end);
+        for (size_t g = 0; g < m_readers.size(); ++g)
+            m_readers[g].read(begin, end, m_planes[g]);
         std::vector<Row> rows(size_t(end - begin));
         make_parallel(m_nthreads)(end - begin, [&](int64_t i) {
             std::vector<int> indices(size_t(m_region.width()));
@@ -79,17 +63,12 @@ void LightScan::run(const Sink& sink) {
 
 void LightScan::scan_row(int y, Row& row, int* indices) const {
     const size_t count = m_groups.size(), width = size_t(m_region.width());
-    std::vector<float> all((count + 1) * width);
+    std::vector<float> all(count * width);
     std::vector<const float*> light(count);
     for (size_t g = 0; g < count; ++g) {
         light[g] = all.data() + g * width;
         luminances(m_planes[g], y, all.data() + g * width);
     }
-    float* picture = all.data() + count * width;
-    luminances(m_beauty_planes, y, picture);
-    const float* rgb[3];
-    m_beauty_planes.row(m_region.xbegin, y, rgb);
-    const uint8_t* nonfinite = m_beauty_planes.nonfinite.data() + m_beauty_planes.at(y);
     row.pixels.resize(count);
     row.maxima.resize(count);
     for (size_t x = 0; x < width; ++x) {
@@ -103,11 +82,42 @@ void LightScan::scan_row(int y, Row& row, int* indices) const {
             ++row.pixels[size_t(indices[x])];
         else
             ++row.unlit;
-        if (nonfinite[x] || std::max({rgb[0][x], rgb[1][x], rgb[2][x]}) >= m_ceiling)
-            continue;
-        row.beauty_light += picture[x];
-        row.group_light += total;
-        row.off += std::abs(total - picture[x]);
+    }
+}
+
+// Compares the values as they are stored, as --qc does: in Rec.709 the light of a group may be
+// negative, and would be cut off.
+void LightScan::compare() {
+    ColorChoice picture;
+    ColorSpace space;
+    find_picture(deciding_spec(*m_image), m_pixels, picture, space);
+    const int channels = m_image->nchannels();
+    const OIIO::ROI window = OIIO::roi_intersection(m_image->roi(), m_region);
+    RowSource source;
+    source.open(*m_image, {{0, channels}});
+    const size_t width = size_t(source.width()) * size_t(channels);
+    std::vector<float> rows;
+    for (int begin = window.ybegin, end = begin; begin < window.yend; begin = end) {
+        end = std::min(begin + source.rows_at_once(begin), window.yend);
+        rows.resize(width * size_t(end - begin));
+        source.read(begin, end, 0, rows.data());
+        std::vector<metrics::GroupScan> compared(size_t(end - begin));
+        make_parallel(m_nthreads)(end - begin, [&](int64_t i) {
+            float* row = rows.data() + width * size_t(i);
+            if (space.encoded())
+                std::transform(row, row + width, row,
+                               [&](float v) { return float(space.light(double(v), 1)); });
+            const metrics::ChannelRow pixels{row + (window.xbegin - source.left()) * channels,
+                                             channels, window.width(), window.xbegin, begin + i};
+            std::vector<metrics::RowChannel> groups;
+            for (const ScannedGroup& one : m_groups)
+                for (const int channel : one.group.channel)
+                    groups.push_back({pixels, channel});
+            compared[size_t(i)].add_row(
+                {{pixels, picture.r}, {pixels, picture.g}, {pixels, picture.b}}, groups);
+        });
+        for (const metrics::GroupScan& row : compared)
+            m_compared.add(row);
     }
 }
 
@@ -133,9 +143,6 @@ void LightScan::add(const Row& row) {
         m_groups[g].maximum = std::max(m_groups[g].maximum, row.maxima[g]);
     }
     m_unlit += row.unlit;
-    m_beauty_light += row.beauty_light;
-    m_group_light += row.group_light;
-    m_off += row.off;
 }
 
 double LightScan::percentile(size_t group, double share) const {
@@ -149,10 +156,6 @@ double LightScan::percentile(size_t group, double share) const {
     return order.find({metrics::Wanted::percentile(share)})[0];
 }
 
-bool LightScan::additive() const {
-    return difference() <= kAdditive;
-}
-
 std::vector<std::string> LightScan::warnings() const {
     std::vector<std::string> out;
     int64_t nonfinite = 0;
@@ -164,7 +167,7 @@ std::vector<std::string> LightScan::warnings() const {
     if (!additive())
         out.push_back(format("the light groups do not add up to the picture: their light is {:.3g} "
                              "of its, and pixels differ by {:.3g} (at most {} is expected)",
-                             sum(), difference(), kAdditive));
+                             sum(), difference(), LightIndexSummary::kMostDifference));
     return out;
 }
 

@@ -9,6 +9,8 @@
 
 #include "imagebuf/aov/light_groups.h"
 #include "imagebuf/color/color_reader.h"
+#include "metrics/fault_scan.h"
+#include "tonetool/lights.h"
 
 namespace tonetool {
 
@@ -38,9 +40,9 @@ public:
     const std::vector<ScannedGroup>& groups() const { return m_groups; }
     int64_t unlit() const { return m_unlit; }
     /// As in LightIndexSummary.
-    double sum() const { return m_beauty_light > 0 ? m_group_light / m_beauty_light : 0; }
-    double difference() const { return m_beauty_light > 0 ? m_off / m_beauty_light : 0; }
-    bool additive() const;
+    double sum() const { return m_compared.sum(); }
+    double difference() const { return m_compared.difference(); }
+    bool additive() const { return difference() <= LightIndexSummary::kMostDifference; }
     /// What a user should know: groups that do not add up, pixels that are no numbers.
     std::vector<std::string> warnings() const;
 
@@ -49,11 +51,9 @@ private:
         std::vector<int64_t> pixels;
         std::vector<double> maxima;
         int64_t unlit = 0;
-        double beauty_light = 0, group_light = 0, off = 0;
     };
 
-    void find_ceiling();
-    void read_band(int begin, int end);
+    void compare();
     void scan_row(int y, Row& row, int* indices) const;
     int choose(const float* const* light, size_t x, double total) const;
     bool goes_before(size_t a, size_t b, const float* const* light, size_t x) const;
@@ -63,16 +63,13 @@ private:
     PixelOptions m_pixels;
     OIIO::ROI m_region;
     int m_nthreads = 0;
-    ColorReader m_beauty;
-    ColorPlanes m_beauty_planes;
     std::vector<ColorReader> m_readers;
     std::vector<ColorPlanes> m_planes;
     std::vector<std::optional<double>> m_values;
-    float m_ceiling = 0;
 
     std::vector<ScannedGroup> m_groups;
     int64_t m_unlit = 0;
-    double m_beauty_light = 0, m_group_light = 0, m_off = 0;
+    metrics::GroupScan m_compared; ///< with the beauty
 };
 
 } // namespace tonetool

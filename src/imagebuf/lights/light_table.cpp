@@ -59,7 +59,7 @@ void values_of(const Words& words, const std::string& line, const std::string& w
 }
 
 bool is_header(const Words& words) {
-    const std::string first = lower_case(words[0]);
+    const std::string first = lower(words[0]);
     for (const char* name : {"index", "name", "light", "group", "id"})
         if (first == name)
             return std::none_of(words.begin(), words.end(),
@@ -95,7 +95,7 @@ void LightTable::read(const std::string& file, const std::string& unit) {
                                     "what makes luminances of the image of the "
                                     "table's, 1e-30 to 1e30"}));
     m_scale = scale.value_or(1);
-    const std::string format_name = lower_case(OIIO::Filesystem::extension(file));
+    const std::string format_name = lower(OIIO::Filesystem::extension(file));
     std::string text;
     if (format_name != ".csv" && format_name != ".json")
         throw Refusal(format("light table \"{}\": must be a .csv or a .json file", file));

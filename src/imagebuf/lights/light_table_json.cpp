@@ -2,6 +2,7 @@
 // Tables of lights in JSON.
 #include <OpenImageIO/strutil.h>
 #include <algorithm>
+#include <cmath>
 
 #include "imagebuf/lights/light_table.h"
 #include "imagebuf/pixels/json_reading.h"
@@ -12,8 +13,6 @@ namespace {
 
 using nlohmann::json;
 using OIIO::Strutil::fmt::format;
-
-constexpr double kPi = 3.14159265358979323846;
 
 class Reader {
 public:
@@ -103,7 +102,7 @@ private:
         if (luminance)
             m_table.set_luminance(out, *luminance);
         else if (out.power && area && *area > 0)
-            m_table.set_luminance(out, *out.power / (kPi * *area * sides(from)));
+            m_table.set_luminance(out, *out.power / (M_PI * *area * sides(from)));
         if (!value && !luminance && !out.power && !from.contains("type"))
             fail(place, "must have luminance, radiance_rgb or power");
         out.lacks = "a light without an area" + type_of(from);

@@ -18,14 +18,14 @@ using OIIO::ImageBuf;
 using OIIO::ROI;
 using OIIO::Strutil::fmt::format;
 
-constexpr double kPi = 3.14159265358979323846, kEpsilon = 1e-6;
+constexpr double kEpsilon = 1e-6;
 
 // What a texel of each row counts. The part of a sphere between two polar angles has the area
 // 2 pi (cos a - cos b), of which the texels of a row share alike.
 std::vector<double> row_weights(int height, bool solid_angle) {
     std::vector<double> weights(size_t(height), 1.0);
     for (int j = 0; solid_angle && j < height; ++j)
-        weights[size_t(j)] = std::cos(kPi * j / height) - std::cos(kPi * (j + 1) / height);
+        weights[size_t(j)] = std::cos(M_PI * j / height) - std::cos(M_PI * (j + 1) / height);
     return weights;
 }
 

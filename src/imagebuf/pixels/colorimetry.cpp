@@ -7,16 +7,12 @@
 #include <optional>
 #include <vector>
 
-#include "imagebuf/color/view_source.h"
-#include "imagebuf/pixels/guard.h"
 #include "imagebuf/pixels/names.h"
 #include "metrics/refusal.h"
 #include "tonetool/pixels.h"
 
 namespace tonetool {
 namespace {
-
-using OIIO::Strutil::lower;
 
 constexpr double kD65[2] = {0.3127, 0.3290};
 // Exponents that files state of values that are encoded for a screen.
@@ -279,6 +275,11 @@ std::vector<std::string> interchange_names(const std::string& name) {
     return {};
 }
 
+bool is_interchange_name(const std::string& name) {
+    const Known* known = find_known(name);
+    return known && known->is_interchanged(lower(name));
+}
+
 Matrix3 known_to_rec709(const std::string& name) {
     const Known* known = find_known(name);
     return known ? space_of(*known).to_rec709 : ColorSpace().to_rec709;
@@ -307,33 +308,6 @@ ColorSpace find_space(const OIIO::ImageSpec& spec, const std::string& from) {
     ColorSpace space = gamma > 0 ? of_gamma(gamma) : known ? space_of(*known) : space_of(spec);
     space.scale = 1 / stated_exposure(spec);
     return space;
-}
-
-ColorSpace find_space(const OIIO::ImageSpec& spec, const PixelOptions& options) {
-    const Known* known = find_known(options.from);
-    // What headers call "linear" may be another space of a configuration.
-    const bool ours = known && known->is_interchanged(lower(options.from));
-    if (options.from.empty() || options.config.empty() || ours)
-        return find_space(spec, options.from);
-    ColorSpace space;
-    std::string why;
-    if (!contained(why, [&] { space = config_space(options); }))
-        return refusing_as([&](const std::string&) { return why; },
-                           [&] { return find_space(spec, options.from); });
-    space.scale = 1 / stated_exposure(spec);
-    return space;
-}
-
-void find_picture(const OIIO::ImageSpec& spec, const PixelOptions& options, ColorChoice& choice,
-                  ColorSpace& space) {
-    choice = chosen_color(spec, options);
-    space = find_space(spec, options);
-    if (choice.grey())
-        space.is_rec709 = true;
-    const double gamma = double(spec.get_float_attribute("oiio:Gamma", 1));
-    space.alpha_power = gamma > 0 ? gamma : 1;
-    space.straight = (space.encoded() || space.alpha_power != 1) && choice.a >= 0 &&
-                     !spec.channelformat(choice.r).is_floating_point();
 }
 
 double stated_gamma(const OIIO::ImageSpec& spec) {

@@ -47,26 +47,14 @@ struct ColorSpace {
 /// chromaticities and tags that contradict each other are errors.
 ColorSpace find_space(const OIIO::ImageSpec& spec, const std::string& from);
 
-/// The same by all options: `from` may name a space of their configuration.
-ColorSpace find_space(const OIIO::ImageSpec& spec, const PixelOptions& options);
-
-/// What ToneAlgo::find_color() finds.
-ColorChoice chosen_color(const OIIO::ImageSpec& spec, const PixelOptions& options);
-
-/// The colour of an image and its space, as every function decides on them. A picture of one
-/// channel is grey: its three channels are the same, and no primaries apply to it.
-void find_picture(const OIIO::ImageSpec& spec, const PixelOptions& options, ColorChoice& choice,
-                  ColorSpace& space);
-
-/// Whether all layers of an image hold data by their names, so that it has no picture.
-bool holds_only_data(const OIIO::ImageSpec& spec);
-
 /// Whether a tag of `oiio:ColorSpace` says no more than "not encoded".
 bool says_only_linear(const std::string& tag);
 
 /// Names and aliases under which configurations of OpenColorIO have the space that find_space()
 /// calls `name`, likeliest first; none that another space bears in some of them.
 std::vector<std::string> interchange_names(const std::string& name);
+/// Whether it is one of these names of any space.
+bool is_interchange_name(const std::string& name);
 
 /// The matrix of a space that find_space() knows by this name.
 Matrix3 known_to_rec709(const std::string& name);

@@ -7,11 +7,13 @@ namespace tonetool {
 
 using OIIO::ImageBuf;
 
+bool takes_map(const ImageBuf& dst, const OIIO::ROI& roi) {
+    return dst.initialized() && dst.nchannels() == 1 && dst.pixeltype() == OIIO::TypeFloat &&
+           dst.localpixels() && dst.roi().contains(roi);
+}
+
 void deliver(ImageBuf& dst, ImageBuf&& map, const std::string& prefix) {
-    const bool in_place = dst.initialized() && dst.nchannels() == 1 &&
-                          dst.pixeltype() == OIIO::TypeFloat && dst.localpixels() &&
-                          dst.roi().contains(map.roi());
-    if (!in_place) {
+    if (!takes_map(dst, map.roi())) {
         dst = std::move(map);
         return;
     }

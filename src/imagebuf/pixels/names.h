@@ -3,6 +3,7 @@
 // too, which sees no symbol of the library but the installed ones.
 #pragma once
 
+#include <OpenImageIO/strutil.h>
 #include <algorithm>
 #include <numeric>
 #include <string>
@@ -11,7 +12,10 @@
 
 namespace tonetool {
 
-/// How many characters must be changed, added or left out (Levenshtein).
+using OIIO::Strutil::lower;
+
+/// How many characters must be changed, added or left out (Levenshtein). OIIO::Strutil's function
+/// of this name gives too little: 4 from "ba" to "bbbabaa".
 inline size_t edit_distance(const std::string& a, const std::string& b) {
     std::vector<size_t> row(b.size() + 1);
     std::iota(row.begin(), row.end(), size_t{0});
@@ -27,19 +31,13 @@ inline size_t edit_distance(const std::string& a, const std::string& b) {
     return row.back();
 }
 
-inline std::string lower_case(std::string word) {
-    for (char& c : word)
-        c = c >= 'A' && c <= 'Z' ? char(c + ('a' - 'A')) : c;
-    return word;
-}
-
 /// Those of `names` that a person could have meant by `word`, nearest first, at most `limit`.
 inline std::vector<std::string>
 nearest_names(const std::string& word, const std::vector<std::string>& names, size_t limit = 3) {
     std::vector<std::pair<size_t, std::string>> ranked;
     for (const std::string& name : names) {
         const bool prefix = word.size() >= 2 && name.compare(0, word.size(), word) == 0;
-        const size_t distance = prefix ? 1 : edit_distance(lower_case(word), lower_case(name));
+        const size_t distance = prefix ? 1 : edit_distance(lower(word), lower(name));
         if (prefix || distance <= std::max<size_t>(1, word.size() / 3))
             ranked.emplace_back(distance, name);
     }

@@ -195,14 +195,13 @@ namespace {
 
 // The rows of a file into an image of float, which may be narrower.
 void fill_from_file(RowSource& source, ImageBuf& out) {
-    constexpr size_t band = size_t(32) << 20;
     const OIIO::ROI part = out.roi();
     const auto channels = size_t(out.nchannels());
     const size_t from = size_t(part.xbegin - source.left()) * channels;
     const size_t whole = size_t(source.width()) * channels, row = size_t(part.width()) * channels;
     std::vector<float> rows;
     for (int y = part.ybegin; y < part.yend;) {
-        const int end = std::min(y + source.rows_at_once(y, band), part.yend);
+        const int end = std::min(y + source.rows_at_once(y), part.yend);
         auto* to = static_cast<float*>(out.pixeladdr(part.xbegin, y));
         rows.resize(whole > row ? whole * size_t(end - y) : 0);
         source.read(y, end, 0, rows.empty() ? to : rows.data());
@@ -237,6 +236,10 @@ OIIO::ImageBuf copy_pixels(const OIIO::ImageBuf& image, const OIIO::ROI& part, i
              image.has_error())
         throw Refusal(with_name(image, image.has_error() ? image.geterror() : pixels.geterror()));
     return pixels;
+}
+
+bool same_window(const OIIO::ROI& a, const OIIO::ROI& b) {
+    return a.xbegin == b.xbegin && a.xend == b.xend && a.ybegin == b.ybegin && a.yend == b.yend;
 }
 
 OIIO::ROI part_of(const OIIO::ImageBuf& image, const OIIO::ROI& roi) {

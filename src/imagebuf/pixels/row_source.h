@@ -33,8 +33,9 @@ public:
     const std::vector<ChannelRun>& runs() const { return m_runs; }
     int left() const { return m_spec.x; } ///< first column of the rows
     int width() const { return m_spec.width; }
-    /// How many rows from `row` on are best read at once, when they take about `bytes` as float.
-    int rows_at_once(int row, size_t bytes) const;
+    /// How many rows from `row` on are best read at once, when they take about `bytes` as float:
+    /// decoders want enough rows for all threads.
+    int rows_at_once(int row, size_t bytes = size_t(32) << 20) const;
     /// What the decoder of the file holds until `rest`, by estimate.
     size_t decoder_bytes() const;
     /// What is kept of the file for the next read, at most.
@@ -77,6 +78,9 @@ private:
     int m_block = 0;             ///< rows that the file gives only together; 0: any
     std::vector<Block> m_blocks; ///< one per run
 };
+
+/// The same pixels in x and y.
+bool same_window(const OIIO::ROI& a, const OIIO::ROI& b);
 
 /// What a region of interest is of an image, with all its channels; one without a pixel of it is an
 /// error.

@@ -25,13 +25,6 @@ std::string kept_value(const std::string& value) {
     return OIIO::Strutil::fmt::format("{} characters, SHA-1 {}", value.size(), hash.digest());
 }
 
-std::string part_name(const ImageSpec& spec, size_t part) {
-    for (const char* key : {"oiio:subimagename", "name"})
-        if (const std::string name = spec.get_string_attribute(key); !name.empty())
-            return name;
-    return part == 0 ? "" : "part" + std::to_string(part);
-}
-
 bool is_depth(const AovLayer& layer) {
     return layer.has_lone_z() || kind_of_layer(layer.token) == AovKind::Depth;
 }
@@ -41,7 +34,7 @@ bool is_depth(const AovLayer& layer) {
 QcPart part_facts(const ImageBuf& image) {
     const ImageSpec& spec = image.spec();
     QcPart part;
-    part.name = part_name(spec, 0);
+    part.name = part_name(spec);
     part.data = {spec.x, spec.y, spec.width, spec.height};
     part.display = {spec.full_x, spec.full_y, spec.full_width, spec.full_height};
     part.compression = spec.get_string_attribute("compression");
@@ -58,12 +51,13 @@ ImageSpec joined_spec(const std::vector<const ImageBuf*>& parts) {
     std::set<std::string> taken(joined.channelnames.begin(), joined.channelnames.end());
     for (size_t p = 1; p < parts.size(); ++p) {
         const ImageSpec& spec = parts[p]->spec();
+        const std::string numbered = "part" + std::to_string(p);
         for (const std::string& own : spec.channelnames) {
             std::string name = own;
             if (taken.count(name) > 0 || name.find('.') == std::string::npos)
-                name = part_name(spec, p) + "." + own;
+                name = (part_name(spec).empty() ? numbered : part_name(spec)) + "." + own;
             if (!taken.insert(name).second)
-                name = "part" + std::to_string(p) + "." + name;
+                name = numbered + "." + name;
             joined.channelnames.push_back(name);
         }
     }

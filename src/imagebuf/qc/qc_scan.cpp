@@ -5,8 +5,10 @@
 #include <OpenImageIO/strutil.h>
 #include <algorithm>
 
+#include "imagebuf/aov/channels.h"
 #include "imagebuf/pixels/parallel.h"
 #include "imagebuf/qc/qc_header.h"
+#include "kernels/curve.h"
 #include "metrics/refusal.h"
 
 namespace tonetool {
@@ -15,9 +17,6 @@ namespace {
 using metrics::Spike;
 using OIIO::ImageBuf;
 using OIIO::ROI;
-
-constexpr size_t kStep = size_t(32) << 20;
-constexpr double kRec709[3] = {0.2126, 0.7152, 0.0722}; // luminance, ITU-R BT.709
 
 std::string fingerprint(const void* data, size_t bytes) {
     const auto hash = OIIO::farmhash::Fingerprint128(static_cast<const char*>(data), bytes);
@@ -44,7 +43,7 @@ void QcScan::open(const std::vector<const ImageBuf*>& parts, const QcOptions& op
     open_parts(parts);
     for (size_t c = 0; c < 3; ++c)
         for (size_t p = 0; p < 3; ++p)
-            m_weights[c] += kRec709[p] * m_space.to_rec709[p][c];
+            m_weights[c] += kernels::kLuminance[p] * m_space.to_rec709[p][c];
     list_layers();
     place_cells();
     if (has_picture())
@@ -125,7 +124,7 @@ void QcScan::run() {
         last = std::max(last, part.window.yend);
     }
     for (int begin = first; begin < last;) {
-        const int end = std::min(begin + m_parts[0].source.rows_at_once(begin, kStep), last);
+        const int end = std::min(begin + m_parts[0].source.rows_at_once(begin), last);
         read_band(begin, end);
         std::vector<Row> rows(size_t(end - begin));
         make_parallel(m_nthreads)(end - begin,
@@ -191,7 +190,7 @@ void QcScan::scan_picture_row(int y, Row& row) const {
             rgb[3 * x + c] = pixels.pixels[x * size_t(pixels.stride) + size_t(channels[c])];
     row.hash = fingerprint(rgb.data(), rgb.size() * sizeof(float));
     if (!m_groups.empty() && !m_space.encoded())
-        scan_groups(y, rgb, row);
+        scan_groups(y, row);
     scan_alpha(y, rgb, row);
     if (m_space.encoded() || m_space.scale != 1)
         for (float& v : rgb)
@@ -220,26 +219,16 @@ void QcScan::scan_alpha(int y, const std::vector<float>& rgb, Row& row) const {
 }
 
 // Where a group has no pixel it has no light.
-void QcScan::scan_groups(int y, const std::vector<float>& rgb, Row& row) const {
-    const ROI& window = picture_window();
-    std::vector<double> light(rgb.size());
+void QcScan::scan_groups(int y, Row& row) const {
+    const auto at = [&](int channel) {
+        const Place place = place_of(channel);
+        return metrics::RowChannel{row_of(place.part, y), place.channel};
+    };
+    std::vector<metrics::RowChannel> groups;
     for (const LightGroup& group : m_groups)
-        for (size_t c = 0; c < 3; ++c) {
-            const Place place = place_of(group.channel[c]);
-            const metrics::ChannelRow pixels = row_of(place.part, y);
-            if (!pixels.pixels)
-                continue;
-            const int64_t from = std::max<int64_t>(window.xbegin, pixels.x);
-            const int64_t to = std::min<int64_t>(window.xend, pixels.x + pixels.width);
-            for (int64_t x = from; x < to; ++x)
-                light[size_t(3 * (x - window.xbegin)) + c] +=
-                    pixels.pixels[(x - pixels.x) * pixels.stride + place.channel];
-        }
-    for (size_t x = 0; 3 * x < rgb.size(); ++x) {
-        const float picture[3] = {rgb[3 * x], rgb[3 * x + 1], rgb[3 * x + 2]};
-        const double groups[3] = {light[3 * x], light[3 * x + 1], light[3 * x + 2]};
-        row.groups.add(picture, groups, window.xbegin + int64_t(x), y);
-    }
+        for (const int channel : group.channel)
+            groups.push_back(at(channel));
+    row.groups.add_row({at(m_choice.r), at(m_choice.g), at(m_choice.b)}, groups);
 }
 
 void QcScan::add(int y, const Row& row) {

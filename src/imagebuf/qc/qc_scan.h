@@ -8,7 +8,7 @@
 
 #include "imagebuf/aov/aov_layers.h"
 #include "imagebuf/aov/light_groups.h"
-#include "imagebuf/pixels/colorimetry.h"
+#include "imagebuf/color/color_source.h"
 #include "imagebuf/pixels/row_source.h"
 #include "metrics/fault_scan.h"
 #include "tonetool/qc.h"
@@ -82,7 +82,7 @@ private:
     metrics::ChannelRow row_of(size_t part, int y) const;
     void scan_row(int y, Row& row) const;
     void scan_picture_row(int y, Row& row) const;
-    void scan_groups(int y, const std::vector<float>& rgb, Row& row) const;
+    void scan_groups(int y, Row& row) const;
     void add(int y, const Row& row);
     void scan_spikes(bool last);
     void add_cells(int y, const metrics::CellRow& cells);

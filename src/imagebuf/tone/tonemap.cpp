@@ -7,6 +7,7 @@
 #include <cmath>
 #include <mutex>
 
+#include "imagebuf/color/color_source.h"
 #include "imagebuf/color/curve_plan.h"
 #include "imagebuf/color/tone_rows.h"
 #include "imagebuf/color/view.h"
@@ -121,11 +122,10 @@ private:
 
     // Of the image's own primaries: those of Rec.709 behind the matrix.
     std::array<double, 3> luminance_weights() const {
-        const kernels::CurveUse rec709;
         std::array<double, 3> weights{};
         for (size_t i = 0; i < 3; ++i)
             for (size_t j = 0; j < 3; ++j)
-                weights[j] += rec709.weights[i] * m_space.to_rec709[i][j];
+                weights[j] += kernels::kLuminance[i] * m_space.to_rec709[i][j];
         return weights;
     }
 

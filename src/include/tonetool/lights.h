@@ -47,9 +47,12 @@ struct LightIndexSummary {
     std::string layer, space; ///< of the picture
     std::vector<LightGroupSummary> groups;
     int64_t unlit = 0; ///< black pixels, which have the index -1
+    /// Above this difference groups do not add up to the beauty.
+    static constexpr double kMostDifference = 0.05;
     /// The light of all groups divided by that of the beauty, and the sum of the pixels'
-    /// differences divided by the same. Pixels at the beauty's largest component, which may be
-    /// clamped, do not count. 0: there are no groups.
+    /// differences divided by the same, each over R, G and B. Pixels at the beauty's largest
+    /// component, which may be clamped, count only where there are no others. 0: there are no
+    /// groups.
     double sum = 0, difference = 0;
     std::vector<std::string> warnings;
 };

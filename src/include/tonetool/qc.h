@@ -98,8 +98,8 @@ namespace ToneAlgo {
 /// tell their channels apart. It takes one pass over the pixels, in scanline blocks: images that
 /// were not read are read from their file. Returns false with the reason in `error` where several
 /// layers could be the beauty, the named one is not there, or an image is deep or unreadable.
-/// Pixels at the largest component of the beauty, which may be clamped, do not count in the check
-/// of its light groups.
+/// Pixels at the largest component of the beauty, which may be clamped, count in the check of its
+/// light groups only where there are no others.
 TONETOOL_API bool qc_facts(QcFacts& facts, const std::vector<const OIIO::ImageBuf*>& parts,
                            std::string& error, const QcOptions& options = {}, int nthreads = 0);
 

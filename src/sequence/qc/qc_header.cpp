@@ -228,7 +228,7 @@ void find_odd_types(QcShot& shot) {
 // punctuation.
 bool varies_by_nature(const std::string& name) {
     std::string word;
-    for (char c : lower_case(name))
+    for (char c : lower(name))
         word += std::isalnum(static_cast<unsigned char>(c)) ? std::string(1, c) : "";
     for (const char* part :
          {"datetime",   "capdate",   "timecode",         "keycode",      "rendertime", "frame",

@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "imagebuf/pixels/names.h"
+#include "tonetool/lights.h"
 
 namespace tonetool::sequence {
 
@@ -44,7 +45,7 @@ const std::vector<QcRule>& qc_rules() {
         {"blacklayer", error, {}, "", "a layer is black, but not in the frame before or after"},
         {"nan", error, 0.0, "pixels", "NaN, in any layer"},
         {"inf", error, 0.0, "pixels", "infinite values, in any layer but depths"},
-        {"lightsum", error, 0.05, "share of the light",
+        {"lightsum", error, LightIndexSummary::kMostDifference, "share of the light",
          "light groups that do not add up to the beauty"},
         {"channels", error, {}, "", "channels differ from those of other frames"},
         {"displaywindow", error, {}, "", "the display window differs from other frames'"},

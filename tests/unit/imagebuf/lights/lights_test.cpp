@@ -6,6 +6,7 @@
 #include "files.h"
 #include "images.h"
 #include "tonetool/cgtmo.h"
+#include "tonetool/qc.h"
 
 namespace tonetool {
 namespace {
@@ -68,6 +69,24 @@ TEST(LightIndex, DependsNeitherOnThreadsNorRegionsNorReading) {
     EXPECT_EQ(part.roi().ybegin, 20);
     for (ImageBuf::ConstIterator<float> p(part); !p.done(); ++p)
         ASSERT_EQ(p[0], all.getchannel(p.x(), p.y(), 0, 0));
+}
+
+TEST(LightIndex, AddsGroupsUpAsQcDoes) {
+    ImageSpec spec = make_spec(
+        40, 30, {"R", "G", "B", "C_key.R", "C_key.G", "C_key.B", "C_env.R", "C_env.G", "C_env.B"});
+    spec.attribute("oiio:ColorSpace", "acescg"); // its saturated colours are negative in Rec.709
+    for (const ImageBuf& image :
+         {gallery(), noise(spec, 7), constant(spec, {1, 1, 1, 1, 0, 0, 1, 1, 1})}) {
+        LightIndexSummary summary;
+        const ImageBuf index = light_index(image, {}, {}, &summary);
+        ASSERT_FALSE(index.has_error()) << index.geterror();
+        QcFacts facts;
+        std::string error;
+        ASSERT_TRUE(ToneAlgo::qc_facts(facts, {&image}, error)) << error;
+        EXPECT_EQ(facts.picture.groups, int(summary.groups.size()));
+        EXPECT_EQ(facts.picture.group_sum, summary.sum);
+        EXPECT_EQ(facts.picture.group_difference, summary.difference);
+    }
 }
 
 TEST(LightIndex, SaysWhatIsWrong) {

@@ -6,6 +6,7 @@
 
 #include <cmath>
 
+#include "imagebuf/color/color_source.h"
 #include "images.h"
 #include "refusal.h"
 

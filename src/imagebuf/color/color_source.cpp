@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "imagebuf/color/view_source.h"
+#include "imagebuf/color/color_source.h"
 
 #include <OpenImageIO/filesystem.h>
 #include <ctime>
 #include <mutex>
 
+#include "imagebuf/aov/channels.h"
 #include "imagebuf/color/view_config.h"
 #include "imagebuf/pixels/guard.h"
 #include "imagebuf/pixels/names.h"
@@ -49,8 +50,7 @@ ColorSpace open_space(const PixelOptions& options) {
     return space;
 }
 
-} // namespace
-
+// The space that `options.from` names in the configuration `options.config`, to linear Rec.709.
 ColorSpace config_space(const PixelOptions& options) {
     const std::lock_guard<std::mutex> hold(g_kept_lock);
     const Kept asked{options.config,
@@ -66,6 +66,47 @@ ColorSpace config_space(const PixelOptions& options) {
         g_kept = next;
     }
     return g_kept.space;
+}
+
+ColorSpace space_of(const OIIO::ImageSpec& spec, const PixelOptions& options) {
+    // What headers call "linear" may be another space of a configuration.
+    if (options.from.empty() || options.config.empty() || is_interchange_name(options.from))
+        return find_space(spec, options.from);
+    ColorSpace space;
+    std::string why;
+    if (!contained(why, [&] { space = config_space(options); }))
+        return refusing_as([&](const std::string&) { return why; },
+                           [&] { return find_space(spec, options.from); });
+    space.scale = 1 / stated_exposure(spec);
+    return space;
+}
+
+} // namespace
+
+void find_picture(const OIIO::ImageSpec& spec, const PixelOptions& options, ColorChoice& choice,
+                  ColorSpace& space) {
+    choice = chosen_channels(spec, options.layer);
+    space = space_of(spec, options);
+    choice.space = space.name;
+    choice.display_encoded = space.encoded();
+    if (choice.grey())
+        space.is_rec709 = true;
+    const double gamma = double(spec.get_float_attribute("oiio:Gamma", 1));
+    space.alpha_power = gamma > 0 ? gamma : 1;
+    space.straight = (space.encoded() || space.alpha_power != 1) && choice.a >= 0 &&
+                     !spec.channelformat(choice.r).is_floating_point();
+}
+
+ColorChoice chosen_color(const OIIO::ImageSpec& spec, const PixelOptions& options) {
+    ColorChoice choice;
+    ColorSpace space;
+    find_picture(spec, options, choice, space);
+    return choice;
+}
+
+bool ToneAlgo::find_color(const OIIO::ImageSpec& spec, const PixelOptions& options,
+                          ColorChoice& choice, std::string& error) {
+    return contained(error, [&] { choice = chosen_color(spec, options); });
 }
 
 } // namespace tonetool
