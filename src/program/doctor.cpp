@@ -159,10 +159,11 @@ void run_doctor(chain::Session& session, const chain::Call& call) {
 
 } // namespace
 
-std::vector<chain::Command> doctor_commands() {
-    return {chain::of_process(chain::setting(
-        chain::Group::General, {"doctor"}, {},
-        "Tell whether oiiotool reads recipes by the plugin, and if not why", run_doctor))};
+chain::Rows doctor_commands() {
+    return {chain::command("doctor",
+                           "Tell whether oiiotool reads recipes by the plugin, and if not why",
+                           run_doctor)
+                .of_process()};
 }
 
 } // namespace tonetool

@@ -20,9 +20,10 @@ namespace tonetool::runs {
 void know_all_commands() {
     static std::once_flag once;
     std::call_once(once, [] {
-        chain::add_commands(check_commands());
-        chain::add_commands(chain::own_commands());
-        chain::add_commands(chain::help_commands());
+        chain::add_image_commands();
+        chain::add_commands(chain::Group::Check, check_commands());
+        chain::add_measuring_commands();
+        chain::add_commands(chain::Group::General, chain::help_commands());
     });
 }
 

@@ -58,7 +58,7 @@ void run_cgtmo(Session& session, const Call& call) {
     session.push(Image::derived(image, std::move(result)));
 }
 
-std::vector<Modifier> cgtmo_modifiers() {
+Modifiers cgtmo_modifiers() {
     const Modifier index = {"lightindex", "LAYER|FILE",
                             "index of each pixel's light; groups: by the groups (found)"};
     return concatenated({inserted(modifiers_of<CgTmoOptions>(), "maxpercentile",
@@ -68,11 +68,12 @@ std::vector<Modifier> cgtmo_modifiers() {
 
 } // namespace
 
-std::vector<Command> cgtmo_commands() {
-    return {{{{"cgtmo"}, {}, 1, 1, Group::Color},
-             cgtmo_modifiers(),
-             "HDR to a display locally, guided by the render's position, normal and albedo",
-             run_cgtmo}};
+Rows cgtmo_commands() {
+    return {command("cgtmo",
+                    "HDR to a display locally, guided by the render's position, normal and albedo",
+                    run_cgtmo)
+                .images(1, 1)
+                .modifiers(cgtmo_modifiers())};
 }
 
 } // namespace tonetool::chain

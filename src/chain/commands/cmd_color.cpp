@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Values as colours, and the OpenColorIO configuration.
+#include "chain/commands/commands.h"
 #include "chain/images/colormap.h"
 #include "chain/session/ops.h"
 #include "text/error.h"
@@ -28,18 +29,14 @@ void run_colorconfig(Session& session, const Call& call) {
 
 } // namespace
 
-std::vector<Command> color_commands() {
-    std::vector<Command> all = op_rows(
-        Group::Color,
-        {{"colormap MAPNAME", 1,
-          "Show values as colours: " + join(ToneAlgo::color_maps(), ", ") + ", or RGB triples",
-          colormap}});
-    all.push_back(
-        keeping_header(Command{{{"colorconfig"}, {"FILE"}, 0, 0, Group::Color},
-                               {},
-                               "OpenColorIO configuration of the commands that follow ($OCIO)",
-                               run_colorconfig}));
-    return all;
+Rows color_commands() {
+    const std::string maps = join(ToneAlgo::color_maps(), ", ");
+    return {on_pixels("colormap MAPNAME", 1, "Show values as colours: " + maps + ", or RGB triples",
+                      colormap),
+            command("colorconfig FILE",
+                    "OpenColorIO configuration of the commands that follow ($OCIO)",
+                    run_colorconfig)
+                .keeps_header()};
 }
 
 } // namespace tonetool::chain

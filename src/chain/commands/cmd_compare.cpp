@@ -329,69 +329,65 @@ void run_tmqi(Session& session, const Call& call) {
 
 // ---- rows
 
-std::vector<Modifier> hdrflip_modifiers() {
-    return concatenated(
-        {hdr_modifiers(),
-         viewing_modifiers(),
-         pair_modifiers(),
-         {{"exposures", "frame|shot|FILE",
-           "range of the exposures: each frame's own (frame), one of the whole shot, or what "
-           "--statistics or --json wrote into FILE"},
-          {"exposuremap", "stops|index", "push the exposure of the largest error below the map"},
-          {"saveexposures", "PREFIX", "write PREFIX.NN.reference.exr, .test.exr and .flip.exr"},
-          {"tests", "K", "compare K tests with the one reference below them"}},
-         threshold_modifiers()});
+Row hdrflip_row() {
+    return command("hdrflip", "HDR-FLIP: reference, test -> error map", run_hdrflip)
+        .images(2, 1)
+        .images_of(hdrflip_pops, hdrflip_pushes)
+        .modifiers(hdr_modifiers(), viewing_modifiers(), pair_modifiers())
+        .modifier(
+            "exposures", "frame|shot|FILE",
+            "range of the exposures: each frame's own (frame), one of the whole shot, or what "
+            "--statistics or --json wrote into FILE")
+        .modifier("exposuremap", "stops|index",
+                  "push the exposure of the largest error below the map")
+        .modifier("saveexposures", "PREFIX",
+                  "write PREFIX.NN.reference.exr, .test.exr and .flip.exr")
+        .modifier("tests", "K", "compare K tests with the one reference below them")
+        .modifiers(threshold_modifiers())
+        .makes_map();
 }
 
-std::vector<Modifier> filmstrip_modifiers() {
-    return concatenated({hdr_modifiers(),
-                         {viewing_modifiers().front()},
-                         pair_modifiers(),
-                         {{"width", "PIXELS", "width of one picture (240)"},
-                          {"columns", "N", "at most this many exposures are shown (9)"},
-                          {"font", "FILE", "font of the labels (DejaVu Sans)"}},
-                         threshold_modifiers()});
+Row filmstrip_row() {
+    return command("filmstrip", "HDR-FLIP as a picture: every exposure of both images and its map",
+                   run_filmstrip)
+        .images(2, 1)
+        .modifiers(hdr_modifiers(), Modifiers{viewing_modifiers().front()}, pair_modifiers())
+        .modifier("width", "PIXELS", "width of one picture (240)")
+        .modifier("columns", "N", "at most this many exposures are shown (9)")
+        .modifier("font", "FILE", "font of the labels (DejaVu Sans)")
+        .modifiers(threshold_modifiers());
 }
 
-std::vector<Modifier> tmqi_modifiers() {
-    return concatenated(
-        {{{"layer", "NAME", "layer of the HDR image whose R,G,B are used"},
-          {"from", "SPACE", "colour space of the HDR image"},
-          {"ldrlayer", "NAME", "layer of the picture"},
-          {"ldrfrom", "SPACE", "colour space of the picture (sRGB for integers)"},
-          {"crop", "0|1", "compare only where the display windows meet"}},
-         threshold_modifiers(tmqi_measures(), "at least X (0 to 1; higher is better)")});
-}
-
-Command pair_command(const char* name, std::vector<Modifier> modifiers, const char* help,
-                     void (*run)(Session&, const Call&)) {
-    return {{{name}, {}, 2, 1, Group::Compare}, std::move(modifiers), help, run};
+Row tmqi_row() {
+    return command("tmqi", "TMQI of a tone-mapped picture: HDR image, picture -> structure map",
+                   run_tmqi)
+        .images(2, 1)
+        .modifier("layer", "NAME", "layer of the HDR image whose R,G,B are used")
+        .modifier("from", "SPACE", "colour space of the HDR image")
+        .modifier("ldrlayer", "NAME", "layer of the picture")
+        .modifier("ldrfrom", "SPACE", "colour space of the picture (sRGB for integers)")
+        .modifier("crop", "0|1", "compare only where the display windows meet")
+        .modifiers(threshold_modifiers(tmqi_measures(), "at least X (0 to 1; higher is better)"));
 }
 
 } // namespace
 
-std::vector<Command> compare_commands() {
-    std::vector<Command> rows{
-        pair_command("hdrflip", hdrflip_modifiers(), "HDR-FLIP: reference, test -> error map",
-                     run_hdrflip),
-        pair_command("ldrflip",
-                     concatenated({viewing_modifiers(), pair_modifiers(), threshold_modifiers()}),
-                     "LDR-FLIP: reference, test -> error map", run_ldrflip),
-        pair_command("flipdiff", flipdiff_modifiers(),
-                     "FLIP with the option names and defaults of OpenImageIO 3.2's oiiotool",
-                     run_flipdiff),
-        pair_command("filmstrip", filmstrip_modifiers(),
-                     "HDR-FLIP as a picture: every exposure of both images and its map",
-                     run_filmstrip),
-        pair_command("errormap", error_modifiers(),
-                     "An error by pixel: reference, test -> error map", run_errormap),
-        pair_command("tmqi", tmqi_modifiers(),
-                     "TMQI of a tone-mapped picture: HDR image, picture -> structure map",
-                     run_tmqi)};
-    rows.front().pops_of = hdrflip_pops;
-    rows.front().pushes_of = hdrflip_pushes;
-    rows[0].makes_map = rows[1].makes_map = true; // --hdrflip and --ldrflip
-    return rows;
+Rows compare_commands() {
+    return {hdrflip_row(),
+            command("ldrflip", "LDR-FLIP: reference, test -> error map", run_ldrflip)
+                .images(2, 1)
+                .modifiers(viewing_modifiers(), pair_modifiers(), threshold_modifiers())
+                .makes_map(),
+            command("flipdiff",
+                    "FLIP with the option names and defaults of OpenImageIO 3.2's oiiotool",
+                    run_flipdiff)
+                .images(2, 1)
+                .modifiers(flipdiff_modifiers()),
+            filmstrip_row(),
+            command("errormap", "An error by pixel: reference, test -> error map", run_errormap)
+                .images(2, 1)
+                .modifiers(error_modifiers()),
+            tmqi_row()};
 }
 
 } // namespace tonetool::chain

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "chain/commands/commands.h"
 #include "chain/images/sheet.h"
 #include "chain/session/ops.h"
 
@@ -72,45 +73,46 @@ void run_mosaic(Session& session, const Call& call) {
     session.push(Image::created("mosaic", mosaic(sheet, flat_pixels_of(images))));
 }
 
-const std::vector<OpRow> kRows = {
-    {"over", 2, "The first image over the second",
-     [](Op& op) { return IBA::over(op.dst, op.a(), op.b()); }},
-    {"zover", 2, "The nearer of two images with Z channels over the other",
-     [](Op& op) { return IBA::zover(op.dst, op.a(), op.b(), op.flag("zeroisinf")); },
-     "zeroisinf=0|1: Z of 0 is infinitely far"},
-    {"deepmerge", 2, "Merge two deep images",
-     [](Op& op) {
-         op.dst = IBA::deep_merge(op.a(), op.b());
-         return !op.dst.has_error();
-     }},
-    {"deepholdout", 2, "Hold out the first deep image by the second",
-     [](Op& op) {
-         op.dst = IBA::deep_holdout(op.a(), op.b());
-         return !op.dst.has_error();
-     }},
-    {"deepen", 1, "From flat to deep",
-     [](Op& op) { return IBA::deepen(op.dst, op.a(), op.number("z", 1)); },
-     "z=X: depth where there is no Z channel (1)"},
-    {"flatten", 1, "From deep to flat", [](Op& op) { return IBA::flatten(op.dst, op.a()); }},
-    {"pastemeta", 2, "The pixels of the second image with the metadata of the first",
-     paste_metadata},
+const Rows kRows = {
+    on_pixels("over", 2, "The first image over the second",
+              [](Op& op) { return IBA::over(op.dst, op.a(), op.b()); }),
+    on_pixels("zover", 2, "The nearer of two images with Z channels over the other",
+              [](Op& op) { return IBA::zover(op.dst, op.a(), op.b(), op.flag("zeroisinf")); })
+        .modifier("zeroisinf", "0|1", "Z of 0 is infinitely far"),
+    on_pixels("deepmerge", 2, "Merge two deep images",
+              [](Op& op) {
+                  op.dst = IBA::deep_merge(op.a(), op.b());
+                  return !op.dst.has_error();
+              }),
+    on_pixels("deepholdout", 2, "Hold out the first deep image by the second",
+              [](Op& op) {
+                  op.dst = IBA::deep_holdout(op.a(), op.b());
+                  return !op.dst.has_error();
+              }),
+    on_pixels("deepen", 1, "From flat to deep",
+              [](Op& op) { return IBA::deepen(op.dst, op.a(), op.number("z", 1)); })
+        .modifier("z", "X", "depth where there is no Z channel (1)"),
+    on_pixels("flatten", 1, "From deep to flat",
+              [](Op& op) { return IBA::flatten(op.dst, op.a()); }),
+    on_pixels("pastemeta", 2, "The pixels of the second image with the metadata of the first",
+              paste_metadata),
+    command(
+        "paste +X+Y",
+        "Paste the first image over the second, at an offset or where its window lies (auto, -)",
+        run_paste)
+        .images(0, kAnyNumber)
+        .modifier("all", "0|1", "all images of the stack over the last")
+        .modifier("mergeroi", "0|1", "a data window that holds both"),
+    command("mosaic WxH", "Assemble images into columns and rows", run_mosaic)
+        .images(0, kAnyNumber)
+        .modifier("pad", "N", "pixels between images (0)")
+        .modifier("fit", "WxH", "fit each image to this size first"),
 };
 
 } // namespace
 
-std::vector<Command> composite_commands() {
-    std::vector<Command> all = op_rows(Group::Composite, kRows);
-    all.push_back(free_row(
-        Group::Composite, "paste +X+Y", 0, kAnyNumber,
-        "Paste the first image over the second, at an offset or where its window lies (auto, -)",
-        run_paste,
-        "all=0|1: all images of the stack over the last\n"
-        "mergeroi=0|1: a data window that holds both"));
-    all.push_back(free_row(Group::Composite, "mosaic WxH", 0, kAnyNumber,
-                           "Assemble images into columns and rows", run_mosaic,
-                           "pad=N: pixels between images (0)\n"
-                           "fit=WxH: fit each image to this size first"));
-    return all;
+Rows composite_commands() {
+    return kRows;
 }
 
 } // namespace tonetool::chain

@@ -2,6 +2,7 @@
 // Commands that create images, and draw.
 #include <OpenImageIO/strutil.h>
 
+#include "chain/commands/commands.h"
 #include "chain/session/ops.h"
 #include "imagebuf/pixels/oiio_compat.h"
 
@@ -209,55 +210,60 @@ bool text(Op& op) {
                             op.integer("shadow", 0));
 }
 
-const std::string kColor = "color=VALUES: one value, or one per channel (1)\n";
-const std::string kRamps = kColor + "top=VALUES: colour at the top, to bottom=\n"
-                                    "bottom=VALUES: colour at the bottom\n"
-                                    "left=VALUES: colour at the left, to right=\n"
-                                    "right=VALUES: colour at the right\n"
-                                    "topleft=VALUES: colour of a corner, with the other three\n"
-                                    "topright=VALUES: colour of a corner\n"
-                                    "bottomleft=VALUES: colour of a corner\n"
-                                    "bottomright=VALUES: colour of a corner\n";
+const Modifiers kColor = {{"color", "VALUES", "one value, or one per channel (1)"}};
+const Modifiers kRamps = {{"top", "VALUES", "colour at the top, to bottom="},
+                          {"bottom", "VALUES", "colour at the bottom"},
+                          {"left", "VALUES", "colour at the left, to right="},
+                          {"right", "VALUES", "colour at the right"},
+                          {"topleft", "VALUES", "colour of a corner, with the other three"},
+                          {"topright", "VALUES", "colour of a corner"},
+                          {"bottomleft", "VALUES", "colour of a corner"},
+                          {"bottomright", "VALUES", "colour of a corner"}};
 
-const std::vector<OpRow> kDrawingRows = {
-    {"point X,Y[,X,Y...]", 1, "Draw points", point, kColor},
-    {"line X,Y,X,Y[,X,Y...]", 1, "Draw a line through these points", line, kColor},
-    {"box X1,Y1,X2,Y2", 1, "Draw a box", box, kColor + "fill=0|1: filled"},
-    named("", {"fill GEOM", 1, "Fill a window with a colour or a ramp", fill_window, kRamps}),
-    {"text TEXT", 1, "Draw text", text,
-     kColor + "x=N: position (the middle)\n"
-              "y=N: position (the middle)\n"
-              "size=N: height of the letters (16)\n"
-              "font=NAME: font, a name or a file\n"
-              "xalign=left|right|center: alignment of the text to its position (left)\n"
-              "yalign=base|top|bottom|center: alignment of the text to its position (base)\n"
-              "shadow=N: width of a black outline (0)"},
+const Rows kRows = {
+    command("create GEOM NCHANS", "A black image", run_create)
+        .images(0, 1)
+        .modifier("type", "TYPE", "data type (float)"),
+    command("pattern NAME[:...] GEOM NCHANS",
+            "An image of a pattern: black, constant, fill, checker, noise", run_pattern)
+        .images(0, 1)
+        .modifiers(kColor, kRamps, noise_modifiers())
+        .modifier("width", "N", "width of a checker's squares (8)")
+        .modifier("height", "N", "height of a checker's squares (width)")
+        .modifier("depth", "N", "depth of a checker's squares (width)")
+        .modifier("color1", "VALUES", "first colour of a checker (0)")
+        .modifier("color2", "VALUES", "second colour of a checker (1)"),
+    command("kernel NAME WxH", "A convolution kernel", run_kernel_command)
+        .images(0, 1)
+        .operation("-kernel"),
+    command("capture", "An image from a camera", run_capture)
+        .images(0, 1)
+        .modifier("camera", "N", "which camera (0)"),
+    on_pixels("point X,Y[,X,Y...]", 1, "Draw points", point).modifiers(kColor),
+    on_pixels("line X,Y,X,Y[,X,Y...]", 1, "Draw a line through these points", line)
+        .modifiers(kColor),
+    on_pixels("box X1,Y1,X2,Y2", 1, "Draw a box", box)
+        .modifiers(kColor)
+        .modifier("fill", "0|1", "filled"),
+    on_pixels("fill GEOM", 1, "Fill a window with a colour or a ramp", fill_window)
+        .modifiers(kColor, kRamps)
+        .operation(""),
+    on_pixels("text TEXT", 1, "Draw text", text)
+        .modifiers(kColor)
+        .modifier("x", "N", "position (the middle)")
+        .modifier("y", "N", "position (the middle)")
+        .modifier("size", "N", "height of the letters (16)")
+        .modifier("font", "NAME", "font, a name or a file")
+        .modifier("xalign", "left|right|center", "alignment of the text to its position (left)")
+        .modifier("yalign", "base|top|bottom|center",
+                  "alignment of the text to its position (base)")
+        .modifier("shadow", "N", "width of a black outline (0)"),
 };
 
 } // namespace
 
-std::vector<Command> create_commands() {
-    const std::string pattern = kRamps + noise_modifiers() +
-                                "width=N: width of a checker's squares (8)\n"
-                                "height=N: height of a checker's squares (width)\n"
-                                "depth=N: depth of a checker's squares (width)\n"
-                                "color1=VALUES: first colour of a checker (0)\n"
-                                "color2=VALUES: second colour of a checker (1)";
-    std::vector<Command> all = {
-        free_row(Group::Create, "create GEOM NCHANS", 0, 1, "A black image", run_create,
-                 "type=TYPE: data type (float)"),
-        free_row(Group::Create, "pattern NAME[:...] GEOM NCHANS", 0, 1,
-                 "An image of a pattern: black, constant, fill, checker, noise", run_pattern,
-                 pattern),
-        free_row(Group::Create, "kernel NAME WxH", 0, 1, "A convolution kernel",
-                 run_kernel_command),
-        free_row(Group::Create, "capture", 0, 1, "An image from a camera", run_capture,
-                 "camera=N: which camera (0)"),
-    };
-    for (Command& row : all)
-        row.operation = row.label() == "kernel" ? "-kernel" : "";
-    append(all, op_rows(Group::Create, kDrawingRows));
-    return all;
+Rows create_commands() {
+    return kRows;
 }
 
 } // namespace tonetool::chain

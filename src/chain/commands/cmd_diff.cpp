@@ -316,29 +316,26 @@ void run_diff(Session& session, const Call& call) {
     session.push(call.images[1]);
 }
 
-Command limit_row(const sequence::DiffOption& option) {
-    return setting(
-        Group::Compare, {option.name}, {option.argument}, option.help,
-        [option](Session& session, const Call& call) {
-            (session.diff.*option.limit).*option.number = float(call.number_argument(0, {0, 1e30}));
-            session.unused_limit = call.row().label();
-        });
+Row limit_row(const sequence::DiffOption& option) {
+    const auto set = [option](Session& session, const Call& call) {
+        (session.diff.*option.limit).*option.number = float(call.number_argument(0, {0, 1e30}));
+        session.unused_limit = call.row().label();
+    };
+    return command(option.name + std::string(" ") + option.argument, option.help, set);
 }
 
 } // namespace
 
-std::vector<Command> diff_commands() {
-    std::vector<Command> rows;
+Rows diff_commands() {
+    Rows rows;
     for (const sequence::DiffOption& option : sequence::kDiffOptions)
         rows.push_back(limit_row(option));
-    for (const char* name : {"diff", "pdiff"}) {
-        const bool perceptual = name[0] == 'p';
-        rows.push_back({{{name}, {}, 2, 2, Group::Compare},
-                        {},
-                        perceptual ? "Report the perceptual difference of two images (Yee)"
-                                   : "Report the difference of two images; status 1 if it fails",
-                        run_diff});
-    }
+    rows.push_back(
+        command("diff", "Report the difference of two images; status 1 if it fails", run_diff)
+            .images(2, 2));
+    rows.push_back(
+        command("pdiff", "Report the perceptual difference of two images (Yee)", run_diff)
+            .images(2, 2));
     return rows;
 }
 

@@ -60,15 +60,16 @@ void run_luminance(Session& session, const Call& call) {
 
 } // namespace
 
-std::vector<Command> exposure_commands() {
-    return {keeping_header(Command{{{"exposure"}, {"STOPS"}, 1, 1, Group::Color},
-                                   pixel_modifiers(),
-                                   "Multiply the colour by 2^STOPS",
-                                   run_exposure}),
-            {{{"luminancestats"}, {}, 1, 1, Group::Measure},
-             pixel_modifiers(),
-             "Print the luminance statistics of the current image",
-             run_luminance}};
+Rows exposure_commands() {
+    return {command("exposure STOPS", "Multiply the colour by 2^STOPS", run_exposure)
+                .images(1, 1)
+                .modifiers(pixel_modifiers())
+                .keeps_header(),
+            command("luminancestats", "Print the luminance statistics of the current image",
+                    run_luminance)
+                .in(Group::Measure)
+                .images(1, 1)
+                .modifiers(pixel_modifiers())};
 }
 
 } // namespace tonetool::chain

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Filters: neighbourhoods, kernels, Fourier transforms and repairs.
+#include "chain/commands/commands.h"
 #include "chain/session/ops.h"
 
 namespace tonetool::chain {
@@ -54,40 +55,38 @@ bool fixnan(Op& op) {
     return IBA::fixNonFinite(op.dst, op.a(), mode);
 }
 
-const std::vector<OpRow> kNeighbourRows = {
-    {"convolve", 2, "Convolve the first image with the second, a kernel",
-     [](Op& op) { return IBA::convolve(op.dst, op.a(), op.b()); }},
-    {"blur WxH", 1, "Blur", blur, "kernel=NAME: kernel (gaussian)"},
-    {"median WxH", 1, "Median of the neighbourhood", windowed<IBA::median_filter>},
-    {"dilate WxH", 1, "Maximum of the neighbourhood", windowed<IBA::dilate>},
-    {"erode WxH", 1, "Minimum of the neighbourhood", windowed<IBA::erode>},
-    {"unsharp", 1, "Sharpen by an unsharp mask", unsharp,
-     "kernel=NAME: kernel of the blur (gaussian)\n"
-     "width=X: its width (3)\n"
-     "contrast=X: strength (1)\n"
-     "threshold=X: leave smaller differences as they are (0)"},
-    {"laplacian", 1, "Laplacian", [](Op& op) { return IBA::laplacian(op.dst, op.a()); }},
-};
-
-const std::vector<OpRow> kOtherRows = {
-    {"fft", 1, "Fourier transform", [](Op& op) { return IBA::fft(op.dst, op.a()); }},
-    {"ifft", 1, "Inverse Fourier transform", [](Op& op) { return IBA::ifft(op.dst, op.a()); }},
-    {"polar", 1, "From real and imaginary to amplitude and phase",
-     [](Op& op) { return IBA::complex_to_polar(op.dst, op.a()); }},
-    {"unpolar", 1, "From amplitude and phase to real and imaginary",
-     [](Op& op) { return IBA::polar_to_complex(op.dst, op.a()); }},
-    named("", {"fixnan STRATEGY", 1, "Replace NaN and infinity: none, black, box3 or error", fixnan,
-               "", Scope::Levels}),
-    named("", {"fillholes", 1, "Fill pixels whose alpha is not 1 from their neighbourhood",
-               [](Op& op) { return IBA::fillholes_pushpull(op.dst, op.a()); }}),
+const Rows kRows = {
+    on_pixels("convolve", 2, "Convolve the first image with the second, a kernel",
+              [](Op& op) { return IBA::convolve(op.dst, op.a(), op.b()); }),
+    on_pixels("blur WxH", 1, "Blur", blur).modifier("kernel", "NAME", "kernel (gaussian)"),
+    on_pixels("median WxH", 1, "Median of the neighbourhood", windowed<IBA::median_filter>),
+    on_pixels("dilate WxH", 1, "Maximum of the neighbourhood", windowed<IBA::dilate>),
+    on_pixels("erode WxH", 1, "Minimum of the neighbourhood", windowed<IBA::erode>),
+    on_pixels("unsharp", 1, "Sharpen by an unsharp mask", unsharp)
+        .modifier("kernel", "NAME", "kernel of the blur (gaussian)")
+        .modifier("width", "X", "its width (3)")
+        .modifier("contrast", "X", "strength (1)")
+        .modifier("threshold", "X", "leave smaller differences as they are (0)"),
+    on_pixels("laplacian", 1, "Laplacian", [](Op& op) { return IBA::laplacian(op.dst, op.a()); }),
+    on_pixels("fft", 1, "Fourier transform", [](Op& op) { return IBA::fft(op.dst, op.a()); }),
+    on_pixels("ifft", 1, "Inverse Fourier transform",
+              [](Op& op) { return IBA::ifft(op.dst, op.a()); }),
+    on_pixels("polar", 1, "From real and imaginary to amplitude and phase",
+              [](Op& op) { return IBA::complex_to_polar(op.dst, op.a()); }),
+    on_pixels("unpolar", 1, "From amplitude and phase to real and imaginary",
+              [](Op& op) { return IBA::polar_to_complex(op.dst, op.a()); }),
+    on_pixels("fixnan STRATEGY", 1, "Replace NaN and infinity: none, black, box3 or error", fixnan,
+              Scope::Levels)
+        .operation(""),
+    on_pixels("fillholes", 1, "Fill pixels whose alpha is not 1 from their neighbourhood",
+              [](Op& op) { return IBA::fillholes_pushpull(op.dst, op.a()); })
+        .operation(""),
 };
 
 } // namespace
 
-std::vector<Command> filter_commands() {
-    std::vector<Command> all = op_rows(Group::Filter, kNeighbourRows);
-    append(all, op_rows(Group::Filter, kOtherRows));
-    return all;
+Rows filter_commands() {
+    return kRows;
 }
 
 } // namespace tonetool::chain

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Commands that move, cut, turn and resample pixels.
+#include "chain/commands/commands.h"
 #include "chain/session/ops.h"
 #include "imagebuf/pixels/oiio_compat.h"
 
@@ -7,9 +8,12 @@ namespace tonetool::chain {
 
 namespace {
 
-const std::string kFilters = "filter=NAME: reconstruction filter (lanczos3, box, cubic, ...)\n";
-const std::string kHighlights = "highlightcomp=0|1: compress highlights while filtering\n";
-const std::string kRecompute = "recompute_roi=0|1: grow the data window as needed\n";
+const Modifiers kFilters = {
+    {"filter", "NAME", "reconstruction filter (lanczos3, box, cubic, ...)"}};
+const Modifiers kResizing =
+    concatenated({kFilters, {{"highlightcomp", "0|1", "compress highlights while filtering"}}});
+const Modifiers kWarping =
+    concatenated({kResizing, {{"recompute_roi", "0|1", "grow the data window as needed"}}});
 
 // Runs a filter on the image; with highlightcomp= between compressing and expanding its highlights.
 template <class Filter>
@@ -163,63 +167,66 @@ bool reorient(Op& op) {
     return op.unchanged || IBA::reorient(op.dst, op.a());
 }
 
-const std::vector<OpRow> kWindowRows = {
-    named("", {"crop GEOM", 1,
-               "Set the data window, cropping or padding (WxH+X+Y or XMIN,YMIN,XMAX,YMAX)", crop}),
-    named("", {"croptofull", 1, "Crop or pad to the display window",
-               [](Op& op) { return crop_to(op, op.a().roi_full()); }}),
-    named("", {"trim", 1, "Crop to the smallest window of pixels that are not 0", trim}),
-    named("", {"cut GEOM", 1, "Cut out a window and move it to the origin", cut}),
-    {"cshift +X+Y", 1, "Shift circularly: pixels that leave at one edge return at the opposite one",
-     cshift},
-};
-
-const std::vector<OpRow> kScaleRows = {
-    named("resample", {"resample GEOM", 1, "Resample (640x480, 640x0, 50%)", resample,
-                       "interp=0|1: bilinear (1) or nearest"}),
-    named("resize", {"resize GEOM", 1, "Resize with a filter (640x480, 640x0, 50%)", resize,
-                     kFilters + kHighlights}),
-    named("",
-          {"fit GEOM", 1, "Resize to fit within a window", fit,
-           kFilters + kHighlights +
-               "pad=0|1: pad to the window\n"
-               "fillmode=letterbox|width|height: the dimension that must fit (letterbox: both)\n"
-               "exact=0|1: fit exactly, not to whole pixels"}),
-    named("resize",
-          {"pixelaspect ASPECT", 1, "Scale up width or height for another pixel aspect ratio",
-           pixelaspect, kFilters + kHighlights}),
-    {"rotate DEGREES", 1, "Rotate clockwise around the middle of the display window", rotate,
-     kFilters + kHighlights + kRecompute + "center=X,Y: centre of the rotation"},
-    {"warp MATRIX", 1, "Warp by a 3x3 matrix of 9 numbers with commas between them", warp,
-     kFilters + kHighlights + kRecompute +
-         "wrap=MODE: pixels beyond the image: black, clamp, periodic, mirror"},
-    {"st_warp", 2, "Warp the first image by the st coordinates in the second", st_warp,
-     kFilters + "chan_s=N: channel of s (0)\n"
-                "chan_t=N: channel of t (1)\n"
-                "flip_s=0|1: s runs from the right\n"
-                "flip_t=0|1: t runs from the bottom"},
-};
-
-const std::vector<OpRow> kTurnRows = {
-    {"rotate90", 1, "Rotate by 90 degrees clockwise",
-     [](Op& op) { return IBA::rotate90(op.dst, op.a()); }},
-    {"rotate180|flipflop", 1, "Rotate by 180 degrees",
-     [](Op& op) { return IBA::rotate180(op.dst, op.a()); }},
-    {"rotate270", 1, "Rotate by 270 degrees clockwise",
-     [](Op& op) { return IBA::rotate270(op.dst, op.a()); }},
-    {"flip", 1, "Mirror top and bottom", [](Op& op) { return IBA::flip(op.dst, op.a()); }},
-    {"flop", 1, "Mirror left and right", [](Op& op) { return IBA::flop(op.dst, op.a()); }},
-    {"transpose", 1, "Swap x and y", [](Op& op) { return IBA::transpose(op.dst, op.a()); }},
-    named("reorient", {"reorient", 1, "Turn the pixels as the Orientation says", reorient}),
+const Rows kRows = {
+    on_pixels("crop GEOM", 1,
+              "Set the data window, cropping or padding (WxH+X+Y or XMIN,YMIN,XMAX,YMAX)", crop)
+        .operation(""),
+    on_pixels("croptofull", 1, "Crop or pad to the display window",
+              [](Op& op) { return crop_to(op, op.a().roi_full()); })
+        .operation(""),
+    on_pixels("trim", 1, "Crop to the smallest window of pixels that are not 0", trim)
+        .operation(""),
+    on_pixels("cut GEOM", 1, "Cut out a window and move it to the origin", cut).operation(""),
+    on_pixels("cshift +X+Y", 1,
+              "Shift circularly: pixels that leave at one edge return at the opposite one", cshift),
+    on_pixels("resample GEOM", 1, "Resample (640x480, 640x0, 50%)", resample)
+        .modifier("interp", "0|1", "bilinear (1) or nearest")
+        .operation("resample"),
+    on_pixels("resize GEOM", 1, "Resize with a filter (640x480, 640x0, 50%)", resize)
+        .modifiers(kResizing)
+        .operation("resize"),
+    on_pixels("fit GEOM", 1, "Resize to fit within a window", fit)
+        .modifiers(kResizing)
+        .modifier("pad", "0|1", "pad to the window")
+        .modifier("fillmode", "letterbox|width|height",
+                  "the dimension that must fit (letterbox: both)")
+        .modifier("exact", "0|1", "fit exactly, not to whole pixels")
+        .operation(""),
+    on_pixels("pixelaspect ASPECT", 1, "Scale up width or height for another pixel aspect ratio",
+              pixelaspect)
+        .modifiers(kResizing)
+        .operation("resize"),
+    on_pixels("rotate DEGREES", 1, "Rotate clockwise around the middle of the display window",
+              rotate)
+        .modifiers(kWarping)
+        .modifier("center", "X,Y", "centre of the rotation"),
+    on_pixels("warp MATRIX", 1, "Warp by a 3x3 matrix of 9 numbers with commas between them", warp)
+        .modifiers(kWarping)
+        .modifier("wrap", "MODE", "pixels beyond the image: black, clamp, periodic, mirror"),
+    on_pixels("st_warp", 2, "Warp the first image by the st coordinates in the second", st_warp)
+        .modifiers(kFilters)
+        .modifier("chan_s", "N", "channel of s (0)")
+        .modifier("chan_t", "N", "channel of t (1)")
+        .modifier("flip_s", "0|1", "s runs from the right")
+        .modifier("flip_t", "0|1", "t runs from the bottom"),
+    on_pixels("rotate90", 1, "Rotate by 90 degrees clockwise",
+              [](Op& op) { return IBA::rotate90(op.dst, op.a()); }),
+    on_pixels("rotate180|flipflop", 1, "Rotate by 180 degrees",
+              [](Op& op) { return IBA::rotate180(op.dst, op.a()); }),
+    on_pixels("rotate270", 1, "Rotate by 270 degrees clockwise",
+              [](Op& op) { return IBA::rotate270(op.dst, op.a()); }),
+    on_pixels("flip", 1, "Mirror top and bottom", [](Op& op) { return IBA::flip(op.dst, op.a()); }),
+    on_pixels("flop", 1, "Mirror left and right", [](Op& op) { return IBA::flop(op.dst, op.a()); }),
+    on_pixels("transpose", 1, "Swap x and y",
+              [](Op& op) { return IBA::transpose(op.dst, op.a()); }),
+    on_pixels("reorient", 1, "Turn the pixels as the Orientation says", reorient)
+        .operation("reorient"),
 };
 
 } // namespace
 
-std::vector<Command> geometry_commands() {
-    std::vector<Command> all = op_rows(Group::Geometry, kWindowRows);
-    append(all, op_rows(Group::Geometry, kScaleRows));
-    append(all, op_rows(Group::Geometry, kTurnRows));
-    return all;
+Rows geometry_commands() {
+    return kRows;
 }
 
 } // namespace tonetool::chain

@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <ostream>
 
+#include "chain/commands/commands.h"
 #include "chain/images/inspect.h"
 #include "chain/session/expression.h"
 #include "chain/session/ops.h"
@@ -95,49 +96,48 @@ void run_list_formats(Session& session, const Call&) {
     session.produced = true;
 }
 
+const Modifiers kFormat = {{"format", "text|xml", "how it is printed (text)"}};
+const Modifiers kAllSubimages = {{"allsubimages", "0|1", "of all subimages and MIP levels (-a)"}};
+
+const Rows kRows = {
+    command("info", "Print size, channels and format of every image read after it", run_info)
+        .modifier("verbose", "0|1", "with the metadata, as -v does")
+        .modifiers(kFormat),
+    command("stats", "Print pixel statistics of every image read after it",
+            [](Session& session, const Call&) { session.list.stats = true; }),
+    command("hash", "Print the SHA-1 of the pixels of every image read after it",
+            [](Session& session, const Call&) { session.list.hash = true; }),
+    command("dumpdata", "Print all pixel values of every image read after it", run_dumpdata)
+        .modifier("empty", "0|1", "also pixels that are all 0 (1)")
+        .modifier("C", "NAME", "as an array of C of that name"),
+    command("metamatch REGEX", "Print only metadata whose names match",
+            [](Session& session, const Call& call) { session.list.metamatch = call.argument(0); }),
+    command(
+        "no-metamatch REGEX", "Do not print metadata whose names match",
+        [](Session& session, const Call& call) { session.list.no_metamatch = call.argument(0); }),
+    command("echo TEXT", "Print a text", run_echo)
+        .modifier("newline", "N", "line ends after it (1)")
+        .keeps_header(),
+    command("printinfo", "Print information about the current image", run_printinfo)
+        .images(1, 1)
+        .modifiers(kFormat)
+        .modifier("verbose", "0|1", "with the metadata (1)")
+        .modifier("stats", "0|1", "and with pixel statistics (0)")
+        .modifier("native", "0|1", "the data type of the file, not of the memory (0)")
+        .modifiers(kAllSubimages),
+    command("printstats", "Print pixel statistics of the current image", run_printstats)
+        .images(1, 1)
+        .modifier("window", "GEOM", "of that part of it")
+        .modifier("roi", "GEOM", "the same")
+        .modifiers(kAllSubimages),
+    command("list-formats", "List the image formats and their file name extensions",
+            run_list_formats),
+};
+
 } // namespace
 
-std::vector<Command> inspect_commands() {
-    const auto row = [](const char* name, Strings args, const char* help, const Run& run,
-                        std::vector<Modifier> modifiers = {}) {
-        return setting(Group::Print, {name}, std::move(args), help, run, std::move(modifiers));
-    };
-    const Modifier format{"format", "text|xml", "how it is printed (text)"};
-    const auto image_row = [&](const char* name, const char* help, const Run& run,
-                               std::vector<Modifier> modifiers) {
-        modifiers.push_back({"allsubimages", "0|1", "of all subimages and MIP levels (-a)"});
-        Command made = row(name, {}, help, run, std::move(modifiers));
-        made.pops = made.pushes = 1;
-        return made;
-    };
-    return {
-        row("info", {}, "Print size, channels and format of every image read after it", run_info,
-            {{"verbose", "0|1", "with the metadata, as -v does"}, format}),
-        row("stats", {}, "Print pixel statistics of every image read after it",
-            [](Session& session, const Call&) { session.list.stats = true; }),
-        row("hash", {}, "Print the SHA-1 of the pixels of every image read after it",
-            [](Session& session, const Call&) { session.list.hash = true; }),
-        row("dumpdata", {}, "Print all pixel values of every image read after it", run_dumpdata,
-            {{"empty", "0|1", "also pixels that are all 0 (1)"},
-             {"C", "NAME", "as an array of C of that name"}}),
-        row("metamatch", {"REGEX"}, "Print only metadata whose names match",
-            [](Session& session, const Call& call) { session.list.metamatch = call.argument(0); }),
-        row("no-metamatch", {"REGEX"}, "Do not print metadata whose names match",
-            [](Session& session, const Call& call) {
-                session.list.no_metamatch = call.argument(0);
-            }),
-        keeping_header(row("echo", {"TEXT"}, "Print a text", run_echo,
-                           {{"newline", "N", "line ends after it (1)"}})),
-        image_row("printinfo", "Print information about the current image", run_printinfo,
-                  {format,
-                   {"verbose", "0|1", "with the metadata (1)"},
-                   {"stats", "0|1", "and with pixel statistics (0)"},
-                   {"native", "0|1", "the data type of the file, not of the memory (0)"}}),
-        image_row("printstats", "Print pixel statistics of the current image", run_printstats,
-                  {{"window", "GEOM", "of that part of it"}, {"roi", "GEOM", "the same"}}),
-        row("list-formats", {}, "List the image formats and their file name extensions",
-            run_list_formats),
-    };
+Rows inspect_commands() {
+    return kRows;
 }
 
 } // namespace tonetool::chain

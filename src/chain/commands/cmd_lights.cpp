@@ -39,11 +39,11 @@ void run_lightindex(Session& session, const Call& call) {
 
 } // namespace
 
-std::vector<Command> light_commands() {
-    return {{{{"lightindex"}, {}, 1, 1, Group::Channels},
-             concatenated({light_modifiers(), pixel_modifiers()}),
-             "Index of the light group that lights each pixel, -1 for none",
-             run_lightindex}};
+Rows light_commands() {
+    return {command("lightindex", "Index of the light group that lights each pixel, -1 for none",
+                    run_lightindex)
+                .images(1, 1)
+                .modifiers(light_modifiers(), pixel_modifiers())};
 }
 
 } // namespace tonetool::chain

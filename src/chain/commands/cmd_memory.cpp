@@ -39,12 +39,13 @@ void run_memory(Session& session, const Call& call) {
 
 } // namespace
 
-std::vector<Command> memory_commands() {
-    return {of_manner(
-        of_process(setting(Group::General, {"memory"}, {"SIZE"},
-                           "Peak memory of the comparisons that follow, 256M or 1G: larger "
-                           "images are read in scanline blocks (half of the computer's memory)",
-                           run_memory)))};
+Rows memory_commands() {
+    return {command("memory SIZE",
+                    "Peak memory of the comparisons that follow, 256M or 1G: larger images are "
+                    "read in scanline blocks (half of the computer's memory)",
+                    run_memory)
+                .of_process()
+                .manner()};
 }
 
 } // namespace tonetool::chain

@@ -95,8 +95,8 @@ void run_qc(Session& session, const Call& call) {
     show_faults(session, call, record);
 }
 
-std::vector<Modifier> modifiers() {
-    std::vector<Modifier> all = pixel_modifiers();
+Modifiers modifiers() {
+    Modifiers all = pixel_modifiers();
     all.push_back({"groups", "NAME,...", "light groups that must add up to the beauty (all)"});
     for (const sequence::QcRule& rule : sequence::qc_rules()) {
         std::string usual = severity_name(rule.severity);
@@ -111,12 +111,13 @@ std::vector<Modifier> modifiers() {
 
 } // namespace
 
-std::vector<Command> qc_commands() {
-    return {
-        {{{"qc"}, {}, 1, 1, Group::Measure},
-         modifiers(),
-         "Look for faults of single images and of the shot; severities: off, info, warning, error",
-         run_qc}};
+Rows qc_commands() {
+    return {command("qc",
+                    "Look for faults of single images and of the shot; severities: off, info, "
+                    "warning, error",
+                    run_qc)
+                .images(1, 1)
+                .modifiers(modifiers())};
 }
 
 } // namespace tonetool::chain

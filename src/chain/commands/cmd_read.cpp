@@ -4,6 +4,7 @@
 #include <OpenImageIO/strutil.h>
 #include <algorithm>
 
+#include "chain/commands/commands.h"
 #include "chain/session/execute.h"
 #include "chain/session/io.h"
 #include "chain/session/ops.h"
@@ -169,27 +170,26 @@ void run_iconfig(Session& session, const Call& call) {
 
 } // namespace
 
-std::vector<Command> read_commands() {
-    return {
-        free_row(Group::Read, "i FILENAME", 0, kAnyNumber,
-                 "Read an image (as a bare file name does)", run_input,
-                 "ch=CHANLIST: keep these channels only, as --ch\n"
-                 "info=0|1|2: print information about the file; 2: with its metadata\n"
-                 "infoformat=text|xml: how that is printed\n"
-                 "autocc=0|1: convert to the linear space from the one that the name tells\n"
-                 "unpremult=0|1: divide by alpha for that\n"
-                 "now=0|1: read the pixels at once\n"
-                 "type=TYPE: data type of the pixels in memory"),
-        free_row(Group::Read, "iconfig NAME VALUE", 0, 0, "Set an option of the file reader",
-                 run_iconfig, "type=TYPE: its data type"),
-        free_row(Group::Read, "missingfile POLICY", 0, 0,
-                 "What a file that is not there becomes: error, black or checker",
-                 [](Session& session, const Call& call) {
-                     if (!session.compat)
-                         check_choice("POLICY", call.argument(0), {"error", "black", "checker"});
-                     session.missing_file = call.argument(0);
-                 }),
-    };
+Rows read_commands() {
+    return {command("i FILENAME", "Read an image (as a bare file name does)", run_input)
+                .images(0, kAnyNumber)
+                .modifier("ch", "CHANLIST", "keep these channels only, as --ch")
+                .modifier("info", "0|1|2", "print information about the file; 2: with its metadata")
+                .modifier("infoformat", "text|xml", "how that is printed")
+                .modifier("autocc", "0|1",
+                          "convert to the linear space from the one that the name tells")
+                .modifier("unpremult", "0|1", "divide by alpha for that")
+                .modifier("now", "0|1", "read the pixels at once")
+                .modifier("type", "TYPE", "data type of the pixels in memory"),
+            command("iconfig NAME VALUE", "Set an option of the file reader", run_iconfig)
+                .modifier("type", "TYPE", "its data type"),
+            command("missingfile POLICY",
+                    "What a file that is not there becomes: error, black or checker",
+                    [](Session& session, const Call& call) {
+                        if (!session.compat)
+                            check_choice("POLICY", call.argument(0), {"error", "black", "checker"});
+                        session.missing_file = call.argument(0);
+                    })};
 }
 
 } // namespace tonetool::chain

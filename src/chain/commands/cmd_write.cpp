@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <map>
 
+#include "chain/commands/commands.h"
 #include "chain/session/execute.h"
 #include "chain/session/io.h"
 #include "chain/session/ops.h"
@@ -189,23 +190,22 @@ void write_to_files(Session& session, const Call& call, const Save& save) {
     }
 }
 
-std::string output_modifiers() {
-    const std::string types = join(data_type_names(), "|");
-    return "datatype=TYPE: data type of this file (" + types + ")\n" +
-           "type=TYPE: the same\n"
-           "bits=N: of each channel\n"
-           "compression=NAME: compression of this file, name or name:quality\n"
-           "all=N: write all images of the stack; the file name has a %d, from N on\n"
-           "autocc=0|1: convert to the colour space that the name tells\n"
-           "unpremult=0|1: divide by alpha for that\n"
-           "autocrop=0|1: to the display window where the format has no other\n"
-           "autotrim=0|1: cut off a black border\n"
-           "contig=0|1: channels interleaved\n"
-           "separate=0|1: each channel by itself\n"
-           "dither=0|1: add dither to 8 bits\n"
-           "fileformatname=NAME: instead of the one that the extension tells\n"
-           "scanline=0|1: not in tiles\n"
-           "tile=WxH: in tiles of this size\n";
+Modifiers output_modifiers() {
+    return {{"datatype", "TYPE", "data type of this file (" + join(data_type_names(), "|") + ")"},
+            {"type", "TYPE", "the same"},
+            {"bits", "N", "of each channel"},
+            {"compression", "NAME", "compression of this file, name or name:quality"},
+            {"all", "N", "write all images of the stack; the file name has a %d, from N on"},
+            {"autocc", "0|1", "convert to the colour space that the name tells"},
+            {"unpremult", "0|1", "divide by alpha for that"},
+            {"autocrop", "0|1", "to the display window where the format has no other"},
+            {"autotrim", "0|1", "cut off a black border"},
+            {"contig", "0|1", "channels interleaved"},
+            {"separate", "0|1", "each channel by itself"},
+            {"dither", "0|1", "add dither to 8 bits"},
+            {"fileformatname", "NAME", "instead of the one that the extension tells"},
+            {"scanline", "0|1", "not in tiles"},
+            {"tile", "WxH", "in tiles of this size"}};
 }
 
 namespace {
@@ -223,64 +223,52 @@ void run_compression(Session& session, const Call& call) {
     session.output.compression = call.argument(0);
 }
 
-Command output_row() {
-    return free_row(Group::Write, "o FILENAME", 0, kAnyNumber, "Write the current image",
-                    run_output, output_modifiers());
-}
-
-// Settings of the outputs that follow.
-std::vector<Command> output_setting_rows() {
-    const std::string types = join(data_type_names(), "|");
-    const auto set = [](const char* usage, const std::string& help, Run run) {
-        return free_row(Group::Write, usage, 0, 0, help, std::move(run));
-    };
-    return {
-        set("d TYPE",
-            "Data type of the outputs that follow, or CHAN=TYPE of one channel (" + types + ")",
-            run_data_type),
-        set("compression NAME", "Compression of the outputs that follow, name or name:quality",
-            run_compression),
-        set("quality N", "Quality of JPEG and the like, 1 to 100",
-            [](Session& session, const Call& call) {
-                session.output.quality = call.integer_argument(0, {1, 100});
-            }),
-        set("scanline", "Outputs are not in tiles",
-            [](Session& session, const Call&) { session.output.scanline = true; }),
-        set("tile WIDTH HEIGHT", "Outputs are in tiles of this size",
-            [](Session& session, const Call& call) {
-                session.output.set_tile(call.argument(0) + "x" + call.argument(1));
-            }),
-        set("force-tiles", "Has no effect, as in oiiotool (valid: --tile WIDTH HEIGHT)",
-            [](Session&, const Call&) {}),
-        set("planarconfig CONFIG", "How channels are stored: contig, separate, default",
-            [](Session& session, const Call& call) {
-                check_choice("CONFIG", call.argument(0), {"contig", "separate", "default"});
-                session.output.planarconfig = call.argument(0);
-            }),
-        set("dither", "Add dither where 8 bits are made of more",
-            [](Session& session, const Call&) { session.output.dither = true; }),
-        set("adjust-time", "Files get the time of their DateTime",
-            [](Session& session, const Call&) { session.output.adjust_time = true; }),
-        set("noautocrop", "Do not crop to the display window",
-            [](Session& session, const Call&) { session.output.autocrop = false; }),
-        set("autotrim", "Cut off a black border where the format can say so",
-            [](Session& session, const Call&) { session.output.autotrim = true; }),
-        set("history", "Write the command line into the metadata again",
-            [](Session& session, const Call&) { session.output.history = true; }),
-        keeping_header(set("nosoftwareattrib|no-history",
-                           "Do not write the command line into the metadata",
-                           [](Session& session, const Call&) { session.output.history = false; })),
-        set("sansattrib", "Leave --attrib and --sattrib out of the command line that is written",
-            [](Session&, const Call&) {}),
-    };
-}
-
 } // namespace
 
-std::vector<Command> write_commands() {
-    std::vector<Command> rows = output_setting_rows();
-    rows.insert(rows.begin(), output_row());
-    return rows;
+Rows write_commands() {
+    const std::string types = join(data_type_names(), "|");
+    return {
+        command("o FILENAME", "Write the current image", run_output)
+            .images(0, kAnyNumber)
+            .modifiers(output_modifiers()),
+        command("d TYPE",
+                "Data type of the outputs that follow, or CHAN=TYPE of one channel (" + types + ")",
+                run_data_type),
+        command("compression NAME", "Compression of the outputs that follow, name or name:quality",
+                run_compression),
+        command("quality N", "Quality of JPEG and the like, 1 to 100",
+                [](Session& session, const Call& call) {
+                    session.output.quality = call.integer_argument(0, {1, 100});
+                }),
+        command("scanline", "Outputs are not in tiles",
+                [](Session& session, const Call&) { session.output.scanline = true; }),
+        command("tile WIDTH HEIGHT", "Outputs are in tiles of this size",
+                [](Session& session, const Call& call) {
+                    session.output.set_tile(call.argument(0) + "x" + call.argument(1));
+                }),
+        command("force-tiles", "Has no effect, as in oiiotool (valid: --tile WIDTH HEIGHT)",
+                do_nothing),
+        command("planarconfig CONFIG", "How channels are stored: contig, separate, default",
+                [](Session& session, const Call& call) {
+                    check_choice("CONFIG", call.argument(0), {"contig", "separate", "default"});
+                    session.output.planarconfig = call.argument(0);
+                }),
+        command("dither", "Add dither where 8 bits are made of more",
+                [](Session& session, const Call&) { session.output.dither = true; }),
+        command("adjust-time", "Files get the time of their DateTime",
+                [](Session& session, const Call&) { session.output.adjust_time = true; }),
+        command("noautocrop", "Do not crop to the display window",
+                [](Session& session, const Call&) { session.output.autocrop = false; }),
+        command("autotrim", "Cut off a black border where the format can say so",
+                [](Session& session, const Call&) { session.output.autotrim = true; }),
+        command("history", "Write the command line into the metadata again",
+                [](Session& session, const Call&) { session.output.history = true; }),
+        command("nosoftwareattrib|no-history", "Do not write the command line into the metadata",
+                [](Session& session, const Call&) { session.output.history = false; })
+            .keeps_header(),
+        command("sansattrib",
+                "Leave --attrib and --sattrib out of the command line that is written", do_nothing),
+    };
 }
 
 } // namespace tonetool::chain

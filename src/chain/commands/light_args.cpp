@@ -7,7 +7,7 @@
 
 namespace tonetool::chain {
 
-std::vector<Modifier> light_modifiers() {
+Modifiers light_modifiers() {
     return modifiers_of<LightOptions>();
 }
 

@@ -10,7 +10,7 @@
 namespace tonetool::chain {
 
 /// lights=, lightunit=, index=, groups=.
-std::vector<Modifier> light_modifiers();
+Modifiers light_modifiers();
 LightOptions light_options(const Call& call);
 
 } // namespace tonetool::chain

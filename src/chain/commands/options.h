@@ -23,8 +23,8 @@ std::string hint_of(const Option<Owner, T>& row) {
 }
 
 template <class Options>
-std::vector<Modifier> modifiers_of() {
-    std::vector<Modifier> rows;
+Modifiers modifiers_of() {
+    Modifiers rows;
     describe(Options(), [&](const auto& row) {
         const std::string initial = row.initial();
         rows.push_back(
@@ -72,7 +72,6 @@ void read_options(const Call& call, Options& options) {
 }
 
 /// A list put into another one, behind the row of that key.
-std::vector<Modifier> inserted(std::vector<Modifier> rows, const std::string& key,
-                               const std::vector<Modifier>& more);
+Modifiers inserted(Modifiers rows, const std::string& key, const Modifiers& more);
 
 } // namespace tonetool::chain

@@ -34,9 +34,9 @@ void run_help(Session& session, const Call& call) {
 
 } // namespace
 
-std::vector<Command> help_commands() {
-    return {setting(
-        Group::General, {"help"}, {"[COMMAND]"},
+Rows help_commands() {
+    return {command(
+        "help [COMMAND]",
         "List all commands, tell more about one, or all as man, bash, zsh (completion) or json",
         run_help)};
 }

@@ -3,8 +3,6 @@
 
 #include <OpenImageIO/strutil.h>
 #include <algorithm>
-#include <cstdio>
-#include <iterator>
 #include <set>
 
 namespace tonetool::chain {
@@ -65,27 +63,6 @@ OIIO::ImageBuf made(Session& session, const Call& call, const Kernel& kernel, in
         result.specmod().extra_attribs.merge(op.src[i]->spec().extra_attribs);
     changed |= !op.unchanged;
     return result;
-}
-
-Shape shape_of(const std::string& usage, int pops, int pushes, Group group) {
-    Strings words = split(usage, ' ');
-    return {split(words.front(), '|'), {words.begin() + 1, words.end()}, pops, pushes, group};
-}
-
-std::vector<Modifier> modifiers_of(const std::string& lines, bool of_subimages) {
-    std::vector<Modifier> all;
-    for (const std::string& line : OIIO::Strutil::splits(lines, "\n")) {
-        size_t equals = line.find('='), colon = line.find(": ");
-        if (!line.empty()) {
-            all.push_back({line.substr(0, equals), line.substr(equals + 1, colon - equals - 1),
-                           line.substr(colon + 2)});
-        }
-    }
-    if (of_subimages) {
-        all.push_back({"subimages", "N,NAME,...", "of these subimages (-N: of all but N), or all"});
-        all.push_back({"allsubimages", "0|1", "of all subimages (as -a says)"});
-    }
-    return all;
 }
 
 } // namespace
@@ -192,38 +169,24 @@ ImagePtr with_headers(const Image& image, const Chosen& chosen,
     return std::make_shared<Image>(image.name(), std::move(parts));
 }
 
-std::vector<Command> op_rows(Group group, const std::vector<OpRow>& rows) {
-    std::vector<Command> all;
-    for (const OpRow& row : rows) {
-        Run run = [kernel = row.kernel, scope = row.scope](Session& session, const Call& call) {
-            run_kernel(session, call, kernel, scope);
-        };
-        all.push_back({shape_of(row.usage, row.images, 1, group), modifiers_of(row.modifiers, true),
-                       row.help, run});
-        all.back().operation = row.operation == "-" ? "-" + all.back().label() : row.operation;
-        all.back().keeps_header = row.keeps_header;
-    }
-    return all;
+Row on_pixels(const std::string& usage, int images, std::string help, Kernel kernel, Scope scope) {
+    const auto run = [kernel, scope](Session& session, const Call& call) {
+        run_kernel(session, call, kernel, scope);
+    };
+    const std::string name = usage.substr(0, usage.find_first_of("| "));
+    return command(usage, std::move(help), run)
+        .images(images, 1)
+        .operation("-" + name)
+        .of_subimages();
 }
 
-std::vector<Command> header_rows(Group group, const std::vector<HeaderRow>& rows) {
-    std::vector<Command> all;
-    for (const HeaderRow& row : rows) {
-        Run run = [edit = row.edit](Session& session, const Call& call) {
-            const Image& image = *call.images.front();
-            session.push(with_headers(image, chosen_subimages(session, call, image),
-                                      [&](OIIO::ImageSpec& spec) { edit(spec, call, session); }));
-        };
-        all.push_back(
-            {shape_of(row.usage, 1, 1, group), modifiers_of(row.modifiers, true), row.help, run});
-    }
-    return all;
-}
-
-Command free_row(Group group, const std::string& usage, int pops, int pushes,
-                 const std::string& help, Run run, const std::string& modifiers) {
-    return {shape_of(usage, pops, pushes, group), modifiers_of(modifiers, false), help,
-            std::move(run)};
+Row on_headers(const std::string& usage, std::string help, Edit edit) {
+    const auto run = [edit](Session& session, const Call& call) {
+        const Image& image = *call.images.front();
+        session.push(with_headers(image, chosen_subimages(session, call, image),
+                                  [&](OIIO::ImageSpec& spec) { edit(spec, call, session); }));
+    };
+    return command(usage, std::move(help), run).images(1, 1).of_subimages();
 }
 
 bool adjust_window(Session& session, const Call& call, const std::string& text, Geometry allowed,
@@ -251,10 +214,6 @@ std::vector<ImagePtr> take_images(Session& session, size_t count) {
             session.note_format(*image);
     }
     return images;
-}
-
-void append(std::vector<Command>& all, std::vector<Command> more) {
-    std::move(more.begin(), more.end(), std::back_inserter(all));
 }
 
 } // namespace tonetool::chain

@@ -58,39 +58,19 @@ struct Op {
 
 using Kernel = bool (*)(Op&);
 
-/// Which of an image's parts a command makes: without -a the first subimage only.
+/// Which of an image's parts a command makes: without -a the first subimage only. Levels: with -a
+/// MIP levels stay.
 enum class Scope { Largest, Levels };
 
-/// A command that pops some images and pushes the one that its kernel makes.
-struct OpRow {
-    const char* usage; ///< "resize GEOM"
-    int images;
-    std::string help;
-    Kernel kernel;
-    std::string modifiers = {};   ///< lines of "key=hint: help"
-    Scope scope = Scope::Largest; ///< Levels: with -a MIP levels stay
-    std::string operation = "-";  ///< as Call::operation; "-": the name with a dash
-    bool keeps_header = false;    ///< as Command::keeps_header
-};
-/// The same row with another Call::operation, "" if the image keeps its name.
-inline OpRow named(std::string operation, OpRow row) {
-    row.operation = std::move(operation);
-    return row;
-}
-std::vector<Command> op_rows(Group group, const std::vector<OpRow>& rows);
+/// A command that pops some images and pushes the one that its kernel makes, which is named after
+/// it: Row::operation() gives another name, "" none.
+Row on_pixels(const std::string& usage, int images, std::string help, Kernel kernel,
+              Scope scope = Scope::Largest);
+
+using Edit = void (*)(OIIO::ImageSpec&, const Call&, Session&);
 
 /// A command that changes headers and no pixels.
-struct HeaderRow {
-    const char* usage;
-    const char* help;
-    void (*edit)(OIIO::ImageSpec&, const Call&, Session&);
-    std::string modifiers = {};
-};
-std::vector<Command> header_rows(Group group, const std::vector<HeaderRow>& rows);
-
-/// A command of any other kind, from "label NAME".
-Command free_row(Group group, const std::string& usage, int pops, int pushes,
-                 const std::string& help, Run run, const std::string& modifiers = {});
+Row on_headers(const std::string& usage, std::string help, Edit edit);
 
 /// The subimages that -a, allsubimages= and subimages= choose.
 struct Chosen {
@@ -115,8 +95,6 @@ std::vector<ImagePtr> take_images(Session& session, size_t count);
 
 /// --noise and --pattern noise: onto the pixels of dst.
 bool add_noise(Op& op, bool to_blank);
-std::string noise_modifiers();
-
-void append(std::vector<Command>& all, std::vector<Command> more);
+Modifiers noise_modifiers();
 
 } // namespace tonetool::chain
