@@ -132,7 +132,7 @@ std::string mending_line(const std::string& plugin) {
 }
 
 void run_doctor(chain::Session& session, const chain::Call& call) {
-    session.produced = true;
+    session.outcome.produced = true;
     const std::string plugin = own_plugin();
     const std::string program = output_of("command -v oiiotool");
     const std::string version = program.empty() ? "" : output_of("oiiotool --version");

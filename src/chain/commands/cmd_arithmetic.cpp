@@ -46,54 +46,45 @@ const Modifiers kLimits = {{"min", "VALUES", "lowest value, one or one per chann
 
 const Rows kRows = {
     on_pixels("addc|cadd VALUES", 1, "Add a constant (0.5) or one per channel (1,1.25,0.5)",
-              [](Op& op) { return IBA::add(op.dst, op.a(), op.constants(0)); })
+              of_constants<IBA::add, 0>)
         .keeps_header(),
     on_pixels("subc|csub VALUES", 1, "Subtract a constant or one per channel",
-              [](Op& op) { return IBA::sub(op.dst, op.a(), op.constants(0)); })
+              of_constants<IBA::sub, 0>)
         .keeps_header(),
     on_pixels("mulc|cmul VALUES", 1, "Multiply by a constant or one per channel",
-              [](Op& op) { return IBA::mul(op.dst, op.a(), op.constants(1)); })
+              of_constants<IBA::mul, 1>)
         .keeps_header(),
     on_pixels("divc VALUES", 1, "Divide by a constant or one per channel",
-              [](Op& op) { return IBA::div(op.dst, op.a(), op.constants(1)); })
+              of_constants<IBA::div, 1>)
         .keeps_header(),
     on_pixels("absdiffc VALUES", 1, "Absolute difference to a constant or one per channel",
-              [](Op& op) { return IBA::absdiff(op.dst, op.a(), op.constants(0)); })
+              of_constants<IBA::absdiff, 0>)
         .keeps_header(),
     on_pixels("powc|cpow VALUES", 1, "Raise to a power or one per channel",
               [](Op& op) { return IBA::pow(op.dst, op.a(), op.constants(1)); })
         .keeps_header(),
     on_pixels("maxc VALUES", 1, "The larger of the values and a constant or one per channel",
-              [](Op& op) { return IBA::max(op.dst, op.a(), op.constants(0)); })
+              of_constants<IBA::max, 0>)
         .keeps_header(),
     on_pixels("minc VALUES", 1, "The smaller of the values and a constant or one per channel",
-              [](Op& op) { return IBA::min(op.dst, op.a(), op.constants(0)); })
+              of_constants<IBA::min, 0>)
         .keeps_header(),
-    on_pixels("add", 2, "Add two images", [](Op& op) { return IBA::add(op.dst, op.a(), op.b()); }),
-    on_pixels("sub", 2, "Subtract the second image from the first",
-              [](Op& op) { return IBA::sub(op.dst, op.a(), op.b()); }),
-    on_pixels("mul", 2, "Multiply two images",
-              [](Op& op) { return IBA::mul(op.dst, op.a(), op.b()); }),
-    on_pixels("div", 2, "Divide the first image by the second",
-              [](Op& op) { return IBA::div(op.dst, op.a(), op.b()); }),
+    on_pixels("add", 2, "Add two images", of_two<IBA::add>),
+    on_pixels("sub", 2, "Subtract the second image from the first", of_two<IBA::sub>),
+    on_pixels("mul", 2, "Multiply two images", of_two<IBA::mul>),
+    on_pixels("div", 2, "Divide the first image by the second", of_two<IBA::div>),
     on_pixels("mad", 3, "Multiply two images and add a third",
               [](Op& op) { return IBA::mad(op.dst, op.a(), op.b(), op.c()); }),
-    on_pixels("absdiff", 2, "Absolute difference of two images",
-              [](Op& op) { return IBA::absdiff(op.dst, op.a(), op.b()); }),
-    on_pixels("max", 2, "The larger value of two images, pixel by pixel",
-              [](Op& op) { return IBA::max(op.dst, op.a(), op.b()); }),
-    on_pixels("min", 2, "The smaller value of two images, pixel by pixel",
-              [](Op& op) { return IBA::min(op.dst, op.a(), op.b()); }),
-    on_pixels("abs", 1, "Absolute value", [](Op& op) { return IBA::abs(op.dst, op.a()); })
-        .keeps_header(),
+    on_pixels("absdiff", 2, "Absolute difference of two images", of_two<IBA::absdiff>),
+    on_pixels("max", 2, "The larger value of two images, pixel by pixel", of_two<IBA::max>),
+    on_pixels("min", 2, "The smaller value of two images, pixel by pixel", of_two<IBA::min>),
+    on_pixels("abs", 1, "Absolute value", of_one<IBA::abs>).keeps_header(),
     on_pixels("invert", 1, "Subtract the colour from 1", invert)
         .modifier("chbegin", "N", "first channel (0)")
         .modifier("chend", "N", "one past the last channel (3)")
         .keeps_header(),
-    on_pixels("maxchan", 1, "The largest of the channels of each pixel",
-              [](Op& op) { return IBA::maxchan(op.dst, op.a()); }),
-    on_pixels("minchan", 1, "The smallest of the channels of each pixel",
-              [](Op& op) { return IBA::minchan(op.dst, op.a()); }),
+    on_pixels("maxchan", 1, "The largest of the channels of each pixel", of_one<IBA::maxchan>),
+    on_pixels("minchan", 1, "The smallest of the channels of each pixel", of_one<IBA::minchan>),
     on_pixels("chsum", 1, "Sum of the channels",
               [](Op& op) { return IBA::channel_sum(op.dst, op.a(), op.values("weight", 1)); })
         .modifier("weight", "VALUES", "weight of each channel (1)"),
@@ -122,12 +113,10 @@ const Rows kRows = {
     on_pixels("noise", 1, "Add noise", noise)
         .modifiers(noise_modifiers())
         .modifier("nchannels", "N", "channels that get noise"),
-    on_pixels("premult", 1, "Multiply the colour by alpha",
-              [](Op& op) { return IBA::premult(op.dst, op.a()); }),
-    on_pixels("unpremult", 1, "Divide the colour by alpha",
-              [](Op& op) { return IBA::unpremult(op.dst, op.a()); }),
+    on_pixels("premult", 1, "Multiply the colour by alpha", of_one<IBA::premult>),
+    on_pixels("unpremult", 1, "Divide the colour by alpha", of_one<IBA::unpremult>),
     on_pixels("repremult", 1, "Multiply the colour by alpha, but keep it where alpha is 0",
-              [](Op& op) { return IBA::repremult(op.dst, op.a()); }),
+              of_one<IBA::repremult>),
 };
 
 } // namespace
@@ -153,8 +142,9 @@ bool add_noise(Op& op, bool to_blank) {
                               op.integer("seed", 0), roi);
         }
     }
-    throw CommandError("Unknown noise type \"" + type + "\"" +
-                       (op.session.compat ? "" : " (valid: gaussian, uniform, white, blue, salt)"));
+    throw CommandError(
+        "Unknown noise type \"" + type + "\"" +
+        (op.session.settings.compat ? "" : " (valid: gaussian, uniform, white, blue, salt)"));
 }
 
 Modifiers noise_modifiers() {

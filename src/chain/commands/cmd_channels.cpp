@@ -16,17 +16,18 @@ bool ch(Op& op) {
         op.session.warning("--ch", text); // twice, as oiiotool
         op.session.warning("--ch", text);
     };
-    op.dst = select_channels(op.a(), op.call.argument(0), op.session.compat ? Warn(warn) : nullptr);
+    op.dst = select_channels(op.a(), op.call.argument(0),
+                             op.session.settings.compat ? Warn(warn) : nullptr);
     return !op.dst.has_error();
 }
 
 void push_parts(Session& session, const std::string& name, std::vector<PartPtr> parts) {
-    session.push(std::make_shared<Image>(name, std::move(parts)));
+    session.stack.push(std::make_shared<Image>(name, std::move(parts)));
 }
 
 void run_subimage(Session& session, const Call& call) {
     const Image& image = *call.images[0];
-    auto index = std::ptrdiff_t(image.find_part(call.argument(0), session.compat));
+    auto index = std::ptrdiff_t(image.find_part(call.argument(0), session.settings.compat));
     std::vector<PartPtr> parts = image.parts();
     if (call.flag("delete", false))
         parts.erase(parts.begin() + index);
@@ -68,8 +69,8 @@ template <class Lines>
 void run_count(Session& session, const Call& call, Lines lines) {
     OIIO::ImageBuf none;
     lines(Op{session, call, none, {&call.images[0]->part().pixels()}});
-    session.produced = true;
-    session.push(call.images[0]);
+    session.outcome.produced = true;
+    session.stack.push(call.images[0]);
 }
 
 void print_count(Session& session, OIIO::imagesize_t count, const std::string& of) {

@@ -3,7 +3,6 @@
 #include "chain/commands/commands.h"
 #include "chain/images/colormap.h"
 #include "chain/session/ops.h"
-#include "text/error.h"
 #include "tonetool/display.h"
 
 namespace tonetool::chain {
@@ -12,18 +11,14 @@ namespace {
 
 bool colormap(Op& op) {
     const std::string& map = op.call.argument(0);
-    if (op.a().deep() && !op.session.compat) {
-        throw CommandError("\"" + op.call.images.front()->name() +
-                           "\" is deep, which this command cannot use");
-    }
-    op.dst = op.session.compat ? linear_colored(op.a(), map) : colored(op.a(), map);
+    op.dst = op.session.settings.compat ? linear_colored(op.a(), map) : colored(op.a(), map);
     return !op.dst.has_error();
 }
 
 void run_colorconfig(Session& session, const Call& call) {
-    session.color_config = call.argument(0);
-    session.ocio.reset();
-    if (session.compat && color_config(session).has_error())
+    session.settings.color_config = call.argument(0);
+    session.settings.ocio.reset();
+    if (session.settings.compat && color_config(session).has_error())
         throw CommandError(color_config(session).geterror());
 }
 

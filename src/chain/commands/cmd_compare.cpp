@@ -7,8 +7,10 @@
 #include "chain/commands/flip_args.h"
 #include "chain/commands/flip_report.h"
 #include "chain/commands/frame_pictures.h"
+#include "chain/commands/options.h"
 #include "chain/commands/shot_args.h"
 #include "chain/images/colormap.h"
+#include "imagebuf/options/flip_options.h"
 #include "imagebuf/pixels/upright.h"
 #include "metrics/errors.h"
 #include "sequence/results/measurement.h"
@@ -64,9 +66,9 @@ void warn_of_same_file(Session& session, const Call& call, const Image& test, co
 
 Compared compare(Session& session, const Call& call, const Look& look, const Compare& function) {
     Compared done;
-    const auto view = shown_bytes(session, call) > 0      ? shown_input
-                      : look.again && session.memory == 0 ? color_input
-                                                          : color_source;
+    const auto view = shown_bytes(session, call) > 0               ? shown_input
+                      : look.again && session.settings.memory == 0 ? color_input
+                                                                   : color_source;
     for (const ImagePtr& image : call.images) {
         const PixelOptions& options = done.views.empty() ? look.reference : look.tests;
         done.views.push_back(view(session, call, *image, options));
@@ -79,7 +81,7 @@ Compared compare(Session& session, const Call& call, const Look& look, const Com
     done.maps.resize(tests.size());
     if (!function(done.maps, done.views.front(), tests))
         throw CommandError(done.maps.front().geterror());
-    session.produced = true;
+    session.outcome.produced = true;
     return done;
 }
 
@@ -122,7 +124,7 @@ bool judge_flip(Session& session, const Call& call, const Limits& limits, const 
 }
 
 void push_result(Session& session, const Call& call, OIIO::ImageBuf result) {
-    session.push(Image::computed("--" + call.row().label(), std::move(result)));
+    session.stack.push(Image::computed("--" + call.row().label(), std::move(result)));
 }
 
 // The map lies as its pictures do.
@@ -147,9 +149,9 @@ int hdrflip_pushes(const Call& call) {
 
 void save(Session& session, const OIIO::ImageBuf& image, const std::string& filename) {
     session.claim(filename);
-    if (session.dry_run)
+    if (session.settings.dry_run)
         return;
-    session.keep_pixels_of(filename);
+    session.stack.keep_pixels_of(filename);
     std::string why;
     if (!write_image(image, filename, why))
         throw CommandError(why);
@@ -311,7 +313,7 @@ Measures tmqi_measures() {
 
 void run_tmqi(Session& session, const Call& call) {
     TmqiOptions options{pixel_options(call), pixel_options(call, "ldr"), call.flag("crop", false),
-                        session.memory};
+                        session.settings.memory};
     Strings none;
     const Limits limits = limits_of(call, tmqi_measures(), none);
     TmqiSummary summary;
@@ -333,7 +335,7 @@ Row hdrflip_row() {
     return command("hdrflip", "HDR-FLIP: reference, test -> error map", run_hdrflip)
         .images(2, 1)
         .images_of(hdrflip_pops, hdrflip_pushes)
-        .modifiers(hdr_modifiers(), viewing_modifiers(), pair_modifiers())
+        .modifiers(hdr_modifiers(), modifiers_of<FlipOptions>(), pair_modifiers())
         .modifier(
             "exposures", "frame|shot|FILE",
             "range of the exposures: each frame's own (frame), one of the whole shot, or what "
@@ -351,7 +353,8 @@ Row filmstrip_row() {
     return command("filmstrip", "HDR-FLIP as a picture: every exposure of both images and its map",
                    run_filmstrip)
         .images(2, 1)
-        .modifiers(hdr_modifiers(), Modifiers{viewing_modifiers().front()}, pair_modifiers())
+        .modifiers(hdr_modifiers(), Modifiers{modifiers_of<FlipOptions>().front()},
+                   pair_modifiers())
         .modifier("width", "PIXELS", "width of one picture (240)")
         .modifier("columns", "N", "at most this many exposures are shown (9)")
         .modifier("font", "FILE", "font of the labels (DejaVu Sans)")
@@ -376,7 +379,7 @@ Rows compare_commands() {
     return {hdrflip_row(),
             command("ldrflip", "LDR-FLIP: reference, test -> error map", run_ldrflip)
                 .images(2, 1)
-                .modifiers(viewing_modifiers(), pair_modifiers(), threshold_modifiers())
+                .modifiers(modifiers_of<FlipOptions>(), pair_modifiers(), threshold_modifiers())
                 .makes_map(),
             command("flipdiff",
                     "FLIP with the option names and defaults of OpenImageIO 3.2's oiiotool",

@@ -21,9 +21,9 @@ Position asked_position(const Session& session, const std::string& text) {
     int end = 0;
     if (text != "-" && text != "auto" &&
         (std::sscanf(text.c_str(), "%d%d%n", &position.x, &position.y, &end) != 2 ||
-         (!session.compat && size_t(end) < text.size()))) {
+         (!session.settings.compat && size_t(end) < text.size()))) {
         throw CommandError("Invalid offset '" + text + "'" +
-                           (session.compat ? "" : " (valid: +X+Y, auto, -)"));
+                           (session.settings.compat ? "" : " (valid: +X+Y, auto, -)"));
     }
     return position;
 }
@@ -46,7 +46,7 @@ void run_paste(Session& session, const Call& call) {
     const Position at = asked_position(session, call.argument(0));
     OIIO::ImageBuf result =
         pasted(flat_pixels_of(images), at.x, at.y, call.flag("mergeroi", false));
-    session.push(Image::derived(*images.back(), std::move(result)));
+    session.stack.push(Image::derived(*images.back(), std::move(result)));
 }
 
 bool paste_metadata(Op& op) {
@@ -60,17 +60,18 @@ void run_mosaic(Session& session, const Call& call) {
     auto size = parsed_size(call.argument(0));
     if (!size || size->width < 1 || size->height < 1) {
         throw CommandError("Invalid size '" + call.argument(0) + "'" +
-                           (session.compat ? "" : " (valid: COLUMNSxROWS)"));
+                           (session.settings.compat ? "" : " (valid: COLUMNSxROWS)"));
     }
     const auto fit = call.text("fit");
     Sheet sheet{int(size->width), int(size->height)};
     sheet.pad = call.integer("pad", kAnyInteger).value_or(0);
     sheet.fit = fit ? parsed_size(*fit) : std::nullopt;
-    if (fit && !sheet.fit && !session.compat)
+    if (fit && !sheet.fit && !session.settings.compat)
         throw CommandError("fit \"" + *fit + "\" is no size (valid: WxH)");
     const size_t cells = size_t(sheet.columns) * size_t(sheet.rows);
-    std::vector<ImagePtr> images = take_images(session, std::min(cells, session.stack.size()));
-    session.push(Image::created("mosaic", mosaic(sheet, flat_pixels_of(images))));
+    std::vector<ImagePtr> images =
+        take_images(session, std::min(cells, session.stack.images.size()));
+    session.stack.push(Image::created("mosaic", mosaic(sheet, flat_pixels_of(images))));
 }
 
 const Rows kRows = {
@@ -92,8 +93,7 @@ const Rows kRows = {
     on_pixels("deepen", 1, "From flat to deep",
               [](Op& op) { return IBA::deepen(op.dst, op.a(), op.number("z", 1)); })
         .modifier("z", "X", "depth where there is no Z channel (1)"),
-    on_pixels("flatten", 1, "From deep to flat",
-              [](Op& op) { return IBA::flatten(op.dst, op.a()); }),
+    on_pixels("flatten", 1, "From deep to flat", of_one<IBA::flatten>),
     on_pixels("pastemeta", 2, "The pixels of the second image with the metadata of the first",
               paste_metadata),
     command(

@@ -53,9 +53,10 @@ void run_endwhile(Session& session, const Call&) {
 }
 
 bool set_loop_variable(Session& session, Block& block, const std::string& name) {
-    session.variables.attribute(name, expression_number(block.value));
-    block.running = block.outside && (block.step < 0 && !session.compat ? block.value > block.end
-                                                                        : block.value < block.end);
+    session.stack.variables.attribute(name, expression_number(block.value));
+    block.running =
+        block.outside && (block.step < 0 && !session.settings.compat ? block.value > block.end
+                                                                     : block.value < block.end);
     return block.running;
 }
 
@@ -64,7 +65,7 @@ void run_for(Session& session, const Call& call) {
     if (block.outside) {
         std::vector<double> range;
         for (const std::string& word : split(call.argument(1), ',')) {
-            bool lenient = session.compat && !parse_number(word);
+            bool lenient = session.settings.compat && !parse_number(word);
             range.push_back(lenient ? 0 : checked_number("RANGE", word, {-1e9, 1e9}));
         }
         if (range.size() > 3)
@@ -72,7 +73,7 @@ void run_for(Session& session, const Call& call) {
         block.value = range.size() > 1 ? range[0] : 0;
         block.end = range.size() > 1 ? range[1] : range[0];
         block.step = range.size() > 2 ? range[2] : 1;
-        if (block.step == 0 && !session.compat)
+        if (block.step == 0 && !session.settings.compat)
             throw CommandError("RANGE \"" + call.argument(1) + "\" never ends: its step is 0");
         set_loop_variable(session, block, call.argument(0));
     }
@@ -95,18 +96,18 @@ void run_set(Session& session, const Call& call) {
     bool number = type.empty() && parse_number(value);
     bool whole = number && parse_integer(value);
     if (type == "int" || whole) {
-        session.variables.attribute(name, OIIO::Strutil::stoi(value));
+        session.stack.variables.attribute(name, OIIO::Strutil::stoi(value));
     } else if (type == "float" || number) {
-        session.variables.attribute(name, OIIO::Strutil::stof(value));
+        session.stack.variables.attribute(name, OIIO::Strutil::stof(value));
     } else if (type.empty() || type == "string") {
-        session.variables.attribute(name, value);
+        session.stack.variables.attribute(name, value);
     } else if (const OIIO::TypeDesc packed(type);
                packed == OIIO::TypeTimeCode || packed == OIIO::TypeRational) {
         OIIO::ImageSpec spec;
         set_attribute(spec, name, value, packed);
-        session.variables.merge(spec.extra_attribs, true);
+        session.stack.variables.merge(spec.extra_attribs, true);
     } else {
-        session.variables.attribute(name, OIIO::TypeDesc(type), value);
+        session.stack.variables.attribute(name, OIIO::TypeDesc(type), value);
     }
 }
 
@@ -128,9 +129,9 @@ const Rows kRows = {
         .control(),
     command("endfor", "End of a --for", run_endfor).control(),
     command("evaloff", "Leave {expressions} as they are in what follows",
-            [](Session& session, const Call&) { session.evaluate = false; }),
+            [](Session& session, const Call&) { session.settings.evaluate = false; }),
     command("evalon", "Replace {expressions} by their values in what follows",
-            [](Session& session, const Call&) { session.evaluate = true; }),
+            [](Session& session, const Call&) { session.settings.evaluate = true; }),
     command("frames RANGE", "Run the command line for each of these frames (1-10, 1,3,5-9, 1-10x2)")
         .whole_line()
         .manner(),

@@ -21,7 +21,7 @@ OIIO::ImageBuf blank(Session& session, const Call& call, size_t first) {
     int channels = op.integer(first + 1);
     if (channels < 1 || channels > 1024) {
         const std::string why = "Invalid number of channels: " + std::to_string(channels);
-        if (!session.compat)
+        if (!session.settings.compat)
             throw CommandError(why + " (valid: 1 to 1024)");
         session.warning(call.text(), why);
         channels = 3;
@@ -38,7 +38,7 @@ OIIO::ImageBuf blank(Session& session, const Call& call, size_t first) {
 void push_created(Session& session, OIIO::ImageBuf image) {
     if (image.has_error())
         throw CommandError(image.geterror());
-    session.push(Image::created("new", std::move(image)));
+    session.stack.push(Image::created("new", std::move(image)));
 }
 
 void run_create(Session& session, const Call& call) {
@@ -73,11 +73,11 @@ bool fill(Op& op, const OIIO::ROI& window) {
         return IBA::fill(op.dst, two[0], two[1], window);
     if (Corners two = colors(op, {"left", "right"}); !two.empty())
         return IBA::fill(op.dst, two[0], two[1], two[0], two[1], window);
-    if (!op.call.has("color") && op.session.compat && op.call.row().label() == "pattern")
+    if (!op.call.has("color") && op.session.settings.compat && op.call.row().label() == "pattern")
         return true; // black, without a message
     if (!op.call.has("color")) {
         const std::string why = "No recognized fill parameters";
-        if (!op.session.compat) {
+        if (!op.session.settings.compat) {
             throw CommandError(why + " (valid: color=, or top= and bottom=, or left= and "
                                      "right=, or topleft=, "
                                      "topright=, bottomleft= and bottomright=)");
@@ -103,7 +103,7 @@ bool draw_pattern(Op& op, const std::string& pattern) {
         return fill(op, op.dst.roi());
     if (pattern == "constant")
         return IBA::fill(op.dst, color_of(op, "color"));
-    if (!op.session.compat)
+    if (!op.session.settings.compat)
         check_choice("pattern", pattern, names);
     else if (pattern != "black")
         op.session.warning("--pattern", "Unknown pattern \"" + pattern + "\"");
@@ -112,8 +112,8 @@ bool draw_pattern(Op& op, const std::string& pattern) {
 
 void run_pattern(Session& session, const Call& call) {
     OIIO::ImageBuf image = blank(session, call, 1);
-    const Token pattern = parse_token("--" + call.argument(0), session.compat);
-    const Call own(call.row(), pattern, {}, session.compat);
+    const Token pattern = parse_token("--" + call.argument(0), session.settings.compat);
+    const Call own(call.row(), pattern, {}, session.settings.compat);
     Op op{session, own, image, {&image}};
     draw_pattern(op, pattern.name);
     push_created(session, std::move(image));
@@ -136,7 +136,7 @@ std::vector<int> positions(const Op& op, size_t least) {
     std::vector<int> all;
     for (float value : op.list(op.call.row().args.front(), op.call.argument(0)))
         all.push_back(static_cast<int>(value));
-    if (all.size() < least || (all.size() % 2 != 0 && !op.session.compat)) {
+    if (all.size() < least || (all.size() % 2 != 0 && !op.session.settings.compat)) {
         throw CommandError("\"" + op.call.argument(0) + "\" has " + std::to_string(all.size()) +
                            " numbers (valid: " + op.call.row().args.front() + ")");
     }
@@ -189,7 +189,7 @@ Align aligned(const Op& op, const std::string& key,
         valid.push_back(name);
         found = op.text(key) == name ? value : found;
     }
-    if (op.call.has(key) && !op.session.compat)
+    if (op.call.has(key) && !op.session.settings.compat)
         check_choice(key, op.text(key), valid);
     return found;
 }

@@ -16,7 +16,7 @@ void run_exposure(Session& session, const Call& call) {
     OIIO::ImageBuf result = ToneAlgo::exposure(view, stops, pixel_options(call));
     if (result.has_error())
         throw CommandError(result.geterror());
-    session.push(Image::derived(image, std::move(result)));
+    session.stack.push(Image::derived(image, std::move(result)));
 }
 
 Lines luminance_lines(const std::string& label, const LuminanceStats& stats,
@@ -54,8 +54,8 @@ void run_luminance(Session& session, const Call& call) {
                                    image.name() + " are in no figure");
     }
     session.report(luminance_lines(label, stats, image.name()).text);
-    session.produced = true;
-    session.push(call.images[0]);
+    session.outcome.produced = true;
+    session.stack.push(call.images[0]);
 }
 
 } // namespace

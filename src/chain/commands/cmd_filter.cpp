@@ -11,7 +11,8 @@ Size asked_size(const Op& op) {
     const std::string& text = op.call.argument(0);
     auto size = parsed_size(text);
     if (!size)
-        throw CommandError("Unknown size " + text + (op.session.compat ? "" : " (valid: WxH)"));
+        throw CommandError("Unknown size " + text +
+                           (op.session.settings.compat ? "" : " (valid: WxH)"));
     return *size;
 }
 
@@ -42,13 +43,13 @@ bool fixnan(Op& op) {
     auto mode = strategy == "black"   ? IBA::NONFINITE_BLACK
                 : strategy == "error" ? IBA::NONFINITE_ERROR
                                       : IBA::NONFINITE_BOX3;
-    if (strategy == "none" && !op.session.compat) {
+    if (strategy == "none" && !op.session.settings.compat) {
         mode = IBA::NONFINITE_NONE;
     } else if (strategy != "black" && strategy != "box3" && strategy != "error") {
         const std::string why = "\"" + strategy +
                                 "\" not recognized. Valid choices: black, box3, "
                                 "error";
-        if (!op.session.compat)
+        if (!op.session.settings.compat)
             throw CommandError(why);
         op.session.warning(op.call.text(), why);
     }
@@ -67,19 +68,18 @@ const Rows kRows = {
         .modifier("width", "X", "its width (3)")
         .modifier("contrast", "X", "strength (1)")
         .modifier("threshold", "X", "leave smaller differences as they are (0)"),
-    on_pixels("laplacian", 1, "Laplacian", [](Op& op) { return IBA::laplacian(op.dst, op.a()); }),
-    on_pixels("fft", 1, "Fourier transform", [](Op& op) { return IBA::fft(op.dst, op.a()); }),
-    on_pixels("ifft", 1, "Inverse Fourier transform",
-              [](Op& op) { return IBA::ifft(op.dst, op.a()); }),
+    on_pixels("laplacian", 1, "Laplacian", of_one<IBA::laplacian>),
+    on_pixels("fft", 1, "Fourier transform", of_one<IBA::fft>),
+    on_pixels("ifft", 1, "Inverse Fourier transform", of_one<IBA::ifft>),
     on_pixels("polar", 1, "From real and imaginary to amplitude and phase",
-              [](Op& op) { return IBA::complex_to_polar(op.dst, op.a()); }),
+              of_one<IBA::complex_to_polar>),
     on_pixels("unpolar", 1, "From amplitude and phase to real and imaginary",
-              [](Op& op) { return IBA::polar_to_complex(op.dst, op.a()); }),
+              of_one<IBA::polar_to_complex>),
     on_pixels("fixnan STRATEGY", 1, "Replace NaN and infinity: none, black, box3 or error", fixnan,
               Scope::Levels)
         .operation(""),
     on_pixels("fillholes", 1, "Fill pixels whose alpha is not 1 from their neighbourhood",
-              [](Op& op) { return IBA::fillholes_pushpull(op.dst, op.a()); })
+              of_one<IBA::fillholes_pushpull>)
         .operation(""),
 };
 

@@ -19,18 +19,13 @@ void run_oiioattrib(Session& session, const Call& call) {
     bool known = type == "string" || (type.empty() && !number) ? OIIO::attribute(name, value)
                  : type == "float" || !whole ? OIIO::attribute(name, float(number.value_or(0)))
                                              : OIIO::attribute(name, *whole);
-    if (!known && !session.compat)
+    if (!known && !session.settings.compat)
         throw CommandError("unknown attribute \"" + name + "\" of OpenImageIO");
 }
 
-template <bool Session::*Flag>
-void set_on(Session& session, const Call&) {
-    session.*Flag = true;
-}
-
-template <bool Session::*Flag>
-void set_off(Session& session, const Call&) {
-    session.*Flag = false;
+template <bool Settings::*Flag, bool Value = true>
+void set(Session& session, const Call&) {
+    session.settings.*Flag = Value;
 }
 
 // Settings of the whole process, of messages and of the end of the command line, and of the
@@ -40,7 +35,7 @@ const Rows kRows = {
             [](Session& session, const Call& call) {
                 const int threads = call.integer_argument(0, {0, 4096});
                 OIIO::attribute("threads", threads);
-                limit_reader_threads(threads * session.parallel);
+                limit_reader_threads(threads * session.settings.parallel);
             })
         .of_process()
         .manner(),
@@ -63,64 +58,66 @@ const Rows kRows = {
         .of_process(),
     command("version", "Print the version",
             [](Session& session, const Call&) {
-                session.produced = true;
+                session.outcome.produced = true;
                 session.print(TONETOOL_VERSION);
             }),
     command("v", "Say what is read and written",
             [](Session& session, const Call&) {
-                session.verbose = true;
-                session.quiet = false;
+                session.settings.verbose = true;
+                session.settings.quiet = false;
             })
         .manner()
         .keeps_header(),
     command("q", "Quiet: measurements print only warnings, failures and errors",
             [](Session& session, const Call&) {
-                session.quiet = true;
-                session.verbose = false;
+                session.settings.quiet = true;
+                session.settings.verbose = false;
             })
         .manner()
         .keeps_header(),
     command("debug", "Say what is done",
-            [](Session& session, const Call&) { session.debug = session.verbose = true; })
+            [](Session& session, const Call&) {
+                session.settings.debug = session.settings.verbose = true;
+            })
         .manner(),
     command("runstats", "Print the time and the memory that the command line took",
-            set_on<&Session::runstats>)
+            set<&Settings::runstats>)
         .manner(),
     command("warnings-exit", "Exit with status 2 when there were warnings",
-            set_on<&Session::warnings_exit>)
+            set<&Settings::warnings_exit>)
         .manner(),
     command("nostderr", "Errors and warnings go to the standard output",
-            set_on<&Session::complains_to_out>),
+            set<&Settings::complains_to_out>),
     command("no-error-exit", "After an error go on with the next command",
-            set_off<&Session::error_exit>),
-    command("n", "Dry run: nothing is written", set_on<&Session::dry_run>),
-    command("a", "Do operations on all subimages and MIP levels", set_on<&Session::all_subimages>),
+            set<&Settings::error_exit, false>),
+    command("n", "Dry run: nothing is written", set<&Settings::dry_run>),
+    command("a", "Do operations on all subimages and MIP levels", set<&Settings::all_subimages>),
     command("u", "Update: outputs that are newer than all inputs stay as they are",
-            set_on<&Session::update>),
+            set<&Settings::update>),
     command("no-clobber|noclobber", "Outputs that exist stay as they are",
-            set_on<&Session::no_clobber>),
+            set<&Settings::no_clobber>),
     command("no-autopremult", "Do not multiply colour by an alpha that is not associated",
             [](Session& session, const Call&) {
-                session.input.config.attribute("oiio:UnassociatedAlpha", 1);
+                session.settings.input.config.attribute("oiio:UnassociatedAlpha", 1);
             }),
     command("autopremult", "Multiply colour by an alpha that is not associated",
             [](Session& session, const Call&) {
-                if (session.input.config.find_attribute("oiio:UnassociatedAlpha"))
-                    session.input.config.attribute("oiio:UnassociatedAlpha", 0);
+                if (session.settings.input.config.find_attribute("oiio:UnassociatedAlpha"))
+                    session.settings.input.config.attribute("oiio:UnassociatedAlpha", 0);
             }),
     command("autoorient|auto-orient", "--reorient every image that is read",
-            set_on<&Session::autoorient>),
+            set<&Settings::autoorient>),
     command("autocc", "Convert colour by file names, to the linear space and back",
             [](Session& session, const Call& call) {
-                session.autocc = true;
-                session.autocc_unpremult = call.flag("unpremult", false);
+                session.settings.autocc = true;
+                session.settings.autocc_unpremult = call.flag("unpremult", false);
             })
         .modifier("unpremult", "0|1", "divide by alpha for that"),
-    command("noautocc", "No colour conversion by file names", set_off<&Session::autocc>),
+    command("noautocc", "No colour conversion by file names", set<&Settings::autocc, false>),
     command("native", "Pixels keep the file's data type in memory",
-            [](Session& session, const Call&) { session.input.type = OIIO::TypeUnknown; }),
+            [](Session& session, const Call&) { session.settings.input.type = OIIO::TypeUnknown; }),
     command("metamerge", "Results have the metadata of all images they are made of",
-            set_on<&Session::metamerge>),
+            set<&Settings::metamerge>),
 };
 
 } // namespace

@@ -98,7 +98,7 @@ bool pixelaspect(Op& op) {
     const float wanted = op.number(0);
     if (wanted <= 0) {
         throw CommandError("Invalid pixel aspect ratio '" + format_number(wanted) + "'" +
-                           (op.session.compat ? "" : " (valid: above 0)"));
+                           (op.session.settings.compat ? "" : " (valid: above 0)"));
     }
     const OIIO::ImageSpec& spec = op.a().spec();
     const float factor = spec.get_float_attribute("PixelAspectRatio", 1) / wanted;
@@ -120,7 +120,7 @@ bool pixelaspect(Op& op) {
 bool rotate(Op& op) {
     const float angle = op.number(0) * float(M_PI / 180.0);
     const Floats center = op.call.has("center") ? op.list("center", op.text("center")) : Floats();
-    if (!op.session.compat && op.call.has("center") && center.size() != 2)
+    if (!op.session.settings.compat && op.call.has("center") && center.size() != 2)
         throw CommandError("center \"" + op.text("center") + "\" is not a position (valid: X,Y)");
     const std::string filter = op.text("filter");
     const bool recomputed = op.flag("recompute_roi");
@@ -137,7 +137,7 @@ bool warp(Op& op) {
         throw CommandError("expected 9 comma-separated floats to form a 3x3 matrix", "", true);
     const float matrix[3][3] = {{m[0], m[1], m[2]}, {m[3], m[4], m[5]}, {m[6], m[7], m[8]}};
     const std::string wrap = op.text("wrap", "black");
-    if (!op.session.compat)
+    if (!op.session.settings.compat)
         check_choice("wrap", wrap, {"black", "clamp", "periodic", "mirror"});
     return filtered(op, [&](const OIIO::ImageBuf& from) {
         return IBA::warp(op.dst, from, matrix, op.text("filter"), 0, op.flag("recompute_roi"),
@@ -149,9 +149,9 @@ bool cshift(Op& op) {
     const std::string& text = op.call.argument(0);
     int x = 0, y = 0, end = 0;
     bool found = std::sscanf(text.c_str(), "%d%d%n", &x, &y, &end) == 2;
-    if (!found || (!op.session.compat && size_t(end) < text.size())) {
+    if (!found || (!op.session.settings.compat && size_t(end) < text.size())) {
         throw CommandError("Invalid shift offset '" + text + "'" +
-                               (op.session.compat ? "" : " (valid: +X+Y)"),
+                               (op.session.settings.compat ? "" : " (valid: +X+Y)"),
                            "", true);
     }
     return IBA::circular_shift(op.dst, op.a(), x, y);
@@ -209,16 +209,12 @@ const Rows kRows = {
         .modifier("chan_t", "N", "channel of t (1)")
         .modifier("flip_s", "0|1", "s runs from the right")
         .modifier("flip_t", "0|1", "t runs from the bottom"),
-    on_pixels("rotate90", 1, "Rotate by 90 degrees clockwise",
-              [](Op& op) { return IBA::rotate90(op.dst, op.a()); }),
-    on_pixels("rotate180|flipflop", 1, "Rotate by 180 degrees",
-              [](Op& op) { return IBA::rotate180(op.dst, op.a()); }),
-    on_pixels("rotate270", 1, "Rotate by 270 degrees clockwise",
-              [](Op& op) { return IBA::rotate270(op.dst, op.a()); }),
-    on_pixels("flip", 1, "Mirror top and bottom", [](Op& op) { return IBA::flip(op.dst, op.a()); }),
-    on_pixels("flop", 1, "Mirror left and right", [](Op& op) { return IBA::flop(op.dst, op.a()); }),
-    on_pixels("transpose", 1, "Swap x and y",
-              [](Op& op) { return IBA::transpose(op.dst, op.a()); }),
+    on_pixels("rotate90", 1, "Rotate by 90 degrees clockwise", of_one<IBA::rotate90>),
+    on_pixels("rotate180|flipflop", 1, "Rotate by 180 degrees", of_one<IBA::rotate180>),
+    on_pixels("rotate270", 1, "Rotate by 270 degrees clockwise", of_one<IBA::rotate270>),
+    on_pixels("flip", 1, "Mirror top and bottom", of_one<IBA::flip>),
+    on_pixels("flop", 1, "Mirror left and right", of_one<IBA::flop>),
+    on_pixels("transpose", 1, "Swap x and y", of_one<IBA::transpose>),
     on_pixels("reorient", 1, "Turn the pixels as the Orientation says", reorient)
         .operation("reorient"),
 };

@@ -8,33 +8,32 @@
 #include "chain/images/inspect.h"
 #include "chain/session/expression.h"
 #include "chain/session/ops.h"
-#include "text/error.h"
 
 namespace tonetool::chain {
 
 namespace {
 
 void run_info(Session& session, const Call& call) {
-    session.list.info = true;
-    session.list.format = call.choice("format", {"text", "xml"}).value_or("");
-    session.list.verbose = session.list.verbose || call.flag("verbose", false);
+    session.settings.list.info = true;
+    session.settings.list.format = call.choice("format", {"text", "xml"}).value_or("");
+    session.settings.list.verbose = session.settings.list.verbose || call.flag("verbose", false);
 }
 
 void run_dumpdata(Session& session, const Call& call) {
-    session.list.dump = call.text("C").value_or("");
-    session.list.dump_black = call.flag("empty", true);
+    session.settings.list.dump = call.text("C").value_or("");
+    session.settings.list.dump_black = call.flag("empty", true);
 }
 
 void print_listing(Session& session, const Call& call, Listing what) {
     what.named = false;
-    what.all_subimages = call.flag("allsubimages", session.all_subimages);
-    what.metamatch = session.list.metamatch;
-    what.no_metamatch = session.list.no_metamatch;
-    session.push(call.images[0]);
+    what.all_subimages = call.flag("allsubimages", session.settings.all_subimages);
+    what.metamatch = session.settings.list.metamatch;
+    what.no_metamatch = session.settings.list.no_metamatch;
+    session.stack.push(call.images[0]);
     try {
         session.out << listing_text(*call.images[0], what);
     } catch (const ReadError& problem) {
-        if (!session.compat || !what.stats)
+        if (!session.settings.compat || !what.stats)
             throw;
         session.error("read", problem.why);
         session.print(OIIO::Strutil::rstrip(header_text(*call.images[0], 0, false)));
@@ -42,7 +41,7 @@ void print_listing(Session& session, const Call& call, Listing what) {
                                call.images[0]->name() + "\" (subimg=0, mip=0, tile@0,0,0)",
                            "stats");
     }
-    session.produced = session.produced_by_name = true;
+    session.outcome.produced = session.outcome.produced_by_name = true;
 }
 
 void run_printinfo(Session& session, const Call& call) {
@@ -50,23 +49,23 @@ void run_printinfo(Session& session, const Call& call) {
     what.verbose = call.flag("verbose", true);
     what.stats = call.flag("stats", false);
     const auto format = call.choice("format", {"text", "xml"});
-    if (format && session.compat)
+    if (format && session.settings.compat)
         session.warning(call.text(), "format= has no effect here, as in oiiotool");
-    else if (call.flag("native", false) && !session.compat)
+    else if (call.flag("native", false) && !session.settings.compat)
         what.native = call.images[0]->part().from_file();
-    what.format = session.compat ? "" : format.value_or("");
+    what.format = session.settings.compat ? "" : format.value_or("");
     print_listing(session, call, what);
 }
 
 void run_printstats(Session& session, const Call& call) {
     Listing what;
     what.stats = true;
-    what.verbose = session.verbose;
+    what.verbose = session.settings.verbose;
     // oiiotool's help says roi=, but oiiotool takes window=.
-    if (call.has("roi") && session.compat)
+    if (call.has("roi") && session.settings.compat)
         session.warning(call.text(), "roi= has no effect, as in oiiotool (window= has)");
     auto text = call.text("window");
-    text = text || session.compat ? text : call.text("roi");
+    text = text || session.settings.compat ? text : call.text("roi");
     if (text) {
         const OIIO::ImageSpec& spec = call.images[0]->part().header();
         OIIO::ROI window = spec.roi();
@@ -76,7 +75,7 @@ void run_printstats(Session& session, const Call& call) {
             window.chend = spec.nchannels;
             what.roi = window;
         } catch (const CommandError& problem) {
-            if (!session.compat)
+            if (!session.settings.compat)
                 throw;
             session.error(call.text(), problem.what()); // then prints all pixels, as oiiotool does
         }
@@ -88,12 +87,12 @@ void run_echo(Session& session, const Call& call) {
     int lines = call.integer("newline", {0, 99}).value_or(1);
     session.out << OIIO::Strutil::unescape_chars(call.argument(0))
                 << std::string(static_cast<size_t>(lines), '\n') << std::flush;
-    session.produced = session.produced_by_name = true;
+    session.outcome.produced = session.outcome.produced_by_name = true;
 }
 
 void run_list_formats(Session& session, const Call&) {
-    session.print(formats_text(session.compat));
-    session.produced = true;
+    session.print(formats_text(session.settings.compat));
+    session.outcome.produced = true;
 }
 
 const Modifiers kFormat = {{"format", "text|xml", "how it is printed (text)"}};
@@ -104,17 +103,20 @@ const Rows kRows = {
         .modifier("verbose", "0|1", "with the metadata, as -v does")
         .modifiers(kFormat),
     command("stats", "Print pixel statistics of every image read after it",
-            [](Session& session, const Call&) { session.list.stats = true; }),
+            [](Session& session, const Call&) { session.settings.list.stats = true; }),
     command("hash", "Print the SHA-1 of the pixels of every image read after it",
-            [](Session& session, const Call&) { session.list.hash = true; }),
+            [](Session& session, const Call&) { session.settings.list.hash = true; }),
     command("dumpdata", "Print all pixel values of every image read after it", run_dumpdata)
         .modifier("empty", "0|1", "also pixels that are all 0 (1)")
         .modifier("C", "NAME", "as an array of C of that name"),
     command("metamatch REGEX", "Print only metadata whose names match",
-            [](Session& session, const Call& call) { session.list.metamatch = call.argument(0); }),
-    command(
-        "no-metamatch REGEX", "Do not print metadata whose names match",
-        [](Session& session, const Call& call) { session.list.no_metamatch = call.argument(0); }),
+            [](Session& session, const Call& call) {
+                session.settings.list.metamatch = call.argument(0);
+            }),
+    command("no-metamatch REGEX", "Do not print metadata whose names match",
+            [](Session& session, const Call& call) {
+                session.settings.list.no_metamatch = call.argument(0);
+            }),
     command("echo TEXT", "Print a text", run_echo)
         .modifier("newline", "N", "line ends after it (1)")
         .keeps_header(),

@@ -32,7 +32,7 @@ void run_memory(Session& session, const Call& call) {
                            "\": not a size; valid: bytes, or a whole number with K, M or G "
                            "(powers of 1024), above 0: 268435456, 256M, 1G");
     }
-    session.memory = *size / uint64_t(session.parallel);
+    session.settings.memory = *size / uint64_t(session.settings.parallel);
     limit_reader_threads(kThreadsWithinMemory);
     give_memory_back();
 }

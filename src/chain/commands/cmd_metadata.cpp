@@ -18,7 +18,7 @@ using OIIO::ImageSpec;
 void attrib(ImageSpec& spec, const Call& call, Session& session) {
     OIIO::TypeDesc type;
     auto name = call.text("type");
-    if (name && type.fromstring(*name) != name->size() && !session.compat) {
+    if (name && type.fromstring(*name) != name->size() && !session.settings.compat) {
         throw CommandError("type \"" + *name +
                            "\" is no data type (valid: int, float, string, "
                            "float[3], timecode, rational, ...)");
@@ -31,7 +31,7 @@ void erase(ImageSpec& spec, const Call& call, Session& session) {
         std::regex checked(call.argument(0), std::regex_constants::basic);
         spec.erase_attribute(call.argument(0));
     } catch (const std::regex_error& problem) {
-        if (!session.compat) {
+        if (!session.settings.compat) {
             throw CommandError("\"" + call.argument(0) +
                                "\" is no regular expression: " + problem.what());
         }
@@ -44,8 +44,9 @@ void keyword(ImageSpec& spec, const Call& call, Session&) {
 
 void orientation(ImageSpec& spec, const Call& call, Session& session) {
     const std::string& text = call.argument(0);
-    spec.attribute("Orientation", session.compat ? OIIO::Strutil::stoi(text)
-                                                 : checked_integer("ORIENT", text, {1, 8}));
+    spec.attribute("Orientation", session.settings.compat
+                                      ? OIIO::Strutil::stoi(text)
+                                      : checked_integer("ORIENT", text, {1, 8}));
 }
 
 void turn(ImageSpec& spec, const std::array<int, 9>& to) {
@@ -72,7 +73,7 @@ void move_origin(ImageSpec& spec, const Call& call, Session& session, bool by) {
 void chnames(ImageSpec& spec, const Call& call, Session& session) {
     Strings wanted = split(call.argument(0), ',');
     Strings& names = spec.channelnames;
-    if (wanted.size() > names.size() && !session.compat) {
+    if (wanted.size() > names.size() && !session.settings.compat) {
         throw CommandError("\"" + call.argument(0) + "\" names " + std::to_string(wanted.size()) +
                            " channels, the image has " + std::to_string(names.size()));
     }
@@ -84,7 +85,7 @@ void chnames(ImageSpec& spec, const Call& call, Session& session) {
     Strings sorted = names;
     std::sort(sorted.begin(), sorted.end());
     auto twice = std::adjacent_find(sorted.begin(), sorted.end());
-    if (twice != sorted.end() && !session.compat)
+    if (twice != sorted.end() && !session.settings.compat)
         throw CommandError("two channels would be called \"" + *twice + "\"");
 }
 

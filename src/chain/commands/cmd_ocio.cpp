@@ -22,7 +22,7 @@ std::string space_of(const Op& op, const std::string& name) {
 
 // The source's profile and gamma do not describe the converted pixels. oiiotool keeps them.
 bool converted(Op& op, bool done) {
-    if (done && !op.session.compat)
+    if (done && !op.session.settings.compat)
         drop_profile(op.dst.specmod());
     return done;
 }
@@ -56,7 +56,7 @@ void check_view(Session& session, const std::string& display, const std::string&
 bool display(Op& op) {
     const std::string& name = op.call.argument(0);
     const std::string& view = op.call.argument(1);
-    if (!op.session.compat)
+    if (!op.session.settings.compat)
         check_view(op.session, name, view);
     if (op.call.has("looks") && !oiio::kDisplayTakesLooks) {
         op.session.warning(op.call.text(),
@@ -80,7 +80,7 @@ bool matrix(Op& op) {
     if (op.flag("transpose"))
         matrix.transpose();
     if (op.flag("invert") || op.flag("inverse")) {
-        if (matrix.determinant() == 0 && !op.session.compat)
+        if (matrix.determinant() == 0 && !op.session.settings.compat)
             throw CommandError("\"" + op.call.argument(0) + "\" has no inverse matrix");
         matrix.invert();
     }
@@ -92,26 +92,27 @@ void read_profile(OIIO::ImageSpec& spec, const Call& call, Session&) {
 }
 
 void write_profile(Session& session, const Call& call) {
-    session.push(call.images.front());
-    if (session.compat || !session.dry_run)
+    session.stack.push(call.images.front());
+    if (session.settings.compat || !session.settings.dry_run)
         write_icc_profile(call.images.front()->part().header(), call.argument(0));
-    session.produced = true;
+    session.outcome.produced = true;
 }
 
 const Modifiers kAlpha = {{"unpremult", "0|1", "unpremultiply before, premultiply after"}};
 const Modifiers kContext = concatenated(
     {{{"key", "NAME", "key of the configuration's context"}, {"value", "NAME", "its value"}},
      kAlpha});
-const Modifiers kLenient = {{"strict", "0|1", "0: a space that is not there is only a warning"}};
+const Modifiers kConversion =
+    concatenated({kContext, {{"strict", "0|1", "0: a space that is not there is only a warning"}}});
 
 const Rows kRows = {
     on_pixels("tocolorspace COLORSPACE", 1, "Convert from the image's colour space to another",
               [](Op& op) { return convert(op, "", op.call.argument(0)); })
-        .modifiers(kContext, kLenient)
+        .modifiers(kConversion)
         .operation("colorconvert"),
     on_pixels("colorconvert SRC DST", 1, "Convert from one colour space to another",
               [](Op& op) { return convert(op, op.call.argument(0), op.call.argument(1)); })
-        .modifiers(kContext, kLenient)
+        .modifiers(kConversion)
         .operation("colorconvert")
         .keeps_header(),
     on_pixels("ociolook LOOK", 1, "Apply a look", look)

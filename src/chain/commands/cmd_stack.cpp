@@ -10,18 +10,18 @@ namespace {
 void label(Session& session, const Call& call) {
     if (call.argument(0).empty())
         throw CommandError("empty label");
-    session.labels[call.argument(0)] = call.images[0];
-    session.push(call.images[0]);
+    session.stack.labels[call.argument(0)] = call.images[0];
+    session.stack.push(call.images[0]);
 }
 
 void dup(Session& session, const Call& call) {
-    session.push(call.images[0]);
-    session.push(call.images[0]);
+    session.stack.push(call.images[0]);
+    session.stack.push(call.images[0]);
 }
 
 void swap(Session& session, const Call& call) {
-    session.push(call.images[1]);
-    session.push(call.images[0]);
+    session.stack.push(call.images[1]);
+    session.stack.push(call.images[0]);
 }
 
 } // namespace

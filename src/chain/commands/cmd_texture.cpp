@@ -5,7 +5,6 @@
 #include "chain/commands/commands.h"
 #include "chain/session/io.h"
 #include "chain/session/ops.h"
-#include "text/error.h"
 #include "tonetool/texture.h"
 
 namespace tonetool::chain {
@@ -67,12 +66,12 @@ void add_setting(OIIO::ImageSpec& config, const Call& call, const Setting& setti
 
 void set_tiles(OIIO::ImageSpec& config, Session& session, const Call& call,
                const OutputSettings& output) {
-    const bool ignored = session.compat && call.text("tile");
+    const bool ignored = session.settings.compat && call.text("tile");
     if (ignored) {
         session.warning(call.text(),
                         "tile= has no effect on textures, as in oiiotool (--tile has)");
     }
-    const OutputSettings& asked = ignored ? session.output : output;
+    const OutputSettings& asked = ignored ? session.settings.output : output;
     config.tile_width = asked.tile_width > 0 ? asked.tile_width : 64;
     config.tile_height = asked.tile_width > 0 ? asked.tile_height : 64;
     config.tile_depth = 1;
@@ -96,7 +95,7 @@ OIIO::ImageSpec texture_config(Session& session, const Call& call, const Image& 
     for (const Setting& setting : settings_of_textures())
         add_setting(config, call, setting);
     const auto fov = call.number("fovcot", kAnyNumberAtAll);
-    if (fov && session.compat)
+    if (fov && session.settings.compat)
         session.warning(call.text(), "fovcot= has no effect, as in oiiotool");
     else if (fov)
         config.attribute("fovcot", float(*fov));
@@ -104,11 +103,12 @@ OIIO::ImageSpec texture_config(Session& session, const Call& call, const Image& 
     config.attribute("wrapmodes",
                      call.text("swrap").value_or(wrap) + "," + call.text("twrap").value_or(wrap));
     config.attribute("maketx:bumpformat", call.text("bumpformat").value_or("auto"));
-    config.attribute("maketx:colorconfig", session.color_config);
+    config.attribute("maketx:colorconfig", session.settings.color_config);
     set_tiles(config, session, call, output);
     set_layout(config, output);
-    config.set_format(output.type ? output.type->type
-                                  : session.types.of(image.part(), session.compat).type);
+    config.set_format(output.type
+                          ? output.type->type
+                          : session.stack.types.of(image.part(), session.settings.compat).type);
     if (output.history) {
         // Readers trust the average colour and the hash in the header only from a program of this
         // name.
@@ -129,8 +129,8 @@ void save_texture(Session& session, const Call& call, const Image& image,
     std::string why;
     OIIO::ImageBuf cropped;
     const OIIO::ImageBuf& pixels =
-        texture_pixels(image.part().pixels(), filename, settings, session.compat, cropped);
-    session.keep_pixels_of(filename);
+        texture_pixels(image.part().pixels(), filename, settings, session.settings.compat, cropped);
+    session.stack.keep_pixels_of(filename);
     if (!write_texture(mode, pixels, filename, texture_config(session, call, image, settings), why))
         throw CommandError("Could not make texture: " + why, call.text());
 }

@@ -35,7 +35,7 @@ void run_calibrate(Session& session, const Call& call) {
     Lines lines(call.row().label());
     add_calibration(lines, found);
     session.report(lines.text);
-    session.push(Image::derived(image, std::move(result)));
+    session.stack.push(Image::derived(image, std::move(result)));
 }
 
 TonemapOptions tonemap_options(const Session& session, const Call& call) {
@@ -72,7 +72,7 @@ void run_tonemap(Session& session, const Call& call) {
     session.report(lines.text);
     for (const std::string& warning : found.warnings)
         session.warning(label, image.name() + ": " + warning);
-    session.push(Image::derived(image, std::move(result)));
+    session.stack.push(Image::derived(image, std::move(result)));
 }
 
 void print_curve(Session& session, const ToneCurveInfo& curve) {
@@ -120,7 +120,7 @@ void run_tonecurves(Session& session, const Call& call) {
     else
         for (const ToneCurveInfo& curve : ToneAlgo::tone_curves())
             print_curve(session, curve);
-    session.produced = true;
+    session.outcome.produced = true;
 }
 
 LutOptions lut_options(const Session& session, const Call& call) {
@@ -138,8 +138,8 @@ void run_exportlut(Session& session, const Call& call) {
     LutSummary made;
     std::string why;
     const auto options = lut_options(session, call);
-    session.produced = true;
-    if (session.dry_run)
+    session.outcome.produced = true;
+    if (session.settings.dry_run)
         return;
     if (!ToneAlgo::export_lut(call.argument(0), options, &made, why))
         throw CommandError(why);
@@ -166,7 +166,7 @@ Modifiers method_modifiers() {
     return concatenated({{{"method", "manual|mean|auto",
                            "exposure: stops alone, from the geometric mean, with a key from the "
                            "mean (manual)"}},
-                         calibration_modifiers()});
+                         modifiers_of<CalibrationOptions>()});
 }
 
 } // namespace

@@ -1,10 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "chain/commands/commands.h"
 
-#include <algorithm>
-
-#include "chain/commands/options.h"
-
 namespace tonetool::chain {
 
 void add_image_commands() {
@@ -36,13 +32,6 @@ void add_measuring_commands() {
     add_commands(Group::Color, cgtmo_commands(), own);
     add_commands(Group::Channels, light_commands(), own);
     add_commands(Group::General, memory_commands(), own);
-}
-
-Modifiers inserted(Modifiers rows, const std::string& key, const Modifiers& more) {
-    const auto at =
-        std::find_if(rows.begin(), rows.end(), [&](const Modifier& row) { return row.key == key; });
-    rows.insert(at + 1, more.begin(), more.end());
-    return rows;
 }
 
 } // namespace tonetool::chain

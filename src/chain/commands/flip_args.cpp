@@ -192,10 +192,6 @@ Modifiers pair_modifiers() {
            "what becomes of alpha: error: its difference joins the map"}}});
 }
 
-Modifiers viewing_modifiers() {
-    return modifiers_of<FlipOptions>();
-}
-
 Modifiers hdr_modifiers() {
     return concatenated(
         {{{"tonemapper", "NAME", "tone curve (aces): " + join(ToneAlgo::flip_tonemappers(), ", ")}},
@@ -235,7 +231,8 @@ void read_view_spaces(const std::optional<ViewOptions>& view, PixelOptions& pixe
 }
 
 void read_pair_options(const Session& session, const Call& call, PairOptions& options) {
-    options.memory = session.memory - std::min(session.memory, shown_bytes(session, call));
+    options.memory =
+        session.settings.memory - std::min(session.settings.memory, shown_bytes(session, call));
     options.pixels = pixel_options(call);
     read_size(call, options);
     bool error = call.choice("alpha", {"ignore", "error"}).value_or("ignore") == "error";
@@ -320,7 +317,8 @@ Modifiers flipdiff_modifiers() {
 
 HdrFlipOptions flipdiff_options(const Session& session, const Call& call) {
     HdrFlipOptions options;
-    options.memory = session.memory - std::min(session.memory, shown_bytes(session, call));
+    options.memory =
+        session.settings.memory - std::min(session.settings.memory, shown_bytes(session, call));
     options.pixels = pixel_options(call);
     options.ppd = call.number("ppd", kPpdRange).value_or(67.02);
     options.curve.name =

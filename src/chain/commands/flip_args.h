@@ -35,10 +35,9 @@ struct Measures {
 };
 
 // Lists of modifiers, to be put together into rows.
-Modifiers pixel_modifiers();   ///< layer, from
-Modifiers pair_modifiers();    ///< and resize, crop, alpha
-Modifiers viewing_modifiers(); ///< ppd, distance, width, pixels
-Modifiers hdr_modifiers();     ///< tone curve and exposures
+Modifiers pixel_modifiers(); ///< layer, from
+Modifiers pair_modifiers();  ///< and resize, crop, alpha
+Modifiers hdr_modifiers();   ///< tone curve and exposures
 /// fail, warn, quantity, print, and above where there is a map; `unless` says what keeps from
 /// failing.
 Modifiers threshold_modifiers(const Measures& measures = {},

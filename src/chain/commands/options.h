@@ -71,7 +71,4 @@ void read_options(const Call& call, Options& options) {
     });
 }
 
-/// A list put into another one, behind the row of that key.
-Modifiers inserted(Modifiers rows, const std::string& key, const Modifiers& more);
-
 } // namespace tonetool::chain

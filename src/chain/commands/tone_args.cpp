@@ -82,7 +82,7 @@ Modifiers view_modifiers() {
 
 std::optional<ViewOptions> view_options(const Session& session, const Call& call) {
     ViewOptions options;
-    options.config = session.color_config;
+    options.config = session.settings.color_config;
     options.display = call.text("display").value_or("");
     options.view = call.text("view").value_or("");
     options.looks = call.text("looks").value_or("");
@@ -112,10 +112,6 @@ void check_one_way(const Call& call, const std::string& key) {
                                       "(valid: either)");
         }
     }
-}
-
-Modifiers calibration_modifiers() {
-    return modifiers_of<CalibrationOptions>();
 }
 
 CalibrationOptions calibration_options(const Call& call) {

@@ -23,7 +23,6 @@ std::optional<ViewOptions> view_options(const Session& session, const Call& call
 void check_one_way(const Call& call, const std::string& key);
 
 /// calibrate=, stops=, key=, level=, ...
-Modifiers calibration_modifiers();
 CalibrationOptions calibration_options(const Call& call);
 /// white=max or white=pN.
 std::optional<double> white_percentile(const Call& call);

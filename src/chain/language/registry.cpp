@@ -76,16 +76,6 @@ Row::Row(const std::string& usage, std::string help, Run run) {
     m_command.run = std::move(run);
 }
 
-Row& Row::modifier(std::string key, std::string hint, std::string help) {
-    m_command.modifiers.push_back({std::move(key), std::move(hint), std::move(help)});
-    return *this;
-}
-
-Row& Row::in(Group group) {
-    m_group = group;
-    return *this;
-}
-
 Command Row::finished(Group group_of_family, bool own) const {
     Row row = *this;
     row.m_command.group = m_group.value_or(group_of_family);

@@ -117,13 +117,18 @@ public:
     Row& images_of(Count pops, Count pushes = nullptr) {
         return set(&Command::pops_of, pops).set(&Command::pushes_of, pushes);
     }
-    Row& modifier(std::string key, std::string hint, std::string help);
+    Row& modifier(const std::string& key, const std::string& hint, const std::string& help) {
+        return modifiers(Modifiers{{key, hint, help}});
+    }
     template <class... Lists>
     Row& modifiers(const Lists&... lists) {
         return set(&Command::modifiers, concatenated({m_command.modifiers, lists...}));
     }
     /// Instead of the family's.
-    Row& in(Group group);
+    Row& in(Group group) {
+        m_group = group;
+        return *this;
+    }
     Row& operation(std::string name) { return set(&Command::operation, std::move(name)); }
     Row& at_once() { return set(&Command::postponable, false); }
     Row& control() { return set(&Command::control, true); }

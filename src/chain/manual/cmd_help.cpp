@@ -13,7 +13,7 @@ namespace tonetool::chain {
 namespace {
 
 void run_help(Session& session, const Call& call) {
-    session.produced = true;
+    session.outcome.produced = true;
     if (!call.has_argument(0)) {
         session.out << help_text();
         return;

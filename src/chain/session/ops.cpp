@@ -59,17 +59,13 @@ OIIO::ImageBuf made(Session& session, const Call& call, const Kernel& kernel, in
         throw CommandError(result.has_error() ? result.geterror() : "failed");
     if (op.unchanged)
         result.copy(op.a());
-    for (size_t i = 1; i < op.src.size() && session.metamerge; ++i)
+    for (size_t i = 1; i < op.src.size() && session.settings.metamerge; ++i)
         result.specmod().extra_attribs.merge(op.src[i]->spec().extra_attribs);
     changed |= !op.unchanged;
     return result;
 }
 
 } // namespace
-
-std::string Op::text(const std::string& key, const std::string& otherwise) const {
-    return call.text(key).value_or(otherwise);
-}
 
 Floats Op::list(const std::string& what, const std::string& words) const {
     Floats values;
@@ -85,7 +81,7 @@ Floats Op::per_channel(const std::string& what, const std::string& words, float 
 Floats Op::per_value(const std::string& what, const std::string& words, float rest,
                      size_t count) const {
     Floats values(count, rest);
-    if (session.compat) {
+    if (session.settings.compat) {
         OIIO::Strutil::extract_from_list_string(values, words);
         values.resize(count, values.size() == 1 ? values.front() : rest);
         return values;
@@ -115,19 +111,20 @@ Chosen chosen_subimages(const Session& session, const Call& call, const Image& i
     const size_t count = image.part_count();
     const auto subimages = call.text("subimages");
     const Listed which = subimages ? listed(*subimages, image) : Listed();
-    if (!session.compat && !which.unknown.empty()) {
+    if (!session.settings.compat && !which.unknown.empty()) {
         throw CommandError("subimages \"" + *subimages + "\": " + image.name() +
                            " has no subimage \"" + which.unknown.front() +
                            "\" (valid: all, numbers from 0, names, -N for all but N)");
     }
     if (which.says_nothing()) {
-        bool all = call.flag("allsubimages", session.all_subimages);
+        bool all = call.flag("allsubimages", session.settings.all_subimages);
         return {all ? count : 1, std::vector<bool>(all ? count : 1, true)};
     }
     Chosen chosen{count, {}};
     for (size_t s = 0; s < count; ++s)
         chosen.active.push_back(which.has(s));
-    if (!session.compat && std::count(chosen.active.begin(), chosen.active.end(), true) == 0) {
+    if (!session.settings.compat &&
+        std::count(chosen.active.begin(), chosen.active.end(), true) == 0) {
         throw CommandError("subimages \"" + *subimages + "\" chooses none of the " +
                            std::to_string(count) + " subimages of " + image.name());
     }
@@ -141,7 +138,7 @@ void run_kernel(Session& session, const Call& call, const Kernel& kernel, Scope 
     bool changed = false;
     for (size_t s = 0; s < chosen.count; ++s) {
         Part& part = first.part(s);
-        const bool all_levels = scope == Scope::Levels && session.all_subimages;
+        const bool all_levels = scope == Scope::Levels && session.settings.all_subimages;
         for (int level = 0; level < (all_levels ? part.mip_levels() : 1); ++level) {
             subimages[s].push_back(chosen.active[s]
                                        ? made(session, call, kernel, int(s), level, changed)
@@ -149,15 +146,15 @@ void run_kernel(Session& session, const Call& call, const Kernel& kernel, Scope 
         }
     }
     if (!changed) {
-        session.push(call.images.front());
+        session.stack.push(call.images.front());
         return;
     }
-    if (chosen.count == 1 && !session.compat)
+    if (chosen.count == 1 && !session.settings.compat)
         session.warn_of_other_parts(call.row().label(), first);
     ImagePtr result = Image::derived(first, std::move(subimages));
-    if (session.compat && !call.operation().empty())
+    if (session.settings.compat && !call.operation().empty())
         result->rename(call.operation());
-    session.push(std::move(result));
+    session.stack.push(std::move(result));
 }
 
 ImagePtr with_headers(const Image& image, const Chosen& chosen,
@@ -183,15 +180,15 @@ Row on_pixels(const std::string& usage, int images, std::string help, Kernel ker
 Row on_headers(const std::string& usage, std::string help, Edit edit) {
     const auto run = [edit](Session& session, const Call& call) {
         const Image& image = *call.images.front();
-        session.push(with_headers(image, chosen_subimages(session, call, image),
-                                  [&](OIIO::ImageSpec& spec) { edit(spec, call, session); }));
+        session.stack.push(with_headers(image, chosen_subimages(session, call, image),
+                                        [&](OIIO::ImageSpec& spec) { edit(spec, call, session); }));
     };
     return command(usage, std::move(help), run).images(1, 1).of_subimages();
 }
 
 bool adjust_window(Session& session, const Call& call, const std::string& text, Geometry allowed,
                    OIIO::ROI& window) {
-    const Adjusted adjusted = adjust_window(text, allowed, window, session.compat);
+    const Adjusted adjusted = adjust_window(text, allowed, window, session.settings.compat);
     if (!adjusted.error.empty())
         throw CommandError(adjusted.error, call.text());
     if (!adjusted.warning.empty())
@@ -201,16 +198,13 @@ bool adjust_window(Session& session, const Call& call, const std::string& text, 
 
 std::vector<ImagePtr> take_images(Session& session, size_t count) {
     const bool some = count > 0;
-    count = count == 0 ? std::max(session.stack.size(), size_t(1)) : count;
-    if (session.stack.size() < count) {
-        throw CommandError("needs " + std::to_string(count) + " image(s), the stack has " +
-                           std::to_string(session.stack.size()));
-    }
-    std::vector<ImagePtr> images(session.stack.end() - std::ptrdiff_t(count), session.stack.end());
-    session.stack.resize(session.stack.size() - count);
+    count = count == 0 ? std::max(session.stack.images.size(), size_t(1)) : count;
+    if (session.stack.images.size() < count)
+        throw CommandError(session.stack.lacks(int(count)));
+    std::vector<ImagePtr> images = session.stack.pop(count);
     for (const ImagePtr& image : images) {
         image->used = true;
-        if (some || !session.compat) // oiiotool does not look at the types of "all"
+        if (some || !session.settings.compat) // oiiotool does not look at the types of "all"
             session.note_format(*image);
     }
     return images;

@@ -44,7 +44,9 @@ struct Op {
     bool flag(const std::string& key, bool otherwise = false) const {
         return call.flag(key, otherwise);
     }
-    std::string text(const std::string& key, const std::string& otherwise = "") const;
+    std::string text(const std::string& key, const std::string& otherwise = "") const {
+        return call.text(key).value_or(otherwise);
+    }
     /// "V" for all channels, or "V,V,...", the rest of them `rest`.
     Floats per_channel(const std::string& what, const std::string& list, float rest) const;
     /// The same of so many values instead of one for each channel.
@@ -57,6 +59,23 @@ struct Op {
 };
 
 using Kernel = bool (*)(Op&);
+
+// Kernels that are functions of OpenImageIO on one image, on two, and on one and constants, of
+// which those that are not given are `Rest`.
+using OfOne = bool (*)(OIIO::ImageBuf&, const OIIO::ImageBuf&, OIIO::ROI, int);
+using OfTwo = bool (*)(OIIO::ImageBuf&, OIIO::Image_or_Const, OIIO::Image_or_Const, OIIO::ROI, int);
+template <OfOne Function>
+bool of_one(Op& op) {
+    return Function(op.dst, op.a(), {}, 0);
+}
+template <OfTwo Function>
+bool of_two(Op& op) {
+    return Function(op.dst, op.a(), op.b(), {}, 0);
+}
+template <OfTwo Function, int Rest>
+bool of_constants(Op& op) {
+    return Function(op.dst, op.a(), op.constants(Rest), {}, 0);
+}
 
 /// Which of an image's parts a command makes: without -a the first subimage only. Levels: with -a
 /// MIP levels stay.
