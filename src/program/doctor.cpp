@@ -132,7 +132,7 @@ std::string mending_line(const std::string& plugin) {
 }
 
 void run_doctor(chain::Session& session, const chain::Call& call) {
-    session.produced = true;
+    session.outcome.produced = true;
     const std::string plugin = own_plugin();
     const std::string program = output_of("command -v oiiotool");
     const std::string version = program.empty() ? "" : output_of("oiiotool --version");
@@ -159,10 +159,11 @@ void run_doctor(chain::Session& session, const chain::Call& call) {
 
 } // namespace
 
-std::vector<chain::Command> doctor_commands() {
-    return {chain::of_process(chain::setting(
-        chain::Group::General, {"doctor"}, {},
-        "Tell whether oiiotool reads recipes by the plugin, and if not why", run_doctor))};
+chain::Rows doctor_commands() {
+    return {chain::command("doctor",
+                           "Tell whether oiiotool reads recipes by the plugin, and if not why",
+                           run_doctor)
+                .of_process()};
 }
 
 } // namespace tonetool

@@ -8,6 +8,6 @@
 
 namespace tonetool {
 
-std::vector<chain::Command> doctor_commands();
+chain::Rows doctor_commands();
 
 } // namespace tonetool

@@ -54,7 +54,7 @@ int main(int argc, char** argv) {
         install_signal_handlers();
         tonetool::register_tone_format();
         tonetool::runs::know_all_commands();
-        tonetool::chain::add_commands(tonetool::doctor_commands());
+        tonetool::chain::add_commands(tonetool::chain::Group::General, tonetool::doctor_commands());
         tonetool::Strings words(argv + (argc > 0 ? 1 : 0), argv + argc);
         return tonetool::runs::run(words, std::cout, std::cerr, true);
     } catch (const std::exception& problem) {

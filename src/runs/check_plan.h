@@ -14,7 +14,7 @@ namespace tonetool::runs {
 
 /// The rows of the commands that ask for a check. What they ask for is read before any frame runs
 /// and done after the last one (check_run.h).
-std::vector<chain::Command> check_commands();
+chain::Rows check_commands();
 
 struct CheckPlan {
     std::map<std::string, std::string> words; ///< of Group::Check, with their arguments: "json"

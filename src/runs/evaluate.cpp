@@ -56,9 +56,9 @@ void push_given(Session& session, OIIO::ImageBuf& pixels, size_t index) {
     const bool is_float = pixels.spec().deep || pixels.spec().format == OIIO::TypeFloat;
     levels[0] = is_float ? std::move(pixels) : pixels.copy(OIIO::TypeFloat);
     auto part = std::make_shared<Part>(std::move(levels), format, integer);
-    session.types.widest = format;
-    session.first_header = session.first_header.value_or(part->header());
-    session.push(std::make_shared<Image>(name, std::vector<PartPtr>{part}));
+    session.stack.types.widest = format;
+    session.stack.first_header = session.stack.first_header.value_or(part->header());
+    session.stack.push(std::make_shared<Image>(name, std::vector<PartPtr>{part}));
 }
 
 Left left(Session& session, const Image& image, const std::string& label) {
@@ -66,16 +66,17 @@ Left left(Session& session, const Image& image, const std::string& label) {
     for (const PartPtr& part : image.parts()) {
         const OIIO::ImageBuf& pixels = part->pixels();
         out.subimages.push_back(pixels.copy(pixels.spec().format));
-        out.formats.push_back(chain::output_type(*part, session.output, session.writer("")));
+        out.formats.push_back(
+            chain::output_type(*part, session.settings.output, session.writer("")));
     }
     return out;
 }
 
 void take_images(Session& session, Evaluation& result) {
     std::map<ImagePtr, std::string> labels;
-    for (const auto& [label, image] : session.labels)
+    for (const auto& [label, image] : session.stack.labels)
         labels.emplace(image, label);
-    for (const ImagePtr& image : session.stack) {
+    for (const ImagePtr& image : session.stack.images) {
         auto label = labels.find(image);
         result.stack.push_back(left(session, *image, label == labels.end() ? "" : label->second));
     }
@@ -97,7 +98,7 @@ void evaluate_one(Session& session, std::vector<OIIO::ImageBuf>& images, const F
     session.frame = plan.runs[0].frame;
     session.in_all_frames = [&plan](size_t at) { return Strings{plan.runs[0].words.at(at)}; };
     Runner(session, plan.runs[0].words).run_all();
-    if (session.errors == 0)
+    if (session.outcome.errors == 0)
         take_images(session, result);
 }
 
@@ -110,7 +111,7 @@ Evaluation evaluate(const Strings& given, std::vector<OIIO::ImageBuf> images,
     Evaluation result;
     std::ostringstream out, err;
     Session session(out, err, full_command_line(line, line.texts, false));
-    session.compat = line.compat;
+    session.settings.compat = line.compat;
     session.policy = policy;
     session.for_images = true;
     try {
@@ -119,14 +120,14 @@ Evaluation evaluate(const Strings& given, std::vector<OIIO::ImageBuf> images,
         session.error("", problem.what());
     }
     result.status = session.exit_status();
-    result.error = session.first_error;
+    result.error = session.outcome.first_error;
     if (result.error.empty() && result.status != 0 && result.status != 2)
         result.error = result.status == 3 ? "a threshold was exceeded" : "the images differ";
     result.out = out.str();
     result.err = err.str();
-    result.warnings = session.warning_texts;
+    result.warnings = session.outcome.warning_texts;
     result.files = session.files.names();
-    if (session.errors > 0)
+    if (session.outcome.errors > 0)
         result.stack.clear();
     return result;
 }

@@ -59,16 +59,10 @@ sequence::Item FrameContext::item(size_t index) const {
     return {frame.number, frame.view};
 }
 
-chain::CheckPart FrameContext::part() const {
-    chain::CheckPart part;
-    part.shot = shot ? &*shot : nullptr;
-    return part;
-}
-
 Session FrameContext::session(size_t index, std::ostream& out, std::ostream& err) const {
     const FrameRun& run = plan.runs[index];
     Session session(out, err, full_command_line(plan.line, run.words, plan.line.compat));
-    session.compat = plan.line.compat;
+    session.settings.compat = plan.line.compat;
     session.frame = run.frame;
     session.in_all_frames = [this](size_t at) {
         Strings names;
@@ -77,9 +71,10 @@ Session FrameContext::session(size_t index, std::ostream& out, std::ostream& err
         return names;
     };
     session.judges = plan.check.judges();
+    session.check.shot = shot ? &*shot : nullptr;
     session.written = written;
-    session.parallel = plan.parallel;
-    session.memory = share_of_memory(plan.parallel);
+    session.settings.parallel = plan.parallel;
+    session.settings.memory = share_of_memory(plan.parallel);
     return session;
 }
 
@@ -90,7 +85,7 @@ void FrameContext::run_commands(Session& session, size_t index) const {
         session.error("", gone.message);
     } else {
         Runner(session, run.words).run_all();
-        if (session.misused)
+        if (session.outcome.misused)
             session.out << chain::help_text();
     }
 }
@@ -104,12 +99,10 @@ void FrameContext::print_error(size_t index, const std::string& error, std::ostr
 
 Ran PlainFrames::run(size_t index, std::ostream& out, std::ostream& err) {
     Session session = m_context.session(index, out, err);
-    chain::CheckPart part = m_context.part();
-    session.check = &part;
     m_context.run_commands(session, index);
     static const char* const words[] = {"done", "error", "warnings", "a threshold was exceeded"};
     const int status = session.exit_status();
-    return {status, words[status], session.aborted};
+    return {status, words[status], session.outcome.aborted};
 }
 
 Ran PlainFrames::failed(size_t index, Status status, const std::string& why, std::ostream& err) {
@@ -137,13 +130,11 @@ ExposureFrames::Measured ExposureFrames::measure(size_t index, std::ostream& err
     sequence::ExposureSample found{run.frame.number, run.frame.view, -1, 0};
     std::ostringstream nowhere;
     Session session = m_context.session(index, nowhere, err);
-    chain::CheckPart part = m_context.part();
-    part.sample = &found;
-    session.check = &part;
-    session.dry_run = true;
+    session.check.sample = &found;
+    session.settings.dry_run = true;
     m_context.run_commands(session, index);
-    if (session.errors > 0 || found.max_luminance < 0)
-        return {std::nullopt, session.first_error};
+    if (session.outcome.errors > 0 || found.max_luminance < 0)
+        return {std::nullopt, session.outcome.first_error};
     Measured measured{found, ""};
     if (m_state) {
         measured.error =
@@ -219,17 +210,15 @@ CheckedFrames::Checked CheckedFrames::check(size_t index) const {
     std::ostringstream out, err;
     Session session = m_context.session(index, out, err);
     sequence::FramePainter painter{m_pictures, {}};
-    chain::CheckPart part = m_context.part();
-    part.result = &result;
-    part.painter = draws(plan.check) ? &painter : nullptr;
-    session.check = &part;
+    session.check.result = &result;
+    session.check.painter = draws(plan.check) ? &painter : nullptr;
     m_context.run_commands(session, index);
-    result.warnings = session.warning_texts;
-    if (session.warnings > int(result.warnings.size()))
+    result.warnings = session.outcome.warning_texts;
+    if (session.outcome.warnings > int(result.warnings.size()))
         result.warnings.push_back("there were warnings, see what the frame printed");
-    const std::string error = session.errors > 0 && session.first_error.empty()
+    const std::string error = session.outcome.errors > 0 && session.outcome.first_error.empty()
                                   ? "the command line cannot be run"
-                                  : session.first_error;
+                                  : session.outcome.first_error;
     sequence::settle(result, error, words_at(run.words, plan.check.inputs));
     if (painter.drawn)
         checked.pictures = m_pictures.texts(result, *painter.drawn);
@@ -239,7 +228,7 @@ CheckedFrames::Checked CheckedFrames::check(size_t index) const {
     checked.out = out.str();
     checked.err = err.str();
     checked.files = session.files;
-    checked.written = session.claimed;
+    checked.written = session.outcome.claimed;
     return checked;
 }
 

@@ -7,7 +7,7 @@
 #include <optional>
 #include <vector>
 
-#include "chain/commands/check_part.h"
+#include "chain/session/session.h"
 #include "runs/loop.h"
 #include "sequence/report/report_store.h"
 #include "sequence/results/shot_exposures.h"
@@ -22,7 +22,6 @@ struct FrameContext {
     std::shared_ptr<chain::WrittenFiles> written = std::make_shared<chain::WrittenFiles>();
 
     chain::Session session(size_t index, std::ostream& out, std::ostream& err) const;
-    chain::CheckPart part() const;
     sequence::Item item(size_t index) const;
     /// Runs the words of the frame, if its files are there.
     void run_commands(chain::Session& session, size_t index) const;

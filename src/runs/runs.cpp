@@ -20,9 +20,10 @@ namespace tonetool::runs {
 void know_all_commands() {
     static std::once_flag once;
     std::call_once(once, [] {
-        chain::add_commands(check_commands());
-        chain::add_commands(chain::own_commands());
-        chain::add_commands(chain::help_commands());
+        chain::add_image_commands();
+        chain::add_commands(chain::Group::Check, check_commands());
+        chain::add_measuring_commands();
+        chain::add_commands(chain::Group::General, chain::help_commands());
     });
 }
 
@@ -45,7 +46,7 @@ int run(const Strings& given, std::ostream& out, std::ostream& err, bool workers
     int status = 0;
     const chain::ParsedLine line = chain::parse_line(given);
     chain::Session whole(out, err, line.compat ? "" : full_command_line(line, line.texts, false));
-    whole.compat = line.compat;
+    whole.settings.compat = line.compat;
     try {
         const FramePlan plan = plan_frames(line);
         std::ostream& told = sequence::has_standard_output(plan.check.words) ? err : out;

@@ -2,6 +2,7 @@
 // Arithmetic on pixel values, with constants and with other images.
 #include <limits>
 
+#include "chain/commands/commands.h"
 #include "chain/session/ops.h"
 
 namespace tonetool::chain {
@@ -39,81 +40,83 @@ bool clamp(Op& op) {
                       op.flag("clampalpha"));
 }
 
-const std::string kLuma = "luma=0|1: on luminance instead of each channel";
-const std::string kLimits = "min=VALUES: lowest value, one or one per channel\n"
-                            "max=VALUES: highest value, one or one per channel\n";
+const Modifiers kLuma = {{"luma", "0|1", "on luminance instead of each channel"}};
+const Modifiers kLimits = {{"min", "VALUES", "lowest value, one or one per channel"},
+                           {"max", "VALUES", "highest value, one or one per channel"}};
 
-const std::vector<OpRow> kConstantRows = {
-    {"addc|cadd VALUES", 1, "Add a constant (0.5) or one per channel (1,1.25,0.5)",
-     [](Op& op) { return IBA::add(op.dst, op.a(), op.constants(0)); }},
-    {"subc|csub VALUES", 1, "Subtract a constant or one per channel",
-     [](Op& op) { return IBA::sub(op.dst, op.a(), op.constants(0)); }},
-    {"mulc|cmul VALUES", 1, "Multiply by a constant or one per channel",
-     [](Op& op) { return IBA::mul(op.dst, op.a(), op.constants(1)); }},
-    {"divc VALUES", 1, "Divide by a constant or one per channel",
-     [](Op& op) { return IBA::div(op.dst, op.a(), op.constants(1)); }},
-    {"absdiffc VALUES", 1, "Absolute difference to a constant or one per channel",
-     [](Op& op) { return IBA::absdiff(op.dst, op.a(), op.constants(0)); }},
-    {"powc|cpow VALUES", 1, "Raise to a power or one per channel",
-     [](Op& op) { return IBA::pow(op.dst, op.a(), op.constants(1)); }},
-    {"maxc VALUES", 1, "The larger of the values and a constant or one per channel",
-     [](Op& op) { return IBA::max(op.dst, op.a(), op.constants(0)); }},
-    {"minc VALUES", 1, "The smaller of the values and a constant or one per channel",
-     [](Op& op) { return IBA::min(op.dst, op.a(), op.constants(0)); }},
-};
-
-const std::vector<OpRow> kImageRows = {
-    {"add", 2, "Add two images", [](Op& op) { return IBA::add(op.dst, op.a(), op.b()); }},
-    {"sub", 2, "Subtract the second image from the first",
-     [](Op& op) { return IBA::sub(op.dst, op.a(), op.b()); }},
-    {"mul", 2, "Multiply two images", [](Op& op) { return IBA::mul(op.dst, op.a(), op.b()); }},
-    {"div", 2, "Divide the first image by the second",
-     [](Op& op) { return IBA::div(op.dst, op.a(), op.b()); }},
-    {"mad", 3, "Multiply two images and add a third",
-     [](Op& op) { return IBA::mad(op.dst, op.a(), op.b(), op.c()); }},
-    {"absdiff", 2, "Absolute difference of two images",
-     [](Op& op) { return IBA::absdiff(op.dst, op.a(), op.b()); }},
-    {"max", 2, "The larger value of two images, pixel by pixel",
-     [](Op& op) { return IBA::max(op.dst, op.a(), op.b()); }},
-    {"min", 2, "The smaller value of two images, pixel by pixel",
-     [](Op& op) { return IBA::min(op.dst, op.a(), op.b()); }},
-};
-
-const std::vector<OpRow> kValueRows = {
-    keeping_header(
-        OpRow{"abs", 1, "Absolute value", [](Op& op) { return IBA::abs(op.dst, op.a()); }}),
-    keeping_header(OpRow{"invert", 1, "Subtract the colour from 1", invert,
-                         "chbegin=N: first channel (0)\n"
-                         "chend=N: one past the last channel (3)"}),
-    {"maxchan", 1, "The largest of the channels of each pixel",
-     [](Op& op) { return IBA::maxchan(op.dst, op.a()); }},
-    {"minchan", 1, "The smallest of the channels of each pixel",
-     [](Op& op) { return IBA::minchan(op.dst, op.a()); }},
-    {"chsum", 1, "Sum of the channels",
-     [](Op& op) { return IBA::channel_sum(op.dst, op.a(), op.values("weight", 1)); },
-     "weight=VALUES: weight of each channel (1)"},
-    keeping_header(named("", {"clamp", 1, "Clamp the values", clamp,
-                              kLimits + "clampalpha=0|1: alpha to 0..1", Scope::Levels})),
-    {"contrast", 1, "Remap black to min and white to max, with a contrast curve", contrast,
-     kLimits + "black=VALUES: what becomes min (0)\n"
-               "white=VALUES: what becomes max (1)\n"
-               "sthresh=VALUES: middle of the curve (0.5)\n"
-               "scontrast=VALUES: its slope (1: none)\n"
-               "gamma=VALUES: has no effect\n"
-               "clamp=0|1: clamp to min..max"},
-    keeping_header(OpRow{"saturate SCALE", 1, "Scale the saturation (0: grey)",
-                         [](Op& op) { return IBA::saturate(op.dst, op.a(), op.number(0)); }}),
-    {"rangecompress", 1, "Compress values beyond 1 by a logarithm",
-     [](Op& op) { return IBA::rangecompress(op.dst, op.a(), op.flag("luma")); }, kLuma},
-    {"rangeexpand", 1, "Undo --rangecompress",
-     [](Op& op) { return IBA::rangeexpand(op.dst, op.a(), op.flag("luma")); }, kLuma},
-    {"noise", 1, "Add noise", noise, noise_modifiers() + "nchannels=N: channels that get noise"},
-    {"premult", 1, "Multiply the colour by alpha",
-     [](Op& op) { return IBA::premult(op.dst, op.a()); }},
-    {"unpremult", 1, "Divide the colour by alpha",
-     [](Op& op) { return IBA::unpremult(op.dst, op.a()); }},
-    {"repremult", 1, "Multiply the colour by alpha, but keep it where alpha is 0",
-     [](Op& op) { return IBA::repremult(op.dst, op.a()); }},
+const Rows kRows = {
+    on_pixels("addc|cadd VALUES", 1, "Add a constant (0.5) or one per channel (1,1.25,0.5)",
+              of_constants<IBA::add, 0>)
+        .keeps_header(),
+    on_pixels("subc|csub VALUES", 1, "Subtract a constant or one per channel",
+              of_constants<IBA::sub, 0>)
+        .keeps_header(),
+    on_pixels("mulc|cmul VALUES", 1, "Multiply by a constant or one per channel",
+              of_constants<IBA::mul, 1>)
+        .keeps_header(),
+    on_pixels("divc VALUES", 1, "Divide by a constant or one per channel",
+              of_constants<IBA::div, 1>)
+        .keeps_header(),
+    on_pixels("absdiffc VALUES", 1, "Absolute difference to a constant or one per channel",
+              of_constants<IBA::absdiff, 0>)
+        .keeps_header(),
+    on_pixels("powc|cpow VALUES", 1, "Raise to a power or one per channel",
+              [](Op& op) { return IBA::pow(op.dst, op.a(), op.constants(1)); })
+        .keeps_header(),
+    on_pixels("maxc VALUES", 1, "The larger of the values and a constant or one per channel",
+              of_constants<IBA::max, 0>)
+        .keeps_header(),
+    on_pixels("minc VALUES", 1, "The smaller of the values and a constant or one per channel",
+              of_constants<IBA::min, 0>)
+        .keeps_header(),
+    on_pixels("add", 2, "Add two images", of_two<IBA::add>),
+    on_pixels("sub", 2, "Subtract the second image from the first", of_two<IBA::sub>),
+    on_pixels("mul", 2, "Multiply two images", of_two<IBA::mul>),
+    on_pixels("div", 2, "Divide the first image by the second", of_two<IBA::div>),
+    on_pixels("mad", 3, "Multiply two images and add a third",
+              [](Op& op) { return IBA::mad(op.dst, op.a(), op.b(), op.c()); }),
+    on_pixels("absdiff", 2, "Absolute difference of two images", of_two<IBA::absdiff>),
+    on_pixels("max", 2, "The larger value of two images, pixel by pixel", of_two<IBA::max>),
+    on_pixels("min", 2, "The smaller value of two images, pixel by pixel", of_two<IBA::min>),
+    on_pixels("abs", 1, "Absolute value", of_one<IBA::abs>).keeps_header(),
+    on_pixels("invert", 1, "Subtract the colour from 1", invert)
+        .modifier("chbegin", "N", "first channel (0)")
+        .modifier("chend", "N", "one past the last channel (3)")
+        .keeps_header(),
+    on_pixels("maxchan", 1, "The largest of the channels of each pixel", of_one<IBA::maxchan>),
+    on_pixels("minchan", 1, "The smallest of the channels of each pixel", of_one<IBA::minchan>),
+    on_pixels("chsum", 1, "Sum of the channels",
+              [](Op& op) { return IBA::channel_sum(op.dst, op.a(), op.values("weight", 1)); })
+        .modifier("weight", "VALUES", "weight of each channel (1)"),
+    on_pixels("clamp", 1, "Clamp the values", clamp, Scope::Levels)
+        .modifiers(kLimits)
+        .modifier("clampalpha", "0|1", "alpha to 0..1")
+        .operation("")
+        .keeps_header(),
+    on_pixels("contrast", 1, "Remap black to min and white to max, with a contrast curve", contrast)
+        .modifiers(kLimits)
+        .modifier("black", "VALUES", "what becomes min (0)")
+        .modifier("white", "VALUES", "what becomes max (1)")
+        .modifier("sthresh", "VALUES", "middle of the curve (0.5)")
+        .modifier("scontrast", "VALUES", "its slope (1: none)")
+        .modifier("gamma", "VALUES", "has no effect")
+        .modifier("clamp", "0|1", "clamp to min..max"),
+    on_pixels("saturate SCALE", 1, "Scale the saturation (0: grey)",
+              [](Op& op) { return IBA::saturate(op.dst, op.a(), op.number(0)); })
+        .keeps_header(),
+    on_pixels("rangecompress", 1, "Compress values beyond 1 by a logarithm",
+              [](Op& op) { return IBA::rangecompress(op.dst, op.a(), op.flag("luma")); })
+        .modifiers(kLuma),
+    on_pixels("rangeexpand", 1, "Undo --rangecompress",
+              [](Op& op) { return IBA::rangeexpand(op.dst, op.a(), op.flag("luma")); })
+        .modifiers(kLuma),
+    on_pixels("noise", 1, "Add noise", noise)
+        .modifiers(noise_modifiers())
+        .modifier("nchannels", "N", "channels that get noise"),
+    on_pixels("premult", 1, "Multiply the colour by alpha", of_one<IBA::premult>),
+    on_pixels("unpremult", 1, "Divide the colour by alpha", of_one<IBA::unpremult>),
+    on_pixels("repremult", 1, "Multiply the colour by alpha, but keep it where alpha is 0",
+              of_one<IBA::repremult>),
 };
 
 } // namespace
@@ -139,27 +142,25 @@ bool add_noise(Op& op, bool to_blank) {
                               op.integer("seed", 0), roi);
         }
     }
-    throw CommandError("Unknown noise type \"" + type + "\"" +
-                       (op.session.compat ? "" : " (valid: gaussian, uniform, white, blue, salt)"));
+    throw CommandError(
+        "Unknown noise type \"" + type + "\"" +
+        (op.session.settings.compat ? "" : " (valid: gaussian, uniform, white, blue, salt)"));
 }
 
-std::string noise_modifiers() {
-    return "type=gaussian|uniform|white|blue|salt: kind (gaussian)\n"
-           "mean=X: of gaussian noise (0)\n"
-           "stddev=X: of gaussian noise (0.1)\n"
-           "min=X: of uniform noise (0)\n"
-           "max=X: of uniform noise (0.1)\n"
-           "value=X: of salt noise (0)\n"
-           "portion=X: of pixels with salt (0.01)\n"
-           "mono=0|1: the same in all channels\n"
-           "seed=N: seed (0)\n";
+Modifiers noise_modifiers() {
+    return {{"type", "gaussian|uniform|white|blue|salt", "kind (gaussian)"},
+            {"mean", "X", "of gaussian noise (0)"},
+            {"stddev", "X", "of gaussian noise (0.1)"},
+            {"min", "X", "of uniform noise (0)"},
+            {"max", "X", "of uniform noise (0.1)"},
+            {"value", "X", "of salt noise (0)"},
+            {"portion", "X", "of pixels with salt (0.01)"},
+            {"mono", "0|1", "the same in all channels"},
+            {"seed", "N", "seed (0)"}};
 }
 
-std::vector<Command> arithmetic_commands() {
-    std::vector<Command> all = keeping_headers(op_rows(Group::Arithmetic, kConstantRows));
-    append(all, op_rows(Group::Arithmetic, kImageRows));
-    append(all, op_rows(Group::Arithmetic, kValueRows));
-    return all;
+Rows arithmetic_commands() {
+    return kRows;
 }
 
 } // namespace tonetool::chain

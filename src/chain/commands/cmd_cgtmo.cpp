@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The local tone mapper of rendered images.
+#include <algorithm>
+
 #include "chain/commands/color_input.h"
 #include "chain/commands/commands.h"
 #include "chain/commands/flip_args.h"
 #include "chain/commands/light_args.h"
 #include "chain/commands/options.h"
 #include "imagebuf/options/cgtmo_options.h"
+#include "imagebuf/options/tone_options.h"
 #include "text/error.h"
 
 namespace tonetool::chain {
@@ -29,7 +32,7 @@ void report_summary(Session& session, const std::string& label, const CgTmoSumma
     line("position", found.position.empty() ? "none" : found.position);
     line("normal", found.normal.empty() ? "none" : found.normal);
     line("albedo", found.albedo.empty() ? "none" : found.albedo);
-    if (session.verbose)
+    if (session.settings.verbose)
         for (const std::string& note : found.notes)
             line("note", note);
     line("samples", std::to_string(found.samples));
@@ -55,24 +58,30 @@ void run_cgtmo(Session& session, const Call& call) {
     report_summary(session, label, found);
     for (const std::string& warning : found.warnings)
         session.warning(label, image.name() + ": " + warning);
-    session.push(Image::derived(image, std::move(result)));
+    session.stack.push(Image::derived(image, std::move(result)));
 }
 
-std::vector<Modifier> cgtmo_modifiers() {
-    const Modifier index = {"lightindex", "LAYER|FILE",
-                            "index of each pixel's light; groups: by the groups (found)"};
-    return concatenated({inserted(modifiers_of<CgTmoOptions>(), "maxpercentile",
-                                  concatenated({{index}, light_modifiers()})),
-                         pixel_modifiers()});
+// With those of the lights behind the percentile that is the maximum.
+Modifiers cgtmo_modifiers() {
+    Modifiers all = modifiers_of<CgTmoOptions>();
+    const Modifiers of_lights =
+        concatenated({{{"lightindex", "LAYER|FILE",
+                        "index of each pixel's light; groups: by the groups (found)"}},
+                      modifiers_of<LightOptions>()});
+    const auto maximum = std::find_if(
+        all.begin(), all.end(), [](const Modifier& row) { return row.key == "maxpercentile"; });
+    all.insert(maximum + 1, of_lights.begin(), of_lights.end());
+    return all;
 }
 
 } // namespace
 
-std::vector<Command> cgtmo_commands() {
-    return {{{{"cgtmo"}, {}, 1, 1, Group::Color},
-             cgtmo_modifiers(),
-             "HDR to a display locally, guided by the render's position, normal and albedo",
-             run_cgtmo}};
+Rows cgtmo_commands() {
+    return {command("cgtmo",
+                    "HDR to a display locally, guided by the render's position, normal and albedo",
+                    run_cgtmo)
+                .images(1, 1)
+                .modifiers(cgtmo_modifiers(), pixel_modifiers())};
 }
 
 } // namespace tonetool::chain

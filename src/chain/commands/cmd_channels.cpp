@@ -3,6 +3,7 @@
 #include <OpenImageIO/strutil.h>
 #include <algorithm>
 
+#include "chain/commands/commands.h"
 #include "chain/images/channels.h"
 #include "chain/session/ops.h"
 
@@ -15,17 +16,18 @@ bool ch(Op& op) {
         op.session.warning("--ch", text); // twice, as oiiotool
         op.session.warning("--ch", text);
     };
-    op.dst = select_channels(op.a(), op.call.argument(0), op.session.compat ? Warn(warn) : nullptr);
+    op.dst = select_channels(op.a(), op.call.argument(0),
+                             op.session.settings.compat ? Warn(warn) : nullptr);
     return !op.dst.has_error();
 }
 
 void push_parts(Session& session, const std::string& name, std::vector<PartPtr> parts) {
-    session.push(std::make_shared<Image>(name, std::move(parts)));
+    session.stack.push(std::make_shared<Image>(name, std::move(parts)));
 }
 
 void run_subimage(Session& session, const Call& call) {
     const Image& image = *call.images[0];
-    auto index = std::ptrdiff_t(image.find_part(call.argument(0), session.compat));
+    auto index = std::ptrdiff_t(image.find_part(call.argument(0), session.settings.compat));
     std::vector<PartPtr> parts = image.parts();
     if (call.flag("delete", false))
         parts.erase(parts.begin() + index);
@@ -67,8 +69,8 @@ template <class Lines>
 void run_count(Session& session, const Call& call, Lines lines) {
     OIIO::ImageBuf none;
     lines(Op{session, call, none, {&call.images[0]->part().pixels()}});
-    session.produced = true;
-    session.push(call.images[0]);
+    session.outcome.produced = true;
+    session.stack.push(call.images[0]);
 }
 
 void print_count(Session& session, OIIO::imagesize_t count, const std::string& of) {
@@ -104,68 +106,64 @@ void rangecheck(const Op& op) {
     print_count(op.session, within, "within range");
 }
 
-const char* const kCountHelp = "n=N: number of images (2)\n";
+// n= of commands that join images.
+int count_of(const Call& call) {
+    return call.integer("n", {1, 1000}).value_or(call.row().pops);
+}
 
-const std::vector<OpRow> kRows = {
-    named("", {"ch CHANLIST", 1,
-               "Select or shuffle channels (\"R,G,B\", \"2,1,0\", \"R,G=0.5,B,A=1.0\")", ch, "",
-               Scope::Levels}),
-    named("", {"chappend", 2, "Join the channels of the last two images (or n=)",
-               [](Op& op) {
-                   op.dst.copy(op.a());
-                   for (size_t i = 1; i < op.src.size(); ++i)
-                       op.dst = IBA::channel_append(op.dst, *op.src[i]);
-                   return !op.dst.has_error();
-               },
-               kCountHelp}),
-};
+const Modifiers kCount = {{"n", "N", "number of images (2)"}};
 
-std::vector<Command> subimage_commands() {
-    auto row = [](const char* usage, int pops, int pushes, const char* help, Run run,
-                  const char* modifiers = "") {
-        return free_row(Group::Channels, usage, pops, pushes, help, std::move(run), modifiers);
-    };
-    return {
-        row("subimage INDEX", 1, 1, "Select one subimage by index or name", run_subimage,
-            "delete=0|1: keep all but this one"),
-        row("sisplit", 1, kAnyNumber, "Split the subimages into images", run_sisplit),
-        row(
-            "siappend", 2, 1, "Join the subimages of the last two images (or n=)",
-            [](Session& session, const Call& call) { push_appended(session, call.images); },
-            kCountHelp),
-        row("siappendall", 0, kAnyNumber, "Join the subimages of all images of the stack",
-            [](Session& session, const Call&) { push_appended(session, take_images(session, 0)); }),
-        row("selectmip MIPLEVEL", 1, 1, "Select one MIP level (0: the largest)",
+const Rows kRows = {
+    on_pixels("ch CHANLIST", 1,
+              "Select or shuffle channels (\"R,G,B\", \"2,1,0\", \"R,G=0.5,B,A=1.0\")", ch,
+              Scope::Levels)
+        .operation(""),
+    on_pixels("chappend", 2, "Join the channels of the last two images (or n=)",
+              [](Op& op) {
+                  op.dst.copy(op.a());
+                  for (size_t i = 1; i < op.src.size(); ++i)
+                      op.dst = IBA::channel_append(op.dst, *op.src[i]);
+                  return !op.dst.has_error();
+              })
+        .images_of(count_of)
+        .modifiers(kCount)
+        .operation(""),
+    command("subimage INDEX", "Select one subimage by index or name", run_subimage)
+        .images(1, 1)
+        .modifier("delete", "0|1", "keep all but this one"),
+    command("sisplit", "Split the subimages into images", run_sisplit).images(1, kAnyNumber),
+    command("siappend", "Join the subimages of the last two images (or n=)",
+            [](Session& session, const Call& call) { push_appended(session, call.images); })
+        .images(2, 1)
+        .images_of(count_of)
+        .modifiers(kCount),
+    command("siappendall", "Join the subimages of all images of the stack",
+            [](Session& session, const Call&) { push_appended(session, take_images(session, 0)); })
+        .images(0, kAnyNumber),
+    command("selectmip MIPLEVEL", "Select one MIP level (0: the largest)",
             [](Session& session, const Call& call) {
                 OIIO::ImageBuf none;
                 push_level(session, *call.images[0], Op{session, call, none, {}}.integer(0));
-            }),
-        row("unmip", 1, 1, "Keep only the largest MIP level",
-            [](Session& session, const Call& call) { push_level(session, *call.images[0], 0); }),
-    };
-}
+            })
+        .images(1, 1),
+    command("unmip", "Keep only the largest MIP level",
+            [](Session& session, const Call& call) { push_level(session, *call.images[0], 0); })
+        .images(1, 1),
+    command("colorcount COLORLIST", "Count the pixels of each colour (COLOR:COLOR:...)",
+            [](Session& session, const Call& call) { run_count(session, call, colorcount); })
+        .in(Group::Print)
+        .images(1, 1)
+        .modifier("eps", "VALUES", "tolerance of a match (0.001)"),
+    command("rangecheck MIN MAX", "Count the pixels outside a range of values",
+            [](Session& session, const Call& call) { run_count(session, call, rangecheck); })
+        .in(Group::Print)
+        .images(1, 1),
+};
 
 } // namespace
 
-std::vector<Command> channel_commands() {
-    std::vector<Command> all = op_rows(Group::Channels, kRows);
-    append(all, subimage_commands());
-    for (Command& row : all) {
-        if (row.label() == "chappend" || row.label() == "siappend") {
-            row.pops_of = [](const Call& call) {
-                return call.integer("n", {1, 1000}).value_or(call.row().pops);
-            };
-        }
-    }
-    all.push_back(free_row(
-        Group::Print, "colorcount COLORLIST", 1, 1,
-        "Count the pixels of each colour (COLOR:COLOR:...)",
-        [](Session& session, const Call& call) { run_count(session, call, colorcount); },
-        "eps=VALUES: tolerance of a match (0.001)"));
-    all.push_back(free_row(
-        Group::Print, "rangecheck MIN MAX", 1, 1, "Count the pixels outside a range of values",
-        [](Session& session, const Call& call) { run_count(session, call, rangecheck); }));
-    return all;
+Rows channel_commands() {
+    return kRows;
 }
 
 } // namespace tonetool::chain

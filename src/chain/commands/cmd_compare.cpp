@@ -7,8 +7,10 @@
 #include "chain/commands/flip_args.h"
 #include "chain/commands/flip_report.h"
 #include "chain/commands/frame_pictures.h"
+#include "chain/commands/options.h"
 #include "chain/commands/shot_args.h"
 #include "chain/images/colormap.h"
+#include "imagebuf/options/flip_options.h"
 #include "imagebuf/pixels/upright.h"
 #include "metrics/errors.h"
 #include "sequence/results/measurement.h"
@@ -64,9 +66,9 @@ void warn_of_same_file(Session& session, const Call& call, const Image& test, co
 
 Compared compare(Session& session, const Call& call, const Look& look, const Compare& function) {
     Compared done;
-    const auto view = shown_bytes(session, call) > 0      ? shown_input
-                      : look.again && session.memory == 0 ? color_input
-                                                          : color_source;
+    const auto view = shown_bytes(session, call) > 0               ? shown_input
+                      : look.again && session.settings.memory == 0 ? color_input
+                                                                   : color_source;
     done.views.reserve(call.images.size()); // else the pixels are copied
     for (const ImagePtr& image : call.images) {
         const PixelOptions& options = done.views.empty() ? look.reference : look.tests;
@@ -80,7 +82,7 @@ Compared compare(Session& session, const Call& call, const Look& look, const Com
     done.maps.resize(tests.size());
     if (!function(done.maps, done.views.front(), tests))
         throw CommandError(done.maps.front().geterror());
-    session.produced = true;
+    session.outcome.produced = true;
     return done;
 }
 
@@ -123,7 +125,7 @@ bool judge_flip(Session& session, const Call& call, const Limits& limits, const 
 }
 
 void push_result(Session& session, const Call& call, OIIO::ImageBuf result) {
-    session.push(Image::computed("--" + call.row().label(), std::move(result)));
+    session.stack.push(Image::computed("--" + call.row().label(), std::move(result)));
 }
 
 // The map lies as its pictures do.
@@ -148,9 +150,9 @@ int hdrflip_pushes(const Call& call) {
 
 void save(Session& session, const OIIO::ImageBuf& image, const std::string& filename) {
     session.claim(filename);
-    if (session.dry_run)
+    if (session.settings.dry_run)
         return;
-    session.keep_pixels_of(filename);
+    session.stack.keep_pixels_of(filename);
     std::string why;
     if (!write_image(image, filename, why))
         throw CommandError(why);
@@ -312,7 +314,7 @@ Measures tmqi_measures() {
 
 void run_tmqi(Session& session, const Call& call) {
     TmqiOptions options{pixel_options(call), pixel_options(call, "ldr"), call.flag("crop", false),
-                        session.memory};
+                        session.settings.memory};
     Strings none;
     const Limits limits = limits_of(call, tmqi_measures(), none);
     TmqiSummary summary;
@@ -330,69 +332,66 @@ void run_tmqi(Session& session, const Call& call) {
 
 // ---- rows
 
-std::vector<Modifier> hdrflip_modifiers() {
-    return concatenated(
-        {hdr_modifiers(),
-         viewing_modifiers(),
-         pair_modifiers(),
-         {{"exposures", "frame|shot|FILE",
-           "range of the exposures: each frame's own (frame), one of the whole shot, or what "
-           "--statistics or --json wrote into FILE"},
-          {"exposuremap", "stops|index", "push the exposure of the largest error below the map"},
-          {"saveexposures", "PREFIX", "write PREFIX.NN.reference.exr, .test.exr and .flip.exr"},
-          {"tests", "K", "compare K tests with the one reference below them"}},
-         threshold_modifiers()});
+Row hdrflip_row() {
+    return command("hdrflip", "HDR-FLIP: reference, test -> error map", run_hdrflip)
+        .images(2, 1)
+        .images_of(hdrflip_pops, hdrflip_pushes)
+        .modifiers(hdr_modifiers(), modifiers_of<FlipOptions>(), pair_modifiers())
+        .modifier(
+            "exposures", "frame|shot|FILE",
+            "range of the exposures: each frame's own (frame), one of the whole shot, or what "
+            "--statistics or --json wrote into FILE")
+        .modifier("exposuremap", "stops|index",
+                  "push the exposure of the largest error below the map")
+        .modifier("saveexposures", "PREFIX",
+                  "write PREFIX.NN.reference.exr, .test.exr and .flip.exr")
+        .modifier("tests", "K", "compare K tests with the one reference below them")
+        .modifiers(threshold_modifiers())
+        .makes_map();
 }
 
-std::vector<Modifier> filmstrip_modifiers() {
-    return concatenated({hdr_modifiers(),
-                         {viewing_modifiers().front()},
-                         pair_modifiers(),
-                         {{"width", "PIXELS", "width of one picture (240)"},
-                          {"columns", "N", "at most this many exposures are shown (9)"},
-                          {"font", "FILE", "font of the labels (DejaVu Sans)"}},
-                         threshold_modifiers()});
+Row filmstrip_row() {
+    return command("filmstrip", "HDR-FLIP as a picture: every exposure of both images and its map",
+                   run_filmstrip)
+        .images(2, 1)
+        .modifiers(hdr_modifiers(), Modifiers{modifiers_of<FlipOptions>().front()},
+                   pair_modifiers())
+        .modifier("width", "PIXELS", "width of one picture (240)")
+        .modifier("columns", "N", "at most this many exposures are shown (9)")
+        .modifier("font", "FILE", "font of the labels (DejaVu Sans)")
+        .modifiers(threshold_modifiers());
 }
 
-std::vector<Modifier> tmqi_modifiers() {
-    return concatenated(
-        {{{"layer", "NAME", "layer of the HDR image whose R,G,B are used"},
-          {"from", "SPACE", "colour space of the HDR image"},
-          {"ldrlayer", "NAME", "layer of the picture"},
-          {"ldrfrom", "SPACE", "colour space of the picture (sRGB for integers)"},
-          {"crop", "0|1", "compare only where the display windows meet"}},
-         threshold_modifiers(tmqi_measures(), "at least X (0 to 1; higher is better)")});
-}
-
-Command pair_command(const char* name, std::vector<Modifier> modifiers, const char* help,
-                     void (*run)(Session&, const Call&)) {
-    return {{{name}, {}, 2, 1, Group::Compare}, std::move(modifiers), help, run};
+Row tmqi_row() {
+    return command("tmqi", "TMQI of a tone-mapped picture: HDR image, picture -> structure map",
+                   run_tmqi)
+        .images(2, 1)
+        .modifier("layer", "NAME", "layer of the HDR image whose R,G,B are used")
+        .modifier("from", "SPACE", "colour space of the HDR image")
+        .modifier("ldrlayer", "NAME", "layer of the picture")
+        .modifier("ldrfrom", "SPACE", "colour space of the picture (sRGB for integers)")
+        .modifier("crop", "0|1", "compare only where the display windows meet")
+        .modifiers(threshold_modifiers(tmqi_measures(), "at least X (0 to 1; higher is better)"));
 }
 
 } // namespace
 
-std::vector<Command> compare_commands() {
-    std::vector<Command> rows{
-        pair_command("hdrflip", hdrflip_modifiers(), "HDR-FLIP: reference, test -> error map",
-                     run_hdrflip),
-        pair_command("ldrflip",
-                     concatenated({viewing_modifiers(), pair_modifiers(), threshold_modifiers()}),
-                     "LDR-FLIP: reference, test -> error map", run_ldrflip),
-        pair_command("flipdiff", flipdiff_modifiers(),
-                     "FLIP with the option names and defaults of OpenImageIO 3.2's oiiotool",
-                     run_flipdiff),
-        pair_command("filmstrip", filmstrip_modifiers(),
-                     "HDR-FLIP as a picture: every exposure of both images and its map",
-                     run_filmstrip),
-        pair_command("errormap", error_modifiers(),
-                     "An error by pixel: reference, test -> error map", run_errormap),
-        pair_command("tmqi", tmqi_modifiers(),
-                     "TMQI of a tone-mapped picture: HDR image, picture -> structure map",
-                     run_tmqi)};
-    rows.front().pops_of = hdrflip_pops;
-    rows.front().pushes_of = hdrflip_pushes;
-    rows[0].makes_map = rows[1].makes_map = true; // --hdrflip and --ldrflip
-    return rows;
+Rows compare_commands() {
+    return {hdrflip_row(),
+            command("ldrflip", "LDR-FLIP: reference, test -> error map", run_ldrflip)
+                .images(2, 1)
+                .modifiers(modifiers_of<FlipOptions>(), pair_modifiers(), threshold_modifiers())
+                .makes_map(),
+            command("flipdiff",
+                    "FLIP with the option names and defaults of OpenImageIO 3.2's oiiotool",
+                    run_flipdiff)
+                .images(2, 1)
+                .modifiers(flipdiff_modifiers()),
+            filmstrip_row(),
+            command("errormap", "An error by pixel: reference, test -> error map", run_errormap)
+                .images(2, 1)
+                .modifiers(error_modifiers()),
+            tmqi_row()};
 }
 
 } // namespace tonetool::chain

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "chain/commands/commands.h"
 #include "chain/images/sheet.h"
 #include "chain/session/ops.h"
 
@@ -20,9 +21,9 @@ Position asked_position(const Session& session, const std::string& text) {
     int end = 0;
     if (text != "-" && text != "auto" &&
         (std::sscanf(text.c_str(), "%d%d%n", &position.x, &position.y, &end) != 2 ||
-         (!session.compat && size_t(end) < text.size()))) {
+         (!session.settings.compat && size_t(end) < text.size()))) {
         throw CommandError("Invalid offset '" + text + "'" +
-                           (session.compat ? "" : " (valid: +X+Y, auto, -)"));
+                           (session.settings.compat ? "" : " (valid: +X+Y, auto, -)"));
     }
     return position;
 }
@@ -45,7 +46,7 @@ void run_paste(Session& session, const Call& call) {
     const Position at = asked_position(session, call.argument(0));
     OIIO::ImageBuf result =
         pasted(flat_pixels_of(images), at.x, at.y, call.flag("mergeroi", false));
-    session.push(Image::derived(*images.back(), std::move(result)));
+    session.stack.push(Image::derived(*images.back(), std::move(result)));
 }
 
 bool paste_metadata(Op& op) {
@@ -59,58 +60,59 @@ void run_mosaic(Session& session, const Call& call) {
     auto size = parsed_size(call.argument(0));
     if (!size || size->width < 1 || size->height < 1) {
         throw CommandError("Invalid size '" + call.argument(0) + "'" +
-                           (session.compat ? "" : " (valid: COLUMNSxROWS)"));
+                           (session.settings.compat ? "" : " (valid: COLUMNSxROWS)"));
     }
     const auto fit = call.text("fit");
     Sheet sheet{int(size->width), int(size->height)};
     sheet.pad = call.integer("pad", kAnyInteger).value_or(0);
     sheet.fit = fit ? parsed_size(*fit) : std::nullopt;
-    if (fit && !sheet.fit && !session.compat)
+    if (fit && !sheet.fit && !session.settings.compat)
         throw CommandError("fit \"" + *fit + "\" is no size (valid: WxH)");
     const size_t cells = size_t(sheet.columns) * size_t(sheet.rows);
-    std::vector<ImagePtr> images = take_images(session, std::min(cells, session.stack.size()));
-    session.push(Image::created("mosaic", mosaic(sheet, flat_pixels_of(images))));
+    std::vector<ImagePtr> images =
+        take_images(session, std::min(cells, session.stack.images.size()));
+    session.stack.push(Image::created("mosaic", mosaic(sheet, flat_pixels_of(images))));
 }
 
-const std::vector<OpRow> kRows = {
-    {"over", 2, "The first image over the second",
-     [](Op& op) { return IBA::over(op.dst, op.a(), op.b()); }},
-    {"zover", 2, "The nearer of two images with Z channels over the other",
-     [](Op& op) { return IBA::zover(op.dst, op.a(), op.b(), op.flag("zeroisinf")); },
-     "zeroisinf=0|1: Z of 0 is infinitely far"},
-    {"deepmerge", 2, "Merge two deep images",
-     [](Op& op) {
-         op.dst = IBA::deep_merge(op.a(), op.b());
-         return !op.dst.has_error();
-     }},
-    {"deepholdout", 2, "Hold out the first deep image by the second",
-     [](Op& op) {
-         op.dst = IBA::deep_holdout(op.a(), op.b());
-         return !op.dst.has_error();
-     }},
-    {"deepen", 1, "From flat to deep",
-     [](Op& op) { return IBA::deepen(op.dst, op.a(), op.number("z", 1)); },
-     "z=X: depth where there is no Z channel (1)"},
-    {"flatten", 1, "From deep to flat", [](Op& op) { return IBA::flatten(op.dst, op.a()); }},
-    {"pastemeta", 2, "The pixels of the second image with the metadata of the first",
-     paste_metadata},
+const Rows kRows = {
+    on_pixels("over", 2, "The first image over the second",
+              [](Op& op) { return IBA::over(op.dst, op.a(), op.b()); }),
+    on_pixels("zover", 2, "The nearer of two images with Z channels over the other",
+              [](Op& op) { return IBA::zover(op.dst, op.a(), op.b(), op.flag("zeroisinf")); })
+        .modifier("zeroisinf", "0|1", "Z of 0 is infinitely far"),
+    on_pixels("deepmerge", 2, "Merge two deep images",
+              [](Op& op) {
+                  op.dst = IBA::deep_merge(op.a(), op.b());
+                  return !op.dst.has_error();
+              }),
+    on_pixels("deepholdout", 2, "Hold out the first deep image by the second",
+              [](Op& op) {
+                  op.dst = IBA::deep_holdout(op.a(), op.b());
+                  return !op.dst.has_error();
+              }),
+    on_pixels("deepen", 1, "From flat to deep",
+              [](Op& op) { return IBA::deepen(op.dst, op.a(), op.number("z", 1)); })
+        .modifier("z", "X", "depth where there is no Z channel (1)"),
+    on_pixels("flatten", 1, "From deep to flat", of_one<IBA::flatten>),
+    on_pixels("pastemeta", 2, "The pixels of the second image with the metadata of the first",
+              paste_metadata),
+    command(
+        "paste +X+Y",
+        "Paste the first image over the second, at an offset or where its window lies (auto, -)",
+        run_paste)
+        .images(0, kAnyNumber)
+        .modifier("all", "0|1", "all images of the stack over the last")
+        .modifier("mergeroi", "0|1", "a data window that holds both"),
+    command("mosaic WxH", "Assemble images into columns and rows", run_mosaic)
+        .images(0, kAnyNumber)
+        .modifier("pad", "N", "pixels between images (0)")
+        .modifier("fit", "WxH", "fit each image to this size first"),
 };
 
 } // namespace
 
-std::vector<Command> composite_commands() {
-    std::vector<Command> all = op_rows(Group::Composite, kRows);
-    all.push_back(free_row(
-        Group::Composite, "paste +X+Y", 0, kAnyNumber,
-        "Paste the first image over the second, at an offset or where its window lies (auto, -)",
-        run_paste,
-        "all=0|1: all images of the stack over the last\n"
-        "mergeroi=0|1: a data window that holds both"));
-    all.push_back(free_row(Group::Composite, "mosaic WxH", 0, kAnyNumber,
-                           "Assemble images into columns and rows", run_mosaic,
-                           "pad=N: pixels between images (0)\n"
-                           "fit=WxH: fit each image to this size first"));
-    return all;
+Rows composite_commands() {
+    return kRows;
 }
 
 } // namespace tonetool::chain

@@ -2,10 +2,9 @@
 // Commands that decide which of the others run: variables, conditions, loops, frames.
 #include <OpenImageIO/strutil.h>
 
+#include "chain/commands/commands.h"
 #include "chain/images/attributes.h"
 #include "chain/language/arithmetic.h"
-#include "chain/session/call.h"
-#include "chain/session/session.h"
 #include "text/error.h"
 
 namespace tonetool::chain {
@@ -54,9 +53,10 @@ void run_endwhile(Session& session, const Call&) {
 }
 
 bool set_loop_variable(Session& session, Block& block, const std::string& name) {
-    session.variables.attribute(name, expression_number(block.value));
-    block.running = block.outside && (block.step < 0 && !session.compat ? block.value > block.end
-                                                                        : block.value < block.end);
+    session.stack.variables.attribute(name, expression_number(block.value));
+    block.running =
+        block.outside && (block.step < 0 && !session.settings.compat ? block.value > block.end
+                                                                     : block.value < block.end);
     return block.running;
 }
 
@@ -65,7 +65,7 @@ void run_for(Session& session, const Call& call) {
     if (block.outside) {
         std::vector<double> range;
         for (const std::string& word : split(call.argument(1), ',')) {
-            bool lenient = session.compat && !parse_number(word);
+            bool lenient = session.settings.compat && !parse_number(word);
             range.push_back(lenient ? 0 : checked_number("RANGE", word, {-1e9, 1e9}));
         }
         if (range.size() > 3)
@@ -73,7 +73,7 @@ void run_for(Session& session, const Call& call) {
         block.value = range.size() > 1 ? range[0] : 0;
         block.end = range.size() > 1 ? range[1] : range[0];
         block.step = range.size() > 2 ? range[2] : 1;
-        if (block.step == 0 && !session.compat)
+        if (block.step == 0 && !session.settings.compat)
             throw CommandError("RANGE \"" + call.argument(1) + "\" never ends: its step is 0");
         set_loop_variable(session, block, call.argument(0));
     }
@@ -96,78 +96,66 @@ void run_set(Session& session, const Call& call) {
     bool number = type.empty() && parse_number(value);
     bool whole = number && parse_integer(value);
     if (type == "int" || whole) {
-        session.variables.attribute(name, OIIO::Strutil::stoi(value));
+        session.stack.variables.attribute(name, OIIO::Strutil::stoi(value));
     } else if (type == "float" || number) {
-        session.variables.attribute(name, OIIO::Strutil::stof(value));
+        session.stack.variables.attribute(name, OIIO::Strutil::stof(value));
     } else if (type.empty() || type == "string") {
-        session.variables.attribute(name, value);
+        session.stack.variables.attribute(name, value);
     } else if (const OIIO::TypeDesc packed(type);
                packed == OIIO::TypeTimeCode || packed == OIIO::TypeRational) {
         OIIO::ImageSpec spec;
         set_attribute(spec, name, value, packed);
-        session.variables.merge(spec.extra_attribs, true);
+        session.stack.variables.merge(spec.extra_attribs, true);
     } else {
-        session.variables.attribute(name, OIIO::TypeDesc(type), value);
+        session.stack.variables.attribute(name, OIIO::TypeDesc(type), value);
     }
 }
 
+const Rows kRows = {
+    command("set NAME VALUE", "Set a variable, the {NAME} of expressions", run_set)
+        .modifier("type", "TYPE", "its data type: int, float, string, ... (as it looks)"),
+    command("if VALUE", "Run what follows, to --else or --endif, if VALUE is not 0 or empty",
+            [](Session& session, const Call& call) { begin_block(session, "if", call); })
+        .control(),
+    command("else", "Run what follows, to --endif, if the --if did not", run_else).control(),
+    command("endif", "End of an --if", run_endif).control(),
+    command("while VALUE", "Repeat what follows, to --endwhile, while VALUE is true",
+            [](Session& session, const Call& call) { begin_block(session, "while", call); })
+        .control(),
+    command("endwhile", "End of a --while", run_endwhile).control(),
+    command("for VARIABLE RANGE",
+            "Repeat what follows, to --endfor, for numbers: END, BEGIN,END or BEGIN,END,STEP",
+            run_for)
+        .control(),
+    command("endfor", "End of a --for", run_endfor).control(),
+    command("evaloff", "Leave {expressions} as they are in what follows",
+            [](Session& session, const Call&) { session.settings.evaluate = false; }),
+    command("evalon", "Replace {expressions} by their values in what follows",
+            [](Session& session, const Call&) { session.settings.evaluate = true; }),
+    command("frames RANGE", "Run the command line for each of these frames (1-10, 1,3,5-9, 1-10x2)")
+        .whole_line()
+        .manner(),
+    command("framepadding DIGITS", "Digits of frame numbers in file names, 1 to 9").whole_line(),
+    command("views NAMES", "Views that %V and %v stand for (left,right)").whole_line(),
+    command("wildcardoff", "What follows has no wildcards for frames and views").whole_line(),
+    command("wildcardon", "What follows has wildcards for frames and views again").whole_line(),
+    command("skip-bad-frames", "After an error go on with the next frame").whole_line().manner(),
+    command("parallel-frames|jobs [N]",
+            "Work on N frames at a time, on one per core without N; --memory is for all of them")
+        .whole_line()
+        .manner(),
+    command(
+        "progress =FORMAT",
+        "Report frames done, rate and time left to the standard error (--progress=json: as JSON)")
+        .whole_line()
+        .manner(),
+    command("compat", "Be as lenient as oiiotool, with its messages and exit status").whole_line(),
+};
+
 } // namespace
 
-std::vector<Command> control_commands() {
-    const auto row = [](const char* name, Strings args, const char* help, const Run& run,
-                        bool control = true) {
-        Command made = setting(Group::Control, {name}, std::move(args), help, run);
-        made.control = control;
-        return made;
-    };
-    Command set =
-        row("set", {"NAME", "VALUE"}, "Set a variable, the {NAME} of expressions", run_set, false);
-    set.modifiers = {{"type", "TYPE", "its data type: int, float, string, ... (as it looks)"}};
-    const auto whole_line = [](const char* name, Strings args, const char* help) {
-        Command made =
-            setting(Group::Control, {name}, std::move(args), help, [](Session&, const Call&) {});
-        made.whole_line = true;
-        return made;
-    };
-    Command parallel = of_manner(
-        whole_line("parallel-frames", {"[N]"},
-                   "Work on N frames at a time, on one per core without N; --memory is for all "
-                   "of them"));
-    parallel.names.push_back("jobs");
-    return {
-        set,
-        row("if", {"VALUE"}, "Run what follows, to --else or --endif, if VALUE is not 0 or empty",
-            [](Session& session, const Call& call) { begin_block(session, "if", call); }),
-        row("else", {}, "Run what follows, to --endif, if the --if did not", run_else),
-        row("endif", {}, "End of an --if", run_endif),
-        row("while", {"VALUE"}, "Repeat what follows, to --endwhile, while VALUE is true",
-            [](Session& session, const Call& call) { begin_block(session, "while", call); }),
-        row("endwhile", {}, "End of a --while", run_endwhile),
-        row("for", {"VARIABLE", "RANGE"},
-            "Repeat what follows, to --endfor, for numbers: END, BEGIN,END or BEGIN,END,STEP",
-            run_for),
-        row("endfor", {}, "End of a --for", run_endfor),
-        row(
-            "evaloff", {}, "Leave {expressions} as they are in what follows",
-            [](Session& session, const Call&) { session.evaluate = false; }, false),
-        row(
-            "evalon", {}, "Replace {expressions} by their values in what follows",
-            [](Session& session, const Call&) { session.evaluate = true; }, false),
-        of_manner(
-            whole_line("frames", {"RANGE"},
-                       "Run the command line for each of these frames (1-10, 1,3,5-9, 1-10x2)")),
-        whole_line("framepadding", {"DIGITS"}, "Digits of frame numbers in file names, 1 to 9"),
-        whole_line("views", {"NAMES"}, "Views that %V and %v stand for (left,right)"),
-        whole_line("wildcardoff", {}, "What follows has no wildcards for frames and views"),
-        whole_line("wildcardon", {}, "What follows has wildcards for frames and views again"),
-        of_manner(whole_line("skip-bad-frames", {}, "After an error go on with the next frame")),
-        parallel,
-        of_manner(whole_line(
-            "progress", {"=FORMAT"},
-            "Report frames done, rate and time left to the standard error (--progress=json: as "
-            "JSON)")),
-        whole_line("compat", {}, "Be as lenient as oiiotool, with its messages and exit status"),
-    };
+Rows control_commands() {
+    return kRows;
 }
 
 } // namespace tonetool::chain

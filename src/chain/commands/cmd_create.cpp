@@ -2,6 +2,7 @@
 // Commands that create images, and draw.
 #include <OpenImageIO/strutil.h>
 
+#include "chain/commands/commands.h"
 #include "chain/session/ops.h"
 #include "imagebuf/pixels/oiio_compat.h"
 
@@ -20,7 +21,7 @@ OIIO::ImageBuf blank(Session& session, const Call& call, size_t first) {
     int channels = op.integer(first + 1);
     if (channels < 1 || channels > 1024) {
         const std::string why = "Invalid number of channels: " + std::to_string(channels);
-        if (!session.compat)
+        if (!session.settings.compat)
             throw CommandError(why + " (valid: 1 to 1024)");
         session.warning(call.text(), why);
         channels = 3;
@@ -37,7 +38,7 @@ OIIO::ImageBuf blank(Session& session, const Call& call, size_t first) {
 void push_created(Session& session, OIIO::ImageBuf image) {
     if (image.has_error())
         throw CommandError(image.geterror());
-    session.push(Image::created("new", std::move(image)));
+    session.stack.push(Image::created("new", std::move(image)));
 }
 
 void run_create(Session& session, const Call& call) {
@@ -72,11 +73,11 @@ bool fill(Op& op, const OIIO::ROI& window) {
         return IBA::fill(op.dst, two[0], two[1], window);
     if (Corners two = colors(op, {"left", "right"}); !two.empty())
         return IBA::fill(op.dst, two[0], two[1], two[0], two[1], window);
-    if (!op.call.has("color") && op.session.compat && op.call.row().label() == "pattern")
+    if (!op.call.has("color") && op.session.settings.compat && op.call.row().label() == "pattern")
         return true; // black, without a message
     if (!op.call.has("color")) {
         const std::string why = "No recognized fill parameters";
-        if (!op.session.compat) {
+        if (!op.session.settings.compat) {
             throw CommandError(why + " (valid: color=, or top= and bottom=, or left= and "
                                      "right=, or topleft=, "
                                      "topright=, bottomleft= and bottomright=)");
@@ -102,7 +103,7 @@ bool draw_pattern(Op& op, const std::string& pattern) {
         return fill(op, op.dst.roi());
     if (pattern == "constant")
         return IBA::fill(op.dst, color_of(op, "color"));
-    if (!op.session.compat)
+    if (!op.session.settings.compat)
         check_choice("pattern", pattern, names);
     else if (pattern != "black")
         op.session.warning("--pattern", "Unknown pattern \"" + pattern + "\"");
@@ -111,8 +112,8 @@ bool draw_pattern(Op& op, const std::string& pattern) {
 
 void run_pattern(Session& session, const Call& call) {
     OIIO::ImageBuf image = blank(session, call, 1);
-    const Token pattern = parse_token("--" + call.argument(0), session.compat);
-    const Call own(call.row(), pattern, {}, session.compat);
+    const Token pattern = parse_token("--" + call.argument(0), session.settings.compat);
+    const Call own(call.row(), pattern, {}, session.settings.compat);
     Op op{session, own, image, {&image}};
     draw_pattern(op, pattern.name);
     push_created(session, std::move(image));
@@ -135,7 +136,7 @@ std::vector<int> positions(const Op& op, size_t least) {
     std::vector<int> all;
     for (float value : op.list(op.call.row().args.front(), op.call.argument(0)))
         all.push_back(static_cast<int>(value));
-    if (all.size() < least || (all.size() % 2 != 0 && !op.session.compat)) {
+    if (all.size() < least || (all.size() % 2 != 0 && !op.session.settings.compat)) {
         throw CommandError("\"" + op.call.argument(0) + "\" has " + std::to_string(all.size()) +
                            " numbers (valid: " + op.call.row().args.front() + ")");
     }
@@ -188,7 +189,7 @@ Align aligned(const Op& op, const std::string& key,
         valid.push_back(name);
         found = op.text(key) == name ? value : found;
     }
-    if (op.call.has(key) && !op.session.compat)
+    if (op.call.has(key) && !op.session.settings.compat)
         check_choice(key, op.text(key), valid);
     return found;
 }
@@ -209,55 +210,60 @@ bool text(Op& op) {
                             op.integer("shadow", 0));
 }
 
-const std::string kColor = "color=VALUES: one value, or one per channel (1)\n";
-const std::string kRamps = kColor + "top=VALUES: colour at the top, to bottom=\n"
-                                    "bottom=VALUES: colour at the bottom\n"
-                                    "left=VALUES: colour at the left, to right=\n"
-                                    "right=VALUES: colour at the right\n"
-                                    "topleft=VALUES: colour of a corner, with the other three\n"
-                                    "topright=VALUES: colour of a corner\n"
-                                    "bottomleft=VALUES: colour of a corner\n"
-                                    "bottomright=VALUES: colour of a corner\n";
+const Modifiers kColor = {{"color", "VALUES", "one value, or one per channel (1)"}};
+const Modifiers kRamps = {{"top", "VALUES", "colour at the top, to bottom="},
+                          {"bottom", "VALUES", "colour at the bottom"},
+                          {"left", "VALUES", "colour at the left, to right="},
+                          {"right", "VALUES", "colour at the right"},
+                          {"topleft", "VALUES", "colour of a corner, with the other three"},
+                          {"topright", "VALUES", "colour of a corner"},
+                          {"bottomleft", "VALUES", "colour of a corner"},
+                          {"bottomright", "VALUES", "colour of a corner"}};
 
-const std::vector<OpRow> kDrawingRows = {
-    {"point X,Y[,X,Y...]", 1, "Draw points", point, kColor},
-    {"line X,Y,X,Y[,X,Y...]", 1, "Draw a line through these points", line, kColor},
-    {"box X1,Y1,X2,Y2", 1, "Draw a box", box, kColor + "fill=0|1: filled"},
-    named("", {"fill GEOM", 1, "Fill a window with a colour or a ramp", fill_window, kRamps}),
-    {"text TEXT", 1, "Draw text", text,
-     kColor + "x=N: position (the middle)\n"
-              "y=N: position (the middle)\n"
-              "size=N: height of the letters (16)\n"
-              "font=NAME: font, a name or a file\n"
-              "xalign=left|right|center: alignment of the text to its position (left)\n"
-              "yalign=base|top|bottom|center: alignment of the text to its position (base)\n"
-              "shadow=N: width of a black outline (0)"},
+const Rows kRows = {
+    command("create GEOM NCHANS", "A black image", run_create)
+        .images(0, 1)
+        .modifier("type", "TYPE", "data type (float)"),
+    command("pattern NAME[:...] GEOM NCHANS",
+            "An image of a pattern: black, constant, fill, checker, noise", run_pattern)
+        .images(0, 1)
+        .modifiers(kColor, kRamps, noise_modifiers())
+        .modifier("width", "N", "width of a checker's squares (8)")
+        .modifier("height", "N", "height of a checker's squares (width)")
+        .modifier("depth", "N", "depth of a checker's squares (width)")
+        .modifier("color1", "VALUES", "first colour of a checker (0)")
+        .modifier("color2", "VALUES", "second colour of a checker (1)"),
+    command("kernel NAME WxH", "A convolution kernel", run_kernel_command)
+        .images(0, 1)
+        .operation("-kernel"),
+    command("capture", "An image from a camera", run_capture)
+        .images(0, 1)
+        .modifier("camera", "N", "which camera (0)"),
+    on_pixels("point X,Y[,X,Y...]", 1, "Draw points", point).modifiers(kColor),
+    on_pixels("line X,Y,X,Y[,X,Y...]", 1, "Draw a line through these points", line)
+        .modifiers(kColor),
+    on_pixels("box X1,Y1,X2,Y2", 1, "Draw a box", box)
+        .modifiers(kColor)
+        .modifier("fill", "0|1", "filled"),
+    on_pixels("fill GEOM", 1, "Fill a window with a colour or a ramp", fill_window)
+        .modifiers(kColor, kRamps)
+        .operation(""),
+    on_pixels("text TEXT", 1, "Draw text", text)
+        .modifiers(kColor)
+        .modifier("x", "N", "position (the middle)")
+        .modifier("y", "N", "position (the middle)")
+        .modifier("size", "N", "height of the letters (16)")
+        .modifier("font", "NAME", "font, a name or a file")
+        .modifier("xalign", "left|right|center", "alignment of the text to its position (left)")
+        .modifier("yalign", "base|top|bottom|center",
+                  "alignment of the text to its position (base)")
+        .modifier("shadow", "N", "width of a black outline (0)"),
 };
 
 } // namespace
 
-std::vector<Command> create_commands() {
-    const std::string pattern = kRamps + noise_modifiers() +
-                                "width=N: width of a checker's squares (8)\n"
-                                "height=N: height of a checker's squares (width)\n"
-                                "depth=N: depth of a checker's squares (width)\n"
-                                "color1=VALUES: first colour of a checker (0)\n"
-                                "color2=VALUES: second colour of a checker (1)";
-    std::vector<Command> all = {
-        free_row(Group::Create, "create GEOM NCHANS", 0, 1, "A black image", run_create,
-                 "type=TYPE: data type (float)"),
-        free_row(Group::Create, "pattern NAME[:...] GEOM NCHANS", 0, 1,
-                 "An image of a pattern: black, constant, fill, checker, noise", run_pattern,
-                 pattern),
-        free_row(Group::Create, "kernel NAME WxH", 0, 1, "A convolution kernel",
-                 run_kernel_command),
-        free_row(Group::Create, "capture", 0, 1, "An image from a camera", run_capture,
-                 "camera=N: which camera (0)"),
-    };
-    for (Command& row : all)
-        row.operation = row.label() == "kernel" ? "-kernel" : "";
-    append(all, op_rows(Group::Create, kDrawingRows));
-    return all;
+Rows create_commands() {
+    return kRows;
 }
 
 } // namespace tonetool::chain

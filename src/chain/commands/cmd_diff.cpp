@@ -8,7 +8,6 @@
 #include <limits>
 #include <ostream>
 
-#include "chain/commands/check_part.h"
 #include "chain/commands/color_input.h"
 #include "chain/commands/commands.h"
 #include "chain/images/unseen_difference.h"
@@ -51,7 +50,7 @@ void print_maximum(Session& session, const OIIO::ImageBuf& a, const OIIO::ImageB
 void print_report(Session& session, const OIIO::ImageBuf& a, const OIIO::ImageBuf& b,
                   const Results& found, bool perceptual) {
     const double pixels = double(std::max(a.spec().image_pixels(), b.spec().image_pixels()));
-    const DiffLimits& limits = session.diff;
+    const DiffLimits& limits = session.settings.diff;
     if (!perceptual) {
         session.out << format("  Mean error = {:g}\n  RMS error = {:g}\n  Peak SNR = {:g}\n",
                               found.meanerror, found.rms_error, found.PSNR);
@@ -91,24 +90,25 @@ sequence::Threshold threshold_of(const Results& found, const DiffLimits& limits,
 }
 
 void record(Session& session, const Results& found, double pixels, Verdict verdict) {
-    if (result_of(session)) {
+    if (session.check.result) {
         sequence::Measurement measured;
-        measured.thresholds = {threshold_of(found, session.diff, pixels, verdict)};
+        measured.thresholds = {threshold_of(found, session.settings.diff, pixels, verdict)};
         measured.quantities = {
             {"mean", found.meanerror}, {"rms", found.rms_error}, {"max", found.maxerror}};
         measured.worst = sequence::Position{found.maxx, found.maxy};
         measured.pixels = static_cast<long long>(pixels);
-        result_of(session)->measurements.push_back(std::move(measured));
+        session.check.result->measurements.push_back(std::move(measured));
     }
 }
 
 // Images that differ in more than their pixels (`unlike`) have no measurement of their own.
 void complete_record(Session& session, const Call& call, size_t before, Verdict verdict,
                      bool unlike) {
-    if (!result_of(session))
+    if (!session.check.result)
         return;
-    auto& all = result_of(session)->measurements;
-    if (all.size() == before || unlike || (verdict == Verdict::Failure && session.all_subimages)) {
+    auto& all = session.check.result->measurements;
+    if (all.size() == before || unlike ||
+        (verdict == Verdict::Failure && session.settings.all_subimages)) {
         all.emplace_back();
         all.back().thresholds = {
             {"differing-images", verdict == Verdict::Failure ? 1.0 : 0.0, false, 0.0, {}}};
@@ -144,28 +144,29 @@ void add(Results& found, const NonfiniteMismatch& unlike) {
 // Once something differs, all that follows is reported.
 void compare_pixels(Session& session, const OIIO::ImageBuf& a, const OIIO::ImageBuf& b,
                     bool perceptual, const std::string& heading, Verdict& worst) {
+    const Settings& settings = session.settings;
     const double pixels = double(std::max(a.spec().image_pixels(), b.spec().image_pixels()));
-    Results found = results_of(a, b, session.diff, perceptual);
-    Verdict verdict = judge(found, session.diff, pixels);
+    Results found = results_of(a, b, settings.diff, perceptual);
+    Verdict verdict = judge(found, settings.diff, pixels);
     // Where oiiotool fails, too, its report is kept.
-    const bool settled = session.compat && verdict == Verdict::Failure;
+    const bool settled = settings.compat && verdict == Verdict::Failure;
     const NonfiniteMismatch unlike = settled ? NonfiniteMismatch{} : find_nonfinite_mismatch(a, b);
     if (unlike.pixels > 0) {
         add(found, unlike);
-        verdict = judge(found, session.diff, pixels);
+        verdict = judge(found, settings.diff, pixels);
     }
-    const auto unseen = perceptual && !session.compat && !a.deep() && !b.deep()
-                            ? unseen_differences(a, b, session.diff.fail.each)
+    const auto unseen = perceptual && !settings.compat && !a.deep() && !b.deep()
+                            ? unseen_differences(a, b, settings.diff.fail.each)
                             : 0;
     Results all = found;
     all.nfail = std::max(found.nfail, unseen);
-    verdict = unseen > 0 ? judge(all, session.diff, pixels) : verdict;
+    verdict = unseen > 0 ? judge(all, settings.diff, pixels) : verdict;
     record(session, all, pixels, verdict);
     worst = std::max(worst, verdict);
-    if (worst != Verdict::Pass || session.verbose) {
+    if (worst != Verdict::Pass || settings.verbose) {
         session.out << heading;
         print_report(session, a, b, found, perceptual);
-        if (unlike.pixels > 0 && !session.compat) {
+        if (unlike.pixels > 0 && !settings.compat) {
             session.print(
                 format("  {} pixel(s) are NaN, Inf or -Inf in one image and not in the other",
                        unlike.pixels));
@@ -179,7 +180,7 @@ void compare_pixels(Session& session, const OIIO::ImageBuf& a, const OIIO::Image
 }
 
 // Of a comparison of images that may have several parts.
-struct Outcome {
+struct Comparison {
     Verdict worst = Verdict::Pass;
     bool unlike = false; ///< they differ in more than their pixels
 
@@ -192,57 +193,57 @@ struct Outcome {
 
 // Without --compat all parts and levels are compared: what nobody looked at does not pass.
 bool compares_all(const Session& session) {
-    return session.all_subimages || !session.compat;
+    return session.settings.all_subimages || !session.settings.compat;
 }
 
 // Levels that only one of the two has are no difference of the pictures, but are not compared.
 int levels_of(Session& session, Part& a, Part& b) {
-    if (session.all_subimages)
+    if (session.settings.all_subimages)
         return a.mip_levels();
-    if (session.compat || a.mip_levels() == b.mip_levels())
-        return session.compat ? 1 : a.mip_levels();
+    if (session.settings.compat || a.mip_levels() == b.mip_levels())
+        return session.settings.compat ? 1 : a.mip_levels();
     session.print(format("Only compared the first MIPmap level (of {} and {}, respectively)",
                          a.mip_levels(), b.mip_levels()));
-    ++session.warnings;
+    ++session.outcome.warnings;
     return 1;
 }
 
 void compare_parts(Session& session, Part& a, Part& b, bool perceptual, const std::string& which,
-                   Outcome& outcome) {
+                   Comparison& compared) {
     const int levels = levels_of(session, a, b);
     for (int level = 0; level < levels; ++level) {
         if (level > 0 && a.mip_levels() != b.mip_levels())
-            return outcome.differ(session, "Files do not match in their number of MIPmap levels");
+            return compared.differ(session, "Files do not match in their number of MIPmap levels");
         const OIIO::ImageSpec& spec = a.header(level);
         const std::string unlike =
-            session.compat ? "" : difference_of_headers(spec, b.header(level));
+            session.settings.compat ? "" : difference_of_headers(spec, b.header(level));
         if (!unlike.empty())
-            return outcome.differ(session, unlike);
+            return compared.differ(session, unlike);
         const std::string heading = format("{} {}: {} x {}, {} channel\n", which,
                                            level > 0 ? format(" MIP level {} ", level) : "",
                                            spec.width, spec.height, spec.nchannels);
         compare_pixels(session, a.pixels(level), b.pixels(level), perceptual,
-                       which.empty() ? "" : heading, outcome.worst);
+                       which.empty() ? "" : heading, compared.worst);
     }
 }
 
-Outcome compare_images(Session& session, const Image& a, const Image& b, bool perceptual) {
+Comparison compare_images(Session& session, const Image& a, const Image& b, bool perceptual) {
     const bool all = compares_all(session);
     const size_t parts = all ? std::min(a.part_count(), b.part_count()) : 1;
-    Outcome outcome;
+    Comparison compared;
     for (size_t s = 0; s < parts; ++s) {
-        const bool named = session.all_subimages || parts > 1;
+        const bool named = session.settings.all_subimages || parts > 1;
         compare_parts(session, a.part(s), b.part(s), perceptual,
-                      named ? format("Subimage {}", s) : "", outcome);
+                      named ? format("Subimage {}", s) : "", compared);
     }
     if (all && a.part_count() != b.part_count()) {
-        outcome.differ(session, format("Images had differing numbers of subimages ({} vs {})",
-                                       a.part_count(), b.part_count()));
+        compared.differ(session, format("Images had differing numbers of subimages ({} vs {})",
+                                        a.part_count(), b.part_count()));
     } else if (a.part_count() > parts || b.part_count() > parts) {
         session.print(format("Only compared the first subimage (of {} and {}, respectively)",
                              a.part_count(), b.part_count()));
     }
-    return outcome;
+    return compared;
 }
 
 // The numbers of the files are compared, whatever their headers say that these mean.
@@ -291,10 +292,10 @@ void run_diff(Session& session, const Call& call) {
     const Image &a = *call.images[0], &b = *call.images[1];
     session.print(format("Computing {}diff of \"{}\" vs \"{}\"", perceptual ? "perceptual " : "",
                          a.name(), b.name()));
-    const size_t before = result_of(session) ? result_of(session)->measurements.size() : 0;
-    session.unused_limit.clear();
-    if (!session.compat) {
-        check_limits(session.diff);
+    const size_t before = session.check.result ? session.check.result->measurements.size() : 0;
+    session.outcome.unused_limit.clear();
+    if (!session.settings.compat) {
+        check_limits(session.settings.diff);
         check_nothing_left_out(a);
         check_nothing_left_out(b);
         if (same_file(a, 0, b, 0)) {
@@ -303,42 +304,40 @@ void run_diff(Session& session, const Call& call) {
         }
         warn_of_unapplied(session, call, a, b);
     }
-    const Outcome outcome = compare_images(session, a, b, perceptual);
-    const Verdict verdict = outcome.worst;
-    complete_record(session, call, before, verdict, outcome.unlike);
+    const Comparison compared = compare_images(session, a, b, perceptual);
+    const Verdict verdict = compared.worst;
+    complete_record(session, call, before, verdict, compared.unlike);
     session.print(verdict == Verdict::Pass      ? "PASS"
                   : verdict == Verdict::Warning ? "WARNING"
                                                 : "FAILURE");
-    session.warnings += verdict == Verdict::Warning ? 1 : 0;
-    session.differs |= verdict == Verdict::Failure;
-    session.produced |= !(perceptual && session.compat);
-    session.push(call.images[0]);
-    session.push(call.images[1]);
+    session.outcome.warnings += verdict == Verdict::Warning ? 1 : 0;
+    session.outcome.differs |= verdict == Verdict::Failure;
+    session.outcome.produced |= !(perceptual && session.settings.compat);
+    session.stack.push(call.images[0]);
+    session.stack.push(call.images[1]);
 }
 
-Command limit_row(const sequence::DiffOption& option) {
-    return setting(
-        Group::Compare, {option.name}, {option.argument}, option.help,
-        [option](Session& session, const Call& call) {
-            (session.diff.*option.limit).*option.number = float(call.number_argument(0, {0, 1e30}));
-            session.unused_limit = call.row().label();
-        });
+Row limit_row(const sequence::DiffOption& option) {
+    const auto set = [option](Session& session, const Call& call) {
+        (session.settings.diff.*option.limit).*option.number =
+            float(call.number_argument(0, {0, 1e30}));
+        session.outcome.unused_limit = call.row().label();
+    };
+    return command(option.name + std::string(" ") + option.argument, option.help, set);
 }
 
 } // namespace
 
-std::vector<Command> diff_commands() {
-    std::vector<Command> rows;
+Rows diff_commands() {
+    Rows rows;
     for (const sequence::DiffOption& option : sequence::kDiffOptions)
         rows.push_back(limit_row(option));
-    for (const char* name : {"diff", "pdiff"}) {
-        const bool perceptual = name[0] == 'p';
-        rows.push_back({{{name}, {}, 2, 2, Group::Compare},
-                        {},
-                        perceptual ? "Report the perceptual difference of two images (Yee)"
-                                   : "Report the difference of two images; status 1 if it fails",
-                        run_diff});
-    }
+    rows.push_back(
+        command("diff", "Report the difference of two images; status 1 if it fails", run_diff)
+            .images(2, 2));
+    rows.push_back(
+        command("pdiff", "Report the perceptual difference of two images (Yee)", run_diff)
+            .images(2, 2));
     return rows;
 }
 

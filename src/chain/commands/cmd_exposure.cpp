@@ -16,7 +16,7 @@ void run_exposure(Session& session, const Call& call) {
     OIIO::ImageBuf result = ToneAlgo::exposure(view, stops, pixel_options(call));
     if (result.has_error())
         throw CommandError(result.geterror());
-    session.push(Image::derived(image, std::move(result)));
+    session.stack.push(Image::derived(image, std::move(result)));
 }
 
 void run_luminance(Session& session, const Call& call) {
@@ -36,21 +36,22 @@ void run_luminance(Session& session, const Call& call) {
     visit_source<LuminanceStats>(fields(lines, stats));
     visit_luminance(fields(lines, stats));
     session.report(lines.text);
-    session.produced = true;
-    session.push(call.images[0]);
+    session.outcome.produced = true;
+    session.stack.push(call.images[0]);
 }
 
 } // namespace
 
-std::vector<Command> exposure_commands() {
-    return {keeping_header(Command{{{"exposure"}, {"STOPS"}, 1, 1, Group::Color},
-                                   pixel_modifiers(),
-                                   "Multiply the colour by 2^STOPS",
-                                   run_exposure}),
-            {{{"luminancestats"}, {}, 1, 1, Group::Measure},
-             pixel_modifiers(),
-             "Print the luminance statistics of the current image",
-             run_luminance}};
+Rows exposure_commands() {
+    return {command("exposure STOPS", "Multiply the colour by 2^STOPS", run_exposure)
+                .images(1, 1)
+                .modifiers(pixel_modifiers())
+                .keeps_header(),
+            command("luminancestats", "Print the luminance statistics of the current image",
+                    run_luminance)
+                .in(Group::Measure)
+                .images(1, 1)
+                .modifiers(pixel_modifiers())};
 }
 
 } // namespace tonetool::chain

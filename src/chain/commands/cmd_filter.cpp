@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Filters: neighbourhoods, kernels, Fourier transforms and repairs.
+#include "chain/commands/commands.h"
 #include "chain/session/ops.h"
 
 namespace tonetool::chain {
@@ -10,7 +11,8 @@ Size asked_size(const Op& op) {
     const std::string& text = op.call.argument(0);
     auto size = parsed_size(text);
     if (!size)
-        throw CommandError("Unknown size " + text + (op.session.compat ? "" : " (valid: WxH)"));
+        throw CommandError("Unknown size " + text +
+                           (op.session.settings.compat ? "" : " (valid: WxH)"));
     return *size;
 }
 
@@ -41,53 +43,50 @@ bool fixnan(Op& op) {
     auto mode = strategy == "black"   ? IBA::NONFINITE_BLACK
                 : strategy == "error" ? IBA::NONFINITE_ERROR
                                       : IBA::NONFINITE_BOX3;
-    if (strategy == "none" && !op.session.compat) {
+    if (strategy == "none" && !op.session.settings.compat) {
         mode = IBA::NONFINITE_NONE;
     } else if (strategy != "black" && strategy != "box3" && strategy != "error") {
         const std::string why = "\"" + strategy +
                                 "\" not recognized. Valid choices: black, box3, "
                                 "error";
-        if (!op.session.compat)
+        if (!op.session.settings.compat)
             throw CommandError(why);
         op.session.warning(op.call.text(), why);
     }
     return IBA::fixNonFinite(op.dst, op.a(), mode);
 }
 
-const std::vector<OpRow> kNeighbourRows = {
-    {"convolve", 2, "Convolve the first image with the second, a kernel",
-     [](Op& op) { return IBA::convolve(op.dst, op.a(), op.b()); }},
-    {"blur WxH", 1, "Blur", blur, "kernel=NAME: kernel (gaussian)"},
-    {"median WxH", 1, "Median of the neighbourhood", windowed<IBA::median_filter>},
-    {"dilate WxH", 1, "Maximum of the neighbourhood", windowed<IBA::dilate>},
-    {"erode WxH", 1, "Minimum of the neighbourhood", windowed<IBA::erode>},
-    {"unsharp", 1, "Sharpen by an unsharp mask", unsharp,
-     "kernel=NAME: kernel of the blur (gaussian)\n"
-     "width=X: its width (3)\n"
-     "contrast=X: strength (1)\n"
-     "threshold=X: leave smaller differences as they are (0)"},
-    {"laplacian", 1, "Laplacian", [](Op& op) { return IBA::laplacian(op.dst, op.a()); }},
-};
-
-const std::vector<OpRow> kOtherRows = {
-    {"fft", 1, "Fourier transform", [](Op& op) { return IBA::fft(op.dst, op.a()); }},
-    {"ifft", 1, "Inverse Fourier transform", [](Op& op) { return IBA::ifft(op.dst, op.a()); }},
-    {"polar", 1, "From real and imaginary to amplitude and phase",
-     [](Op& op) { return IBA::complex_to_polar(op.dst, op.a()); }},
-    {"unpolar", 1, "From amplitude and phase to real and imaginary",
-     [](Op& op) { return IBA::polar_to_complex(op.dst, op.a()); }},
-    named("", {"fixnan STRATEGY", 1, "Replace NaN and infinity: none, black, box3 or error", fixnan,
-               "", Scope::Levels}),
-    named("", {"fillholes", 1, "Fill pixels whose alpha is not 1 from their neighbourhood",
-               [](Op& op) { return IBA::fillholes_pushpull(op.dst, op.a()); }}),
+const Rows kRows = {
+    on_pixels("convolve", 2, "Convolve the first image with the second, a kernel",
+              [](Op& op) { return IBA::convolve(op.dst, op.a(), op.b()); }),
+    on_pixels("blur WxH", 1, "Blur", blur).modifier("kernel", "NAME", "kernel (gaussian)"),
+    on_pixels("median WxH", 1, "Median of the neighbourhood", windowed<IBA::median_filter>),
+    on_pixels("dilate WxH", 1, "Maximum of the neighbourhood", windowed<IBA::dilate>),
+    on_pixels("erode WxH", 1, "Minimum of the neighbourhood", windowed<IBA::erode>),
+    on_pixels("unsharp", 1, "Sharpen by an unsharp mask", unsharp)
+        .modifier("kernel", "NAME", "kernel of the blur (gaussian)")
+        .modifier("width", "X", "its width (3)")
+        .modifier("contrast", "X", "strength (1)")
+        .modifier("threshold", "X", "leave smaller differences as they are (0)"),
+    on_pixels("laplacian", 1, "Laplacian", of_one<IBA::laplacian>),
+    on_pixels("fft", 1, "Fourier transform", of_one<IBA::fft>),
+    on_pixels("ifft", 1, "Inverse Fourier transform", of_one<IBA::ifft>),
+    on_pixels("polar", 1, "From real and imaginary to amplitude and phase",
+              of_one<IBA::complex_to_polar>),
+    on_pixels("unpolar", 1, "From amplitude and phase to real and imaginary",
+              of_one<IBA::polar_to_complex>),
+    on_pixels("fixnan STRATEGY", 1, "Replace NaN and infinity: none, black, box3 or error", fixnan,
+              Scope::Levels)
+        .operation(""),
+    on_pixels("fillholes", 1, "Fill pixels whose alpha is not 1 from their neighbourhood",
+              of_one<IBA::fillholes_pushpull>)
+        .operation(""),
 };
 
 } // namespace
 
-std::vector<Command> filter_commands() {
-    std::vector<Command> all = op_rows(Group::Filter, kNeighbourRows);
-    append(all, op_rows(Group::Filter, kOtherRows));
-    return all;
+Rows filter_commands() {
+    return kRows;
 }
 
 } // namespace tonetool::chain

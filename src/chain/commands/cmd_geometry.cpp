@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Commands that move, cut, turn and resample pixels.
+#include "chain/commands/commands.h"
 #include "chain/session/ops.h"
 #include "imagebuf/pixels/oiio_compat.h"
 
@@ -7,9 +8,12 @@ namespace tonetool::chain {
 
 namespace {
 
-const std::string kFilters = "filter=NAME: reconstruction filter (lanczos3, box, cubic, ...)\n";
-const std::string kHighlights = "highlightcomp=0|1: compress highlights while filtering\n";
-const std::string kRecompute = "recompute_roi=0|1: grow the data window as needed\n";
+const Modifiers kFilters = {
+    {"filter", "NAME", "reconstruction filter (lanczos3, box, cubic, ...)"}};
+const Modifiers kResizing =
+    concatenated({kFilters, {{"highlightcomp", "0|1", "compress highlights while filtering"}}});
+const Modifiers kWarping =
+    concatenated({kResizing, {{"recompute_roi", "0|1", "grow the data window as needed"}}});
 
 // Runs a filter on the image; with highlightcomp= between compressing and expanding its highlights.
 template <class Filter>
@@ -94,7 +98,7 @@ bool pixelaspect(Op& op) {
     const float wanted = op.number(0);
     if (wanted <= 0) {
         throw CommandError("Invalid pixel aspect ratio '" + format_number(wanted) + "'" +
-                           (op.session.compat ? "" : " (valid: above 0)"));
+                           (op.session.settings.compat ? "" : " (valid: above 0)"));
     }
     const OIIO::ImageSpec& spec = op.a().spec();
     const float factor = spec.get_float_attribute("PixelAspectRatio", 1) / wanted;
@@ -116,7 +120,7 @@ bool pixelaspect(Op& op) {
 bool rotate(Op& op) {
     const float angle = op.number(0) * float(M_PI / 180.0);
     const Floats center = op.call.has("center") ? op.list("center", op.text("center")) : Floats();
-    if (!op.session.compat && op.call.has("center") && center.size() != 2)
+    if (!op.session.settings.compat && op.call.has("center") && center.size() != 2)
         throw CommandError("center \"" + op.text("center") + "\" is not a position (valid: X,Y)");
     const std::string filter = op.text("filter");
     const bool recomputed = op.flag("recompute_roi");
@@ -133,7 +137,7 @@ bool warp(Op& op) {
         throw CommandError("expected 9 comma-separated floats to form a 3x3 matrix", "", true);
     const float matrix[3][3] = {{m[0], m[1], m[2]}, {m[3], m[4], m[5]}, {m[6], m[7], m[8]}};
     const std::string wrap = op.text("wrap", "black");
-    if (!op.session.compat)
+    if (!op.session.settings.compat)
         check_choice("wrap", wrap, {"black", "clamp", "periodic", "mirror"});
     return filtered(op, [&](const OIIO::ImageBuf& from) {
         return IBA::warp(op.dst, from, matrix, op.text("filter"), 0, op.flag("recompute_roi"),
@@ -145,9 +149,9 @@ bool cshift(Op& op) {
     const std::string& text = op.call.argument(0);
     int x = 0, y = 0, end = 0;
     bool found = std::sscanf(text.c_str(), "%d%d%n", &x, &y, &end) == 2;
-    if (!found || (!op.session.compat && size_t(end) < text.size())) {
+    if (!found || (!op.session.settings.compat && size_t(end) < text.size())) {
         throw CommandError("Invalid shift offset '" + text + "'" +
-                               (op.session.compat ? "" : " (valid: +X+Y)"),
+                               (op.session.settings.compat ? "" : " (valid: +X+Y)"),
                            "", true);
     }
     return IBA::circular_shift(op.dst, op.a(), x, y);
@@ -163,63 +167,62 @@ bool reorient(Op& op) {
     return op.unchanged || IBA::reorient(op.dst, op.a());
 }
 
-const std::vector<OpRow> kWindowRows = {
-    named("", {"crop GEOM", 1,
-               "Set the data window, cropping or padding (WxH+X+Y or XMIN,YMIN,XMAX,YMAX)", crop}),
-    named("", {"croptofull", 1, "Crop or pad to the display window",
-               [](Op& op) { return crop_to(op, op.a().roi_full()); }}),
-    named("", {"trim", 1, "Crop to the smallest window of pixels that are not 0", trim}),
-    named("", {"cut GEOM", 1, "Cut out a window and move it to the origin", cut}),
-    {"cshift +X+Y", 1, "Shift circularly: pixels that leave at one edge return at the opposite one",
-     cshift},
-};
-
-const std::vector<OpRow> kScaleRows = {
-    named("resample", {"resample GEOM", 1, "Resample (640x480, 640x0, 50%)", resample,
-                       "interp=0|1: bilinear (1) or nearest"}),
-    named("resize", {"resize GEOM", 1, "Resize with a filter (640x480, 640x0, 50%)", resize,
-                     kFilters + kHighlights}),
-    named("",
-          {"fit GEOM", 1, "Resize to fit within a window", fit,
-           kFilters + kHighlights +
-               "pad=0|1: pad to the window\n"
-               "fillmode=letterbox|width|height: the dimension that must fit (letterbox: both)\n"
-               "exact=0|1: fit exactly, not to whole pixels"}),
-    named("resize",
-          {"pixelaspect ASPECT", 1, "Scale up width or height for another pixel aspect ratio",
-           pixelaspect, kFilters + kHighlights}),
-    {"rotate DEGREES", 1, "Rotate clockwise around the middle of the display window", rotate,
-     kFilters + kHighlights + kRecompute + "center=X,Y: centre of the rotation"},
-    {"warp MATRIX", 1, "Warp by a 3x3 matrix of 9 numbers with commas between them", warp,
-     kFilters + kHighlights + kRecompute +
-         "wrap=MODE: pixels beyond the image: black, clamp, periodic, mirror"},
-    {"st_warp", 2, "Warp the first image by the st coordinates in the second", st_warp,
-     kFilters + "chan_s=N: channel of s (0)\n"
-                "chan_t=N: channel of t (1)\n"
-                "flip_s=0|1: s runs from the right\n"
-                "flip_t=0|1: t runs from the bottom"},
-};
-
-const std::vector<OpRow> kTurnRows = {
-    {"rotate90", 1, "Rotate by 90 degrees clockwise",
-     [](Op& op) { return IBA::rotate90(op.dst, op.a()); }},
-    {"rotate180|flipflop", 1, "Rotate by 180 degrees",
-     [](Op& op) { return IBA::rotate180(op.dst, op.a()); }},
-    {"rotate270", 1, "Rotate by 270 degrees clockwise",
-     [](Op& op) { return IBA::rotate270(op.dst, op.a()); }},
-    {"flip", 1, "Mirror top and bottom", [](Op& op) { return IBA::flip(op.dst, op.a()); }},
-    {"flop", 1, "Mirror left and right", [](Op& op) { return IBA::flop(op.dst, op.a()); }},
-    {"transpose", 1, "Swap x and y", [](Op& op) { return IBA::transpose(op.dst, op.a()); }},
-    named("reorient", {"reorient", 1, "Turn the pixels as the Orientation says", reorient}),
+const Rows kRows = {
+    on_pixels("crop GEOM", 1,
+              "Set the data window, cropping or padding (WxH+X+Y or XMIN,YMIN,XMAX,YMAX)", crop)
+        .operation(""),
+    on_pixels("croptofull", 1, "Crop or pad to the display window",
+              [](Op& op) { return crop_to(op, op.a().roi_full()); })
+        .operation(""),
+    on_pixels("trim", 1, "Crop to the smallest window of pixels that are not 0", trim)
+        .operation(""),
+    on_pixels("cut GEOM", 1, "Cut out a window and move it to the origin", cut).operation(""),
+    on_pixels("cshift +X+Y", 1,
+              "Shift circularly: pixels that leave at one edge return at the opposite one", cshift),
+    on_pixels("resample GEOM", 1, "Resample (640x480, 640x0, 50%)", resample)
+        .modifier("interp", "0|1", "bilinear (1) or nearest")
+        .operation("resample"),
+    on_pixels("resize GEOM", 1, "Resize with a filter (640x480, 640x0, 50%)", resize)
+        .modifiers(kResizing)
+        .operation("resize"),
+    on_pixels("fit GEOM", 1, "Resize to fit within a window", fit)
+        .modifiers(kResizing)
+        .modifier("pad", "0|1", "pad to the window")
+        .modifier("fillmode", "letterbox|width|height",
+                  "the dimension that must fit (letterbox: both)")
+        .modifier("exact", "0|1", "fit exactly, not to whole pixels")
+        .operation(""),
+    on_pixels("pixelaspect ASPECT", 1, "Scale up width or height for another pixel aspect ratio",
+              pixelaspect)
+        .modifiers(kResizing)
+        .operation("resize"),
+    on_pixels("rotate DEGREES", 1, "Rotate clockwise around the middle of the display window",
+              rotate)
+        .modifiers(kWarping)
+        .modifier("center", "X,Y", "centre of the rotation"),
+    on_pixels("warp MATRIX", 1, "Warp by a 3x3 matrix of 9 numbers with commas between them", warp)
+        .modifiers(kWarping)
+        .modifier("wrap", "MODE", "pixels beyond the image: black, clamp, periodic, mirror"),
+    on_pixels("st_warp", 2, "Warp the first image by the st coordinates in the second", st_warp)
+        .modifiers(kFilters)
+        .modifier("chan_s", "N", "channel of s (0)")
+        .modifier("chan_t", "N", "channel of t (1)")
+        .modifier("flip_s", "0|1", "s runs from the right")
+        .modifier("flip_t", "0|1", "t runs from the bottom"),
+    on_pixels("rotate90", 1, "Rotate by 90 degrees clockwise", of_one<IBA::rotate90>),
+    on_pixels("rotate180|flipflop", 1, "Rotate by 180 degrees", of_one<IBA::rotate180>),
+    on_pixels("rotate270", 1, "Rotate by 270 degrees clockwise", of_one<IBA::rotate270>),
+    on_pixels("flip", 1, "Mirror top and bottom", of_one<IBA::flip>),
+    on_pixels("flop", 1, "Mirror left and right", of_one<IBA::flop>),
+    on_pixels("transpose", 1, "Swap x and y", of_one<IBA::transpose>),
+    on_pixels("reorient", 1, "Turn the pixels as the Orientation says", reorient)
+        .operation("reorient"),
 };
 
 } // namespace
 
-std::vector<Command> geometry_commands() {
-    std::vector<Command> all = op_rows(Group::Geometry, kWindowRows);
-    append(all, op_rows(Group::Geometry, kScaleRows));
-    append(all, op_rows(Group::Geometry, kTurnRows));
-    return all;
+Rows geometry_commands() {
+    return kRows;
 }
 
 } // namespace tonetool::chain

@@ -4,6 +4,8 @@
 #include "chain/commands/commands.h"
 #include "chain/commands/flip_args.h"
 #include "chain/commands/light_args.h"
+#include "chain/commands/options.h"
+#include "imagebuf/options/tone_options.h"
 #include "text/error.h"
 
 namespace tonetool::chain {
@@ -34,16 +36,16 @@ void run_lightindex(Session& session, const Call& call) {
     session.report(lines.text);
     for (const std::string& warning : found.warnings)
         session.warning(call.row().label(), image.name() + ": " + warning);
-    session.push(Image::computed(image.name(), std::move(result)));
+    session.stack.push(Image::computed(image.name(), std::move(result)));
 }
 
 } // namespace
 
-std::vector<Command> light_commands() {
-    return {{{{"lightindex"}, {}, 1, 1, Group::Channels},
-             concatenated({light_modifiers(), pixel_modifiers()}),
-             "Index of the light group that lights each pixel, -1 for none",
-             run_lightindex}};
+Rows light_commands() {
+    return {command("lightindex", "Index of the light group that lights each pixel, -1 for none",
+                    run_lightindex)
+                .images(1, 1)
+                .modifiers(modifiers_of<LightOptions>(), pixel_modifiers())};
 }
 
 } // namespace tonetool::chain

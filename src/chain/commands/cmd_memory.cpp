@@ -32,19 +32,20 @@ void run_memory(Session& session, const Call& call) {
                            "\": not a size; valid: bytes, or a whole number with K, M or G "
                            "(powers of 1024), above 0: 268435456, 256M, 1G");
     }
-    session.memory = *size / uint64_t(session.parallel);
+    session.settings.memory = *size / uint64_t(session.settings.parallel);
     limit_reader_threads(kThreadsWithinMemory);
     give_memory_back();
 }
 
 } // namespace
 
-std::vector<Command> memory_commands() {
-    return {of_manner(
-        of_process(setting(Group::General, {"memory"}, {"SIZE"},
-                           "Peak memory of the comparisons that follow, 256M or 1G: larger "
-                           "images are read in scanline blocks (half of the computer's memory)",
-                           run_memory)))};
+Rows memory_commands() {
+    return {command("memory SIZE",
+                    "Peak memory of the comparisons that follow, 256M or 1G: larger images are "
+                    "read in scanline blocks (half of the computer's memory)",
+                    run_memory)
+                .of_process()
+                .manner()};
 }
 
 } // namespace tonetool::chain

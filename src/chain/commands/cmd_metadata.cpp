@@ -5,6 +5,7 @@
 #include <array>
 #include <regex>
 
+#include "chain/commands/commands.h"
 #include "chain/images/attributes.h"
 #include "chain/session/ops.h"
 
@@ -17,7 +18,7 @@ using OIIO::ImageSpec;
 void attrib(ImageSpec& spec, const Call& call, Session& session) {
     OIIO::TypeDesc type;
     auto name = call.text("type");
-    if (name && type.fromstring(*name) != name->size() && !session.compat) {
+    if (name && type.fromstring(*name) != name->size() && !session.settings.compat) {
         throw CommandError("type \"" + *name +
                            "\" is no data type (valid: int, float, string, "
                            "float[3], timecode, rational, ...)");
@@ -30,7 +31,7 @@ void erase(ImageSpec& spec, const Call& call, Session& session) {
         std::regex checked(call.argument(0), std::regex_constants::basic);
         spec.erase_attribute(call.argument(0));
     } catch (const std::regex_error& problem) {
-        if (!session.compat) {
+        if (!session.settings.compat) {
             throw CommandError("\"" + call.argument(0) +
                                "\" is no regular expression: " + problem.what());
         }
@@ -43,8 +44,9 @@ void keyword(ImageSpec& spec, const Call& call, Session&) {
 
 void orientation(ImageSpec& spec, const Call& call, Session& session) {
     const std::string& text = call.argument(0);
-    spec.attribute("Orientation", session.compat ? OIIO::Strutil::stoi(text)
-                                                 : checked_integer("ORIENT", text, {1, 8}));
+    spec.attribute("Orientation", session.settings.compat
+                                      ? OIIO::Strutil::stoi(text)
+                                      : checked_integer("ORIENT", text, {1, 8}));
 }
 
 void turn(ImageSpec& spec, const std::array<int, 9>& to) {
@@ -71,7 +73,7 @@ void move_origin(ImageSpec& spec, const Call& call, Session& session, bool by) {
 void chnames(ImageSpec& spec, const Call& call, Session& session) {
     Strings wanted = split(call.argument(0), ',');
     Strings& names = spec.channelnames;
-    if (wanted.size() > names.size() && !session.compat) {
+    if (wanted.size() > names.size() && !session.settings.compat) {
         throw CommandError("\"" + call.argument(0) + "\" names " + std::to_string(wanted.size()) +
                            " channels, the image has " + std::to_string(names.size()));
     }
@@ -83,65 +85,65 @@ void chnames(ImageSpec& spec, const Call& call, Session& session) {
     Strings sorted = names;
     std::sort(sorted.begin(), sorted.end());
     auto twice = std::adjacent_find(sorted.begin(), sorted.end());
-    if (twice != sorted.end() && !session.compat)
+    if (twice != sorted.end() && !session.settings.compat)
         throw CommandError("two channels would be called \"" + *twice + "\"");
 }
 
-const std::vector<HeaderRow> kAttributeRows = {
-    {"attrib NAME VALUE", "Set an attribute, or erase it with an empty value", attrib,
-     "type=TYPE: its data type (what VALUE looks like)"},
-    {"sattrib NAME VALUE", "Set an attribute that is a string",
-     [](ImageSpec& spec, const Call& call, Session&) {
-         set_attribute(spec, call.argument(0), call.argument(1), OIIO::TypeString);
-     }},
-    {"eraseattrib REGEX", "Erase the attributes that match", erase},
-    {"caption TEXT", "Set the caption (ImageDescription)",
-     [](ImageSpec& spec, const Call& call, Session&) {
-         set_attribute(spec, "ImageDescription", call.argument(0), OIIO::TypeString);
-     }},
-    {"keyword KEYWORD", "Add a keyword", keyword},
-    {"clear-keywords", "Erase all keywords",
-     [](ImageSpec& spec, const Call&, Session&) { spec.erase_attribute("Keywords"); }},
-    {"iscolorspace COLORSPACE", "Say what colour space the image is in",
-     [](ImageSpec& spec, const Call& call, Session&) {
-         set_attribute(spec, "oiio:ColorSpace", call.argument(0), OIIO::TypeString);
-     }},
-};
-
-const std::vector<HeaderRow> kWindowRows = {
-    {"orientation ORIENT", "Say how the image is turned (1 to 8)", orientation},
-    {"orientcw|rotcw", "Turn the Orientation by 90 degrees clockwise",
-     [](ImageSpec& spec, const Call&, Session&) {
-         turn(spec, {0, 6, 7, 8, 5, 2, 3, 4, 1});
-     }},
-    {"orientccw|rotccw", "Turn the Orientation by 90 degrees counter-clockwise",
-     [](ImageSpec& spec, const Call&, Session&) {
-         turn(spec, {0, 8, 5, 6, 7, 4, 1, 2, 3});
-     }},
-    {"orient180|rot180", "Turn the Orientation by 180 degrees",
-     [](ImageSpec& spec, const Call&, Session&) {
-         turn(spec, {0, 3, 4, 1, 2, 7, 8, 5, 6});
-     }},
-    {"origin +X+Y", "Set the origin of the data window",
-     [](ImageSpec& spec, const Call& call, Session& session) {
-         move_origin(spec, call, session, false);
-     }},
-    {"originoffset +X+Y", "Move the origin of the data window",
-     [](ImageSpec& spec, const Call& call, Session& session) {
-         move_origin(spec, call, session, true);
-     }},
-    {"fullsize GEOM", "Set the display window", fullsize},
-    {"fullpixels", "Make the data window the display window",
-     [](ImageSpec& spec, const Call&, Session&) { spec.set_roi_full(spec.roi()); }},
-    {"chnames NAMELIST", "Rename the channels (an empty name stays as it is)", chnames},
+const Rows kRows = {
+    on_headers("attrib NAME VALUE", "Set an attribute, or erase it with an empty value", attrib)
+        .modifier("type", "TYPE", "its data type (what VALUE looks like)")
+        .keeps_header(),
+    on_headers("sattrib NAME VALUE", "Set an attribute that is a string",
+               [](ImageSpec& spec, const Call& call, Session&) {
+                   set_attribute(spec, call.argument(0), call.argument(1), OIIO::TypeString);
+               })
+        .keeps_header(),
+    on_headers("eraseattrib REGEX", "Erase the attributes that match", erase).keeps_header(),
+    on_headers("caption TEXT", "Set the caption (ImageDescription)",
+               [](ImageSpec& spec, const Call& call, Session&) {
+                   set_attribute(spec, "ImageDescription", call.argument(0), OIIO::TypeString);
+               })
+        .keeps_header(),
+    on_headers("keyword KEYWORD", "Add a keyword", keyword).keeps_header(),
+    on_headers("clear-keywords", "Erase all keywords",
+               [](ImageSpec& spec, const Call&, Session&) { spec.erase_attribute("Keywords"); })
+        .keeps_header(),
+    on_headers("iscolorspace COLORSPACE", "Say what colour space the image is in",
+               [](ImageSpec& spec, const Call& call, Session&) {
+                   set_attribute(spec, "oiio:ColorSpace", call.argument(0), OIIO::TypeString);
+               })
+        .keeps_header(),
+    on_headers("orientation ORIENT", "Say how the image is turned (1 to 8)", orientation),
+    on_headers("orientcw|rotcw", "Turn the Orientation by 90 degrees clockwise",
+               [](ImageSpec& spec, const Call&, Session&) {
+                   turn(spec, {0, 6, 7, 8, 5, 2, 3, 4, 1});
+               }),
+    on_headers("orientccw|rotccw", "Turn the Orientation by 90 degrees counter-clockwise",
+               [](ImageSpec& spec, const Call&, Session&) {
+                   turn(spec, {0, 8, 5, 6, 7, 4, 1, 2, 3});
+               }),
+    on_headers("orient180|rot180", "Turn the Orientation by 180 degrees",
+               [](ImageSpec& spec, const Call&, Session&) {
+                   turn(spec, {0, 3, 4, 1, 2, 7, 8, 5, 6});
+               }),
+    on_headers("origin +X+Y", "Set the origin of the data window",
+               [](ImageSpec& spec, const Call& call, Session& session) {
+                   move_origin(spec, call, session, false);
+               }),
+    on_headers("originoffset +X+Y", "Move the origin of the data window",
+               [](ImageSpec& spec, const Call& call, Session& session) {
+                   move_origin(spec, call, session, true);
+               }),
+    on_headers("fullsize GEOM", "Set the display window", fullsize),
+    on_headers("fullpixels", "Make the data window the display window",
+               [](ImageSpec& spec, const Call&, Session&) { spec.set_roi_full(spec.roi()); }),
+    on_headers("chnames NAMELIST", "Rename the channels (an empty name stays as it is)", chnames),
 };
 
 } // namespace
 
-std::vector<Command> metadata_commands() {
-    std::vector<Command> all = keeping_headers(header_rows(Group::Metadata, kAttributeRows));
-    append(all, header_rows(Group::Metadata, kWindowRows));
-    return all;
+Rows metadata_commands() {
+    return kRows;
 }
 
 } // namespace tonetool::chain

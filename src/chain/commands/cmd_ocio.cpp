@@ -3,6 +3,7 @@
 #include <Imath/ImathMatrix.h>
 #include <OpenImageIO/color.h>
 
+#include "chain/commands/commands.h"
 #include "chain/images/attributes.h"
 #include "chain/session/ops.h"
 #include "imagebuf/pixels/oiio_compat.h"
@@ -21,7 +22,7 @@ std::string space_of(const Op& op, const std::string& name) {
 
 // The source's profile and gamma do not describe the converted pixels. oiiotool keeps them.
 bool converted(Op& op, bool done) {
-    if (done && !op.session.compat)
+    if (done && !op.session.settings.compat)
         drop_profile(op.dst.specmod());
     return done;
 }
@@ -55,7 +56,7 @@ void check_view(Session& session, const std::string& display, const std::string&
 bool display(Op& op) {
     const std::string& name = op.call.argument(0);
     const std::string& view = op.call.argument(1);
-    if (!op.session.compat)
+    if (!op.session.settings.compat)
         check_view(op.session, name, view);
     if (op.call.has("looks") && !oiio::kDisplayTakesLooks) {
         op.session.warning(op.call.text(),
@@ -79,7 +80,7 @@ bool matrix(Op& op) {
     if (op.flag("transpose"))
         matrix.transpose();
     if (op.flag("invert") || op.flag("inverse")) {
-        if (matrix.determinant() == 0 && !op.session.compat)
+        if (matrix.determinant() == 0 && !op.session.settings.compat)
             throw CommandError("\"" + op.call.argument(0) + "\" has no inverse matrix");
         matrix.invert();
     }
@@ -91,57 +92,66 @@ void read_profile(OIIO::ImageSpec& spec, const Call& call, Session&) {
 }
 
 void write_profile(Session& session, const Call& call) {
-    session.push(call.images.front());
-    if (session.compat || !session.dry_run)
+    session.stack.push(call.images.front());
+    if (session.settings.compat || !session.settings.dry_run)
         write_icc_profile(call.images.front()->part().header(), call.argument(0));
-    session.produced = true;
+    session.outcome.produced = true;
 }
 
-const std::string kAlpha = "unpremult=0|1: unpremultiply before, premultiply after\n";
-const std::string kContext = "key=NAME: key of the configuration's context\n"
-                             "value=NAME: its value\n" +
-                             kAlpha;
-const std::string kLenient = "strict=0|1: 0: a space that is not there is only a warning";
+const Modifiers kAlpha = {{"unpremult", "0|1", "unpremultiply before, premultiply after"}};
+const Modifiers kContext = concatenated(
+    {{{"key", "NAME", "key of the configuration's context"}, {"value", "NAME", "its value"}},
+     kAlpha});
+const Modifiers kConversion =
+    concatenated({kContext, {{"strict", "0|1", "0: a space that is not there is only a warning"}}});
 
-const std::vector<OpRow> kRows = {
-    named("colorconvert",
-          {"tocolorspace COLORSPACE", 1, "Convert from the image's colour space to another",
-           [](Op& op) { return convert(op, "", op.call.argument(0)); }, kContext + kLenient}),
-    keeping_header(
-        named("colorconvert",
-              {"colorconvert SRC DST", 1, "Convert from one colour space to another",
-               [](Op& op) { return convert(op, op.call.argument(0), op.call.argument(1)); },
-               kContext + kLenient})),
-    keeping_header(OpRow{"ociolook LOOK", 1, "Apply a look", look,
-                         kContext + "from=COLORSPACE: of the image (the one that it is in)\n"
-                                    "to=COLORSPACE: of the result (the one that the image is in)\n"
-                                    "inverse=0|1: undo the look"}),
-    keeping_header(OpRow{"ociodisplay DISPLAY VIEW", 1, "Show as a view of a display does", display,
-                         kContext + "from=COLORSPACE: of the image (the one that it is in)\n"
-                                    "looks=NAMES: instead of those of the view"}),
-    {"ociofiletransform FILENAME", 1, "Apply the transform of a file (a LUT)",
-     [](Op& op) {
-         return converted(op, IBA::ociofiletransform(op.dst, op.a(), op.call.argument(0),
-                                                     op.flag("unpremult"), op.flag("inverse"),
-                                                     &color_config(op.session)));
-     },
-     kAlpha + "inverse=0|1: undo the transform"},
-    keeping_header(OpRow{"ccmatrix MATRIXVALS", 1,
-                         "Multiply the colour by a matrix of 9 or 16 numbers", matrix,
-                         kAlpha + "transpose=0|1: the numbers go down the columns\n"
-                                  "invert=0|1: by the inverse of the matrix\n"
-                                  "inverse=0|1: the same"}),
+const Rows kRows = {
+    on_pixels("tocolorspace COLORSPACE", 1, "Convert from the image's colour space to another",
+              [](Op& op) { return convert(op, "", op.call.argument(0)); })
+        .modifiers(kConversion)
+        .operation("colorconvert"),
+    on_pixels("colorconvert SRC DST", 1, "Convert from one colour space to another",
+              [](Op& op) { return convert(op, op.call.argument(0), op.call.argument(1)); })
+        .modifiers(kConversion)
+        .operation("colorconvert")
+        .keeps_header(),
+    on_pixels("ociolook LOOK", 1, "Apply a look", look)
+        .modifiers(kContext)
+        .modifier("from", "COLORSPACE", "of the image (the one that it is in)")
+        .modifier("to", "COLORSPACE", "of the result (the one that the image is in)")
+        .modifier("inverse", "0|1", "undo the look")
+        .keeps_header(),
+    on_pixels("ociodisplay DISPLAY VIEW", 1, "Show as a view of a display does", display)
+        .modifiers(kContext)
+        .modifier("from", "COLORSPACE", "of the image (the one that it is in)")
+        .modifier("looks", "NAMES", "instead of those of the view")
+        .keeps_header(),
+    on_pixels("ociofiletransform FILENAME", 1, "Apply the transform of a file (a LUT)",
+              [](Op& op) {
+                  return converted(op,
+                                   IBA::ociofiletransform(op.dst, op.a(), op.call.argument(0),
+                                                          op.flag("unpremult"), op.flag("inverse"),
+                                                          &color_config(op.session)));
+              })
+        .modifiers(kAlpha)
+        .modifier("inverse", "0|1", "undo the transform"),
+    on_pixels("ccmatrix MATRIXVALS", 1, "Multiply the colour by a matrix of 9 or 16 numbers",
+              matrix)
+        .modifiers(kAlpha)
+        .modifier("transpose", "0|1", "the numbers go down the columns")
+        .modifier("invert", "0|1", "by the inverse of the matrix")
+        .modifier("inverse", "0|1", "the same")
+        .keeps_header(),
+    on_headers("iccread FILENAME", "Take the ICC profile from a file", read_profile),
+    command("iccwrite FILENAME", "Write the ICC profile to a file", write_profile)
+        .in(Group::Write)
+        .images(1, 1),
 };
 
 } // namespace
 
-std::vector<Command> ocio_commands() {
-    std::vector<Command> all = op_rows(Group::Color, kRows);
-    append(all, header_rows(Group::Color, {{"iccread FILENAME", "Take the ICC profile from a file",
-                                            read_profile}}));
-    all.push_back(free_row(Group::Write, "iccwrite FILENAME", 1, 1,
-                           "Write the ICC profile to a file", write_profile));
-    return all;
+Rows ocio_commands() {
+    return kRows;
 }
 
 } // namespace tonetool::chain

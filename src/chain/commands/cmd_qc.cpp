@@ -2,7 +2,6 @@
 // --qc: the faults of an image that are found without a reference.
 #include <algorithm>
 
-#include "chain/commands/check_part.h"
 #include "chain/commands/color_input.h"
 #include "chain/commands/commands.h"
 #include "chain/commands/flip_args.h"
@@ -52,12 +51,12 @@ bool has_picture(const QcFacts& facts) {
 
 // Draws the image, and enlarged the pixels that have a fault or may turn out to have one.
 void show_faults(Session& session, const Call& call, const sequence::QcRecord& record) {
-    if (!painter_of(session) || !has_picture(record.facts))
+    if (!session.check.painter || !has_picture(record.facts))
         return;
-    const sequence::FrameResult before = *result_of(session);
-    result_of(session)->faults = sequence::picture_faults(record);
+    const sequence::FrameResult before = *session.check.result;
+    session.check.result->faults = sequence::picture_faults(record);
     sequence::PictureRequest request;
-    for (const sequence::Fault& fault : result_of(session)->faults)
+    for (const sequence::Fault& fault : session.check.result->faults)
         if (fault.position)
             request.spots.push_back(*fault.position);
     for (const QcSpot& spike : record.facts.picture.spikes)
@@ -66,15 +65,15 @@ void show_faults(Session& session, const Call& call, const sequence::QcRecord& r
     const OIIO::ImageBuf picture = shown_input(session, call, *call.images[0], request.look.pixels);
     request.test = &picture;
     show(session, call, std::move(request));
-    *result_of(session) = before;
+    *session.check.result = before;
 }
 
 void run_qc(Session& session, const Call& call) {
     const Image& image = *call.images[0];
     sequence::QcRecord record{{}, limits_of(call)};
-    session.push(call.images[0]);
-    session.produced = true;
-    if (!result_of(session))
+    session.stack.push(call.images[0]);
+    session.outcome.produced = true;
+    if (!session.check.result)
         return; // this run only measures the exposures of the shot
     std::vector<OIIO::ImageBuf> parts;
     std::vector<const OIIO::ImageBuf*> pointers;
@@ -89,14 +88,14 @@ void run_qc(Session& session, const Call& call) {
     if (!ToneAlgo::qc_facts(record.facts, pointers, why, options))
         throw CommandError("\"" + image.name() + "\": " + why);
     take_types(image, record.facts);
-    if (has_picture(record.facts) && !painter_of(session)) // which reads the image itself
+    if (has_picture(record.facts) && !session.check.painter) // which reads the image itself
         tell_encoding(session, call, image, image.part().header(), options.pixels);
-    result_of(session)->qc = sequence::to_json(record);
+    session.check.result->qc = sequence::to_json(record);
     show_faults(session, call, record);
 }
 
-std::vector<Modifier> modifiers() {
-    std::vector<Modifier> all = pixel_modifiers();
+Modifiers modifiers() {
+    Modifiers all = pixel_modifiers();
     all.push_back({"groups", "NAME,...", "light groups that must add up to the beauty (all)"});
     for (const sequence::QcRule& rule : sequence::qc_rules()) {
         std::string usual = severity_name(rule.severity);
@@ -111,12 +110,13 @@ std::vector<Modifier> modifiers() {
 
 } // namespace
 
-std::vector<Command> qc_commands() {
-    return {
-        {{{"qc"}, {}, 1, 1, Group::Measure},
-         modifiers(),
-         "Look for faults of single images and of the shot; severities: off, info, warning, error",
-         run_qc}};
+Rows qc_commands() {
+    return {command("qc",
+                    "Look for faults of single images and of the shot; severities: off, info, "
+                    "warning, error",
+                    run_qc)
+                .images(1, 1)
+                .modifiers(modifiers())};
 }
 
 } // namespace tonetool::chain

@@ -2,9 +2,9 @@
 // Commands that write textures.
 #include <OpenImageIO/imagebufalgo.h>
 
+#include "chain/commands/commands.h"
 #include "chain/session/io.h"
 #include "chain/session/ops.h"
-#include "text/error.h"
 #include "tonetool/texture.h"
 
 namespace tonetool::chain {
@@ -66,12 +66,12 @@ void add_setting(OIIO::ImageSpec& config, const Call& call, const Setting& setti
 
 void set_tiles(OIIO::ImageSpec& config, Session& session, const Call& call,
                const OutputSettings& output) {
-    const bool ignored = session.compat && call.text("tile");
+    const bool ignored = session.settings.compat && call.text("tile");
     if (ignored) {
         session.warning(call.text(),
                         "tile= has no effect on textures, as in oiiotool (--tile has)");
     }
-    const OutputSettings& asked = ignored ? session.output : output;
+    const OutputSettings& asked = ignored ? session.settings.output : output;
     config.tile_width = asked.tile_width > 0 ? asked.tile_width : 64;
     config.tile_height = asked.tile_width > 0 ? asked.tile_height : 64;
     config.tile_depth = 1;
@@ -95,7 +95,7 @@ OIIO::ImageSpec texture_config(Session& session, const Call& call, const Image& 
     for (const Setting& setting : settings_of_textures())
         add_setting(config, call, setting);
     const auto fov = call.number("fovcot", kAnyNumberAtAll);
-    if (fov && session.compat)
+    if (fov && session.settings.compat)
         session.warning(call.text(), "fovcot= has no effect, as in oiiotool");
     else if (fov)
         config.attribute("fovcot", float(*fov));
@@ -103,11 +103,12 @@ OIIO::ImageSpec texture_config(Session& session, const Call& call, const Image& 
     config.attribute("wrapmodes",
                      call.text("swrap").value_or(wrap) + "," + call.text("twrap").value_or(wrap));
     config.attribute("maketx:bumpformat", call.text("bumpformat").value_or("auto"));
-    config.attribute("maketx:colorconfig", session.color_config);
+    config.attribute("maketx:colorconfig", session.settings.color_config);
     set_tiles(config, session, call, output);
     set_layout(config, output);
-    config.set_format(output.type ? output.type->type
-                                  : session.types.of(image.part(), session.compat).type);
+    config.set_format(output.type
+                          ? output.type->type
+                          : session.stack.types.of(image.part(), session.settings.compat).type);
     if (output.history) {
         // Readers trust the average colour and the hash in the header only from a program of this
         // name.
@@ -128,8 +129,8 @@ void save_texture(Session& session, const Call& call, const Image& image,
     std::string why;
     OIIO::ImageBuf cropped;
     const OIIO::ImageBuf& pixels =
-        texture_pixels(image.part().pixels(), filename, settings, session.compat, cropped);
-    session.keep_pixels_of(filename);
+        texture_pixels(image.part().pixels(), filename, settings, session.settings.compat, cropped);
+    session.stack.keep_pixels_of(filename);
     if (!write_texture(mode, pixels, filename, texture_config(session, call, image, settings), why))
         throw CommandError("Could not make texture: " + why, call.text());
 }
@@ -139,42 +140,50 @@ void run_texture(Session& session, const Call& call) {
     write_to_files(session, call, save_texture);
 }
 
+Modifiers texture_modifiers() {
+    return {{"wrap", "MODE", "black, clamp, periodic, mirror"},
+            {"swrap", "MODE", "wrap mode in x"},
+            {"twrap", "MODE", "wrap mode in y"},
+            {"resize", "0|1", "resize to a power of 2"},
+            {"nomipmap", "0|1", "write the top level only"},
+            {"updatemode", "0|1", "write only if the texture would change"},
+            {"constant_color_detect", "0|1", "write one tile if all pixels are the same"},
+            {"monochrome_detect", "0|1", "write one channel if all are the same"},
+            {"opaque_detect", "0|1", "leave out an alpha that is 1 everywhere"},
+            {"incolorspace", "NAME", "colour space of the image"},
+            {"outcolorspace", "NAME", "colour space of the texture"},
+            {"highlightcomp", "0|1", "soften highlights before filtering"},
+            {"hicomp", "0|1", "the same"},
+            {"sharpen", "X", "sharpen each level"},
+            {"filter", "NAME", "filter of the MIP levels"},
+            {"filtername", "NAME", "the same"},
+            {"prman_options", "0|1", "settings of RenderMan"},
+            {"prman", "0|1", "the same"},
+            {"prman_metadata", "0|1", "metadata of RenderMan"},
+            {"oiio_options", "0|1", "settings of OpenImageIO"},
+            {"oiio", "0|1", "the same"},
+            {"compute_average", "0|1", "metadata of the average colour (1)"},
+            {"handed", "left|right|none", "handedness of a displacement or normal map"},
+            {"cdf", "0|1", "store the distribution of values in the metadata"},
+            {"cdfbits", "N", "size of the distribution (8)"},
+            {"cdfsigma", "X", "its deviation (1/6)"},
+            {"fovcot", "X", "field of view"},
+            {"bumpformat", "height|normal|auto", "content of a bump map"},
+            {"uvslopes_scale", "X", "scale of its slopes"}};
+}
+
+Row texture_row(const char* usage, const char* help) {
+    return command(usage, help, run_texture)
+        .images(0, kAnyNumber)
+        .modifiers(output_modifiers(), texture_modifiers());
+}
+
 } // namespace
 
-std::vector<Command> texture_commands() {
-    const std::string options =
-        output_modifiers() +
-        "wrap=MODE: black, clamp, periodic, mirror\nswrap=MODE: wrap mode in x\ntwrap=MODE: wrap "
-        "mode in y\n"
-        "resize=0|1: resize to a power of 2\nnomipmap=0|1: write the top level only\n"
-        "updatemode=0|1: write only if the texture would change\n"
-        "constant_color_detect=0|1: write one tile if all pixels are the same\n"
-        "monochrome_detect=0|1: write one channel if all are the same\n"
-        "opaque_detect=0|1: leave out an alpha that is 1 everywhere\n"
-        "incolorspace=NAME: colour space of the image\noutcolorspace=NAME: colour space of the "
-        "texture\n"
-        "highlightcomp=0|1: soften highlights before filtering\nhicomp=0|1: the same\n"
-        "sharpen=X: sharpen each level\nfilter=NAME: filter of the MIP levels\nfiltername=NAME: "
-        "the same\n"
-        "prman_options=0|1: settings of RenderMan\nprman=0|1: the same\n"
-        "prman_metadata=0|1: metadata of RenderMan\n"
-        "oiio_options=0|1: settings of OpenImageIO\noiio=0|1: the same\n"
-        "compute_average=0|1: metadata of the average colour (1)\n"
-        "handed=left|right|none: handedness of a displacement or normal map\n"
-        "cdf=0|1: store the distribution of values in the metadata\n"
-        "cdfbits=N: size of the distribution (8)\ncdfsigma=X: its deviation (1/6)\nfovcot=X: field "
-        "of view\n"
-        "bumpformat=height|normal|auto: content of a bump map\nuvslopes_scale=X: scale of its "
-        "slopes";
-    std::vector<Command> rows;
-    for (const char* usage : {"otex FILENAME", "oenv FILENAME", "obump FILENAME"}) {
-        rows.push_back(free_row(Group::Write, usage, 0, kAnyNumber,
-                                usage[1] == 't'   ? "Write the current image as a texture"
-                                : usage[1] == 'e' ? "Write it as an environment map"
-                                                  : "Write a bump map with its slopes",
-                                run_texture, options));
-    }
-    return rows;
+Rows texture_commands() {
+    return {texture_row("otex FILENAME", "Write the current image as a texture"),
+            texture_row("oenv FILENAME", "Write it as an environment map"),
+            texture_row("obump FILENAME", "Write a bump map with its slopes")};
 }
 
 } // namespace tonetool::chain

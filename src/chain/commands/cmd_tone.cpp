@@ -35,7 +35,7 @@ void run_calibrate(Session& session, const Call& call) {
     Lines lines(call.row().label());
     add_calibration(lines, found);
     session.report(lines.text);
-    session.push(Image::derived(image, std::move(result)));
+    session.stack.push(Image::derived(image, std::move(result)));
 }
 
 TonemapOptions tonemap_options(const Session& session, const Call& call) {
@@ -72,7 +72,7 @@ void run_tonemap(Session& session, const Call& call) {
     session.report(lines.text);
     for (const std::string& warning : found.warnings)
         session.warning(label, image.name() + ": " + warning);
-    session.push(Image::derived(image, std::move(result)));
+    session.stack.push(Image::derived(image, std::move(result)));
 }
 
 void print_curve(Session& session, const ToneCurveInfo& curve) {
@@ -120,7 +120,7 @@ void run_tonecurves(Session& session, const Call& call) {
     else
         for (const ToneCurveInfo& curve : ToneAlgo::tone_curves())
             print_curve(session, curve);
-    session.produced = true;
+    session.outcome.produced = true;
 }
 
 LutOptions lut_options(const Session& session, const Call& call) {
@@ -138,8 +138,8 @@ void run_exportlut(Session& session, const Call& call) {
     LutSummary made;
     std::string why;
     const auto options = lut_options(session, call);
-    session.produced = true;
-    if (session.dry_run)
+    session.outcome.produced = true;
+    if (session.settings.dry_run)
         return;
     if (!ToneAlgo::export_lut(call.argument(0), options, &made, why))
         throw CommandError(why);
@@ -153,52 +153,44 @@ void run_exportlut(Session& session, const Call& call) {
     session.report(lines.text);
 }
 
-std::vector<Modifier> exportlut_modifiers() {
+// What a curve or a view is, for --tonemap and --exportlut.
+Modifiers display_modifiers(bool measured) {
     return concatenated(
         {{{"curve", "NAME", "tone curve (aces): " + join(ToneAlgo::tone_curve_names(), ", ")}},
-         curve_modifiers(false),
-         view_modifiers(),
-         modifiers_of<LutOptions>()});
+         curve_modifiers(measured),
+         view_modifiers()});
 }
 
-std::vector<Modifier> method_modifier(const std::string& otherwise) {
-    return {{"method", "manual|mean|auto",
-             "exposure: stops alone, from the geometric mean, with a key from the mean (" +
-                 otherwise + ")"}};
-}
-
-std::vector<Modifier> tonemap_modifiers() {
-    return concatenated(
-        {{{"curve", "NAME", "tone curve (aces): " + join(ToneAlgo::tone_curve_names(), ", ")}},
-         curve_modifiers(true),
-         view_modifiers(),
-         method_modifier("manual"),
-         calibration_modifiers(),
-         modifiers_of<TonemapOptions>(),
-         pixel_modifiers()});
+// How an exposure is measured.
+Modifiers method_modifiers() {
+    return concatenated({{{"method", "manual|mean|auto",
+                           "exposure: stops alone, from the geometric mean, with a key from the "
+                           "mean (manual)"}},
+                         modifiers_of<CalibrationOptions>()});
 }
 
 } // namespace
 
-std::vector<Command> tone_commands() {
+Rows tone_commands() {
     return {
-        keeping_header(Command{
-            {{"calibrate"}, {}, 1, 1, Group::Color},
-            concatenated({method_modifier("manual"), calibration_modifiers(), pixel_modifiers()}),
-            "Multiply the colour by an exposure that is measured",
-            run_calibrate}),
-        keeping_header(Command{{{"tonemap"}, {}, 1, 1, Group::Color},
-                               tonemap_modifiers(),
-                               "HDR to a display, by a tone curve or an OpenColorIO view",
-                               run_tonemap}),
-        {{{"exportlut"}, {"FILE"}, 0, 0, Group::Write},
-         exportlut_modifiers(),
-         "Write a tone curve or a view as ." + join(ToneAlgo::lut_formats(), ", ."),
-         run_exportlut},
-        {{{"tonecurves"}, {}, 0, 0, Group::Print},
-         {{"table", "0|1", "as numbers: stops, and the light of each curve (0)"}},
-         "Print all tone curves: parameters, formulas, sources",
-         run_tonecurves},
+        command("calibrate", "Multiply the colour by an exposure that is measured", run_calibrate)
+            .images(1, 1)
+            .modifiers(method_modifiers(), pixel_modifiers())
+            .keeps_header(),
+        command("tonemap", "HDR to a display, by a tone curve or an OpenColorIO view", run_tonemap)
+            .images(1, 1)
+            .modifiers(display_modifiers(true), method_modifiers(), modifiers_of<TonemapOptions>(),
+                       pixel_modifiers())
+            .keeps_header(),
+        command("exportlut FILE",
+                "Write a tone curve or a view as ." + join(ToneAlgo::lut_formats(), ", ."),
+                run_exportlut)
+            .in(Group::Write)
+            .modifiers(display_modifiers(false), modifiers_of<LutOptions>()),
+        command("tonecurves", "Print all tone curves: parameters, formulas, sources",
+                run_tonecurves)
+            .in(Group::Print)
+            .modifier("table", "0|1", "as numbers: stops, and the light of each curve (0)"),
     };
 }
 

@@ -5,17 +5,17 @@
 #include <algorithm>
 #include <map>
 
+#include "chain/commands/commands.h"
 #include "chain/session/execute.h"
 #include "chain/session/io.h"
 #include "chain/session/ops.h"
 #include "imagebuf/pixels/oiio_compat.h"
-#include "text/error.h"
 
 namespace tonetool::chain {
 
 void check_outputs(const Session& session) {
-    for (const auto& [name, type] : session.output.type_of_channel) {
-        if (session.matched_channels.count(name) == 0) {
+    for (const auto& [name, type] : session.settings.output.type_of_channel) {
+        if (session.outcome.matched_channels.count(name) == 0) {
             throw CommandError("-d " + name + "=...: no image written after it has a channel \"" +
                                name + "\"");
         }
@@ -27,20 +27,20 @@ namespace {
 // oiiotool accepts fewer types here than with -d, and ignores unknown ones without a message.
 void take_named_type(Session& session, const Call& call, const std::string& name,
                      OutputSettings& settings) {
-    if (session.compat && OIIO::TypeDesc(name).basetype == OIIO::TypeDesc::UNKNOWN) {
+    if (session.settings.compat && OIIO::TypeDesc(name).basetype == OIIO::TypeDesc::UNKNOWN) {
         session.warning(call.text(), "\"" + name + "\" has no effect here, as in oiiotool");
         return;
     }
-    settings.type = parse_data_type(name, session.compat);
+    settings.type = parse_data_type(name, session.settings.compat);
     settings.type_of_channel.clear();
 }
 
 OutputSettings settings_of(Session& session, const Call& call) {
-    OutputSettings settings = session.output;
+    OutputSettings settings = session.settings.output;
     if (auto name = call.has("type") ? call.text("type") : call.text("datatype"))
         take_named_type(session, call, *name, settings);
     if (auto bits = call.integer("bits", {1, 32})) {
-        if (!settings.type && !session.compat)
+        if (!settings.type && !session.settings.compat)
             settings.type = NamedType{OIIO::TypeUInt16, 0};
         else if (!settings.type)
             session.warning(call.text(), "bits= has no effect without datatype=, as in oiiotool");
@@ -48,7 +48,7 @@ OutputSettings settings_of(Session& session, const Call& call) {
             settings.type->bits = *bits;
     }
     const auto compression = call.text("compression");
-    if (compression && session.compat) {
+    if (compression && session.settings.compat) {
         session.warning(call.text(),
                         "compression= has no effect, as in oiiotool (--compression has)");
     } else if (compression) {
@@ -73,7 +73,7 @@ void take_type_of(const std::string& space, Session& session, const Call& call,
                   const std::string& filename, OutputSettings& settings) {
     int bits = 0;
     const auto implied = color_config(session).getColorSpaceDataType(space, &bits);
-    const auto& asked = session.output.type;
+    const auto& asked = session.settings.output.type;
     if (implied.basetype == OIIO::TypeDesc::UNKNOWN)
         return;
     if (asked && asked->type != implied) {
@@ -109,29 +109,31 @@ bool keeps_alpha(const std::string& filename, const OutputSettings& settings) {
 void convert_output(Session& session, const Call& call, const std::string& filename,
                     OutputSettings& settings) {
     const std::string linear = linear_space(session);
-    const Part& part = session.stack.back()->part();
+    const Part& part = session.stack.top()->part();
     std::string space = color_config(session).getColorSpaceFromFilepath(filename);
-    if (session.compat && !space.empty())
+    if (session.settings.compat && !space.empty())
         take_type_of(space, session, call, filename, settings);
     if (space.empty())
         space = space_of_format(filename);
     if (!space.empty()) {
-        convert_current(
-            session, part.header().get_string_attribute("oiio:ColorSpace", linear), space,
-            call.flag("unpremult", session.autocc_unpremult) && keeps_alpha(filename, settings),
-            true);
+        convert_current(session, part.header().get_string_attribute("oiio:ColorSpace", linear),
+                        space,
+                        call.flag("unpremult", session.settings.autocc_unpremult) &&
+                            keeps_alpha(filename, settings),
+                        true);
     }
 }
 
 bool keeps_old(Session& session, const Call& call, const std::string& filename) {
-    if (session.no_clobber && OIIO::Filesystem::exists(filename)) {
+    if (session.settings.no_clobber && OIIO::Filesystem::exists(filename)) {
         session.warning("-" + call.row().names.front(),
                         filename + " already exists, not overwriting.");
-        session.produced |= !session.compat; // the requested output exists
+        session.outcome.produced |= !session.settings.compat; // the requested output exists
         return true;
     }
-    return session.update && !session.compat && OIIO::Filesystem::exists(filename) &&
-           OIIO::Filesystem::last_write_time(filename) > session.newest_input;
+    return session.settings.update && !session.settings.compat &&
+           OIIO::Filesystem::exists(filename) &&
+           OIIO::Filesystem::last_write_time(filename) > session.stack.newest_input;
 }
 
 void write_one(Session& session, const Call& call, const ImagePtr& image,
@@ -139,73 +141,72 @@ void write_one(Session& session, const Call& call, const ImagePtr& image,
     session.claim(filename);
     if (keeps_old(session, call, filename))
         return;
-    if (session.verbose) {
-        session.out << (session.debug ? "Output: " + filename + "\n" : "");
+    if (session.settings.verbose) {
+        session.out << (session.settings.debug ? "Output: " + filename + "\n" : "");
         session.print("Writing " + filename);
     }
-    session.wrote = image->written = true;
-    if (session.dry_run)
+    session.outcome.wrote = image->written = true;
+    if (session.settings.dry_run)
         return;
     session.note_format(*image);
     OutputSettings settings = settings_of(session, call);
-    session.push(image);
-    if (call.flag("autocc", session.autocc))
+    session.stack.push(image);
+    if (call.flag("autocc", session.settings.autocc))
         convert_output(session, call, filename, settings);
     if (settings.autotrim)
         run_command(session, "trim", {});
-    save(session, call, *session.stack.back(), filename, settings);
-    session.wrote = true;
-    session.stack.pop_back();
+    save(session, call, *session.stack.top(), filename, settings);
+    session.outcome.wrote = true;
+    session.stack.images.pop_back();
 }
 
 void save_image(Session& session, const Call& call, const Image& image, const std::string& filename,
                 const OutputSettings& settings) {
     write_output(image, filename, settings,
-                 session.writer(session.compat ? call.text() : call.row().label()),
-                 [&] { session.keep_pixels_of(filename); });
+                 session.writer(session.settings.compat ? call.text() : call.row().label()),
+                 [&] { session.stack.keep_pixels_of(filename); });
 }
 
 } // namespace
 
 void write_to_files(Session& session, const Call& call, const Save& save) {
-    if (session.stack.empty()) {
-        if (!session.compat)
-            throw CommandError("needs 1 image(s), the stack has 0");
+    if (session.stack.images.empty()) {
+        if (!session.settings.compat)
+            throw CommandError(session.stack.lacks(1));
         session.warning(call.text(),
                         call.argument(0) + " did not have any current image to output.");
         return;
     }
-    if (!session.waiting.empty() && !session.compat) {
-        throw CommandError("--" + session.waiting +
+    if (!session.stack.waiting.empty() && !session.settings.compat) {
+        throw CommandError("--" + session.stack.waiting +
                            " still waits for an image, so this would not work on its result");
     }
-    session.stack.back()->used = true;
+    session.stack.top()->used = true;
     auto first = call.integer("all", {0, 1e9});
     const std::vector<ImagePtr> all =
-        first ? session.stack : std::vector<ImagePtr>{session.stack.back()};
+        first ? session.stack.images : std::vector<ImagePtr>{session.stack.top()};
     for (size_t i = 0; i < all.size(); ++i) {
         write_one(session, call, all[i],
                   first ? with_number(call.argument(0), *first + int(i)) : call.argument(0), save);
     }
 }
 
-std::string output_modifiers() {
-    const std::string types = join(data_type_names(), "|");
-    return "datatype=TYPE: data type of this file (" + types + ")\n" +
-           "type=TYPE: the same\n"
-           "bits=N: of each channel\n"
-           "compression=NAME: compression of this file, name or name:quality\n"
-           "all=N: write all images of the stack; the file name has a %d, from N on\n"
-           "autocc=0|1: convert to the colour space that the name tells\n"
-           "unpremult=0|1: divide by alpha for that\n"
-           "autocrop=0|1: to the display window where the format has no other\n"
-           "autotrim=0|1: cut off a black border\n"
-           "contig=0|1: channels interleaved\n"
-           "separate=0|1: each channel by itself\n"
-           "dither=0|1: add dither to 8 bits\n"
-           "fileformatname=NAME: instead of the one that the extension tells\n"
-           "scanline=0|1: not in tiles\n"
-           "tile=WxH: in tiles of this size\n";
+Modifiers output_modifiers() {
+    return {{"datatype", "TYPE", "data type of this file (" + join(data_type_names(), "|") + ")"},
+            {"type", "TYPE", "the same"},
+            {"bits", "N", "of each channel"},
+            {"compression", "NAME", "compression of this file, name or name:quality"},
+            {"all", "N", "write all images of the stack; the file name has a %d, from N on"},
+            {"autocc", "0|1", "convert to the colour space that the name tells"},
+            {"unpremult", "0|1", "divide by alpha for that"},
+            {"autocrop", "0|1", "to the display window where the format has no other"},
+            {"autotrim", "0|1", "cut off a black border"},
+            {"contig", "0|1", "channels interleaved"},
+            {"separate", "0|1", "each channel by itself"},
+            {"dither", "0|1", "add dither to 8 bits"},
+            {"fileformatname", "NAME", "instead of the one that the extension tells"},
+            {"scanline", "0|1", "not in tiles"},
+            {"tile", "WxH", "in tiles of this size"}};
 }
 
 namespace {
@@ -215,72 +216,60 @@ void run_output(Session& session, const Call& call) {
 }
 
 void run_data_type(Session& session, const Call& call) {
-    session.output.set_type(call.argument(0), session.compat);
+    session.settings.output.set_type(call.argument(0), session.settings.compat);
 }
 
 void run_compression(Session& session, const Call& call) {
     check_compression(call.argument(0));
-    session.output.compression = call.argument(0);
-}
-
-Command output_row() {
-    return free_row(Group::Write, "o FILENAME", 0, kAnyNumber, "Write the current image",
-                    run_output, output_modifiers());
-}
-
-// Settings of the outputs that follow.
-std::vector<Command> output_setting_rows() {
-    const std::string types = join(data_type_names(), "|");
-    const auto set = [](const char* usage, const std::string& help, Run run) {
-        return free_row(Group::Write, usage, 0, 0, help, std::move(run));
-    };
-    return {
-        set("d TYPE",
-            "Data type of the outputs that follow, or CHAN=TYPE of one channel (" + types + ")",
-            run_data_type),
-        set("compression NAME", "Compression of the outputs that follow, name or name:quality",
-            run_compression),
-        set("quality N", "Quality of JPEG and the like, 1 to 100",
-            [](Session& session, const Call& call) {
-                session.output.quality = call.integer_argument(0, {1, 100});
-            }),
-        set("scanline", "Outputs are not in tiles",
-            [](Session& session, const Call&) { session.output.scanline = true; }),
-        set("tile WIDTH HEIGHT", "Outputs are in tiles of this size",
-            [](Session& session, const Call& call) {
-                session.output.set_tile(call.argument(0) + "x" + call.argument(1));
-            }),
-        set("force-tiles", "Has no effect, as in oiiotool (valid: --tile WIDTH HEIGHT)",
-            [](Session&, const Call&) {}),
-        set("planarconfig CONFIG", "How channels are stored: contig, separate, default",
-            [](Session& session, const Call& call) {
-                check_choice("CONFIG", call.argument(0), {"contig", "separate", "default"});
-                session.output.planarconfig = call.argument(0);
-            }),
-        set("dither", "Add dither where 8 bits are made of more",
-            [](Session& session, const Call&) { session.output.dither = true; }),
-        set("adjust-time", "Files get the time of their DateTime",
-            [](Session& session, const Call&) { session.output.adjust_time = true; }),
-        set("noautocrop", "Do not crop to the display window",
-            [](Session& session, const Call&) { session.output.autocrop = false; }),
-        set("autotrim", "Cut off a black border where the format can say so",
-            [](Session& session, const Call&) { session.output.autotrim = true; }),
-        set("history", "Write the command line into the metadata again",
-            [](Session& session, const Call&) { session.output.history = true; }),
-        keeping_header(set("nosoftwareattrib|no-history",
-                           "Do not write the command line into the metadata",
-                           [](Session& session, const Call&) { session.output.history = false; })),
-        set("sansattrib", "Leave --attrib and --sattrib out of the command line that is written",
-            [](Session&, const Call&) {}),
-    };
+    session.settings.output.compression = call.argument(0);
 }
 
 } // namespace
 
-std::vector<Command> write_commands() {
-    std::vector<Command> rows = output_setting_rows();
-    rows.insert(rows.begin(), output_row());
-    return rows;
+Rows write_commands() {
+    const std::string types = join(data_type_names(), "|");
+    return {
+        command("o FILENAME", "Write the current image", run_output)
+            .images(0, kAnyNumber)
+            .modifiers(output_modifiers()),
+        command("d TYPE",
+                "Data type of the outputs that follow, or CHAN=TYPE of one channel (" + types + ")",
+                run_data_type),
+        command("compression NAME", "Compression of the outputs that follow, name or name:quality",
+                run_compression),
+        command("quality N", "Quality of JPEG and the like, 1 to 100",
+                [](Session& session, const Call& call) {
+                    session.settings.output.quality = call.integer_argument(0, {1, 100});
+                }),
+        command("scanline", "Outputs are not in tiles",
+                [](Session& session, const Call&) { session.settings.output.scanline = true; }),
+        command("tile WIDTH HEIGHT", "Outputs are in tiles of this size",
+                [](Session& session, const Call& call) {
+                    session.settings.output.set_tile(call.argument(0) + "x" + call.argument(1));
+                }),
+        command("force-tiles", "Has no effect, as in oiiotool (valid: --tile WIDTH HEIGHT)",
+                do_nothing),
+        command("planarconfig CONFIG", "How channels are stored: contig, separate, default",
+                [](Session& session, const Call& call) {
+                    check_choice("CONFIG", call.argument(0), {"contig", "separate", "default"});
+                    session.settings.output.planarconfig = call.argument(0);
+                }),
+        command("dither", "Add dither where 8 bits are made of more",
+                [](Session& session, const Call&) { session.settings.output.dither = true; }),
+        command("adjust-time", "Files get the time of their DateTime",
+                [](Session& session, const Call&) { session.settings.output.adjust_time = true; }),
+        command("noautocrop", "Do not crop to the display window",
+                [](Session& session, const Call&) { session.settings.output.autocrop = false; }),
+        command("autotrim", "Cut off a black border where the format can say so",
+                [](Session& session, const Call&) { session.settings.output.autotrim = true; }),
+        command("history", "Write the command line into the metadata again",
+                [](Session& session, const Call&) { session.settings.output.history = true; }),
+        command("nosoftwareattrib|no-history", "Do not write the command line into the metadata",
+                [](Session& session, const Call&) { session.settings.output.history = false; })
+            .keeps_header(),
+        command("sansattrib",
+                "Leave --attrib and --sattrib out of the command line that is written", do_nothing),
+    };
 }
 
 } // namespace tonetool::chain

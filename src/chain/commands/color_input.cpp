@@ -3,7 +3,6 @@
 
 #include <filesystem>
 
-#include "chain/commands/check_part.h"
 #include "text/error.h"
 #include "tonetool/color_tags.h"
 
@@ -83,9 +82,9 @@ void check_nothing_left_out(const Image& image) {
 Part& color_part(Session& session, const Call& call, const Image& image,
                  const PixelOptions& options) {
     const bool compares = call.row().group == Group::Compare;
-    if (compares && session.all_subimages && options.layer.empty())
+    if (compares && session.settings.all_subimages && options.layer.empty())
         refuse_all(image);
-    const bool judged = compares && (call.has("fail") || call.has("warn") || result_of(session));
+    const bool judged = compares && (call.has("fail") || call.has("warn") || session.check.result);
     if (judged)
         check_nothing_left_out(image);
     PartChoice choice;

@@ -1,31 +1,37 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "chain/commands/commands.h"
 
-#include <algorithm>
-#include <iterator>
-
-#include "chain/commands/options.h"
-
 namespace tonetool::chain {
 
-std::vector<Command> own_commands() {
-    std::vector<Command> all = diff_commands();
-    for (auto family : {compare_commands, qc_commands, exposure_commands, tone_commands,
-                        cgtmo_commands, light_commands, memory_commands}) {
-        for (Command& row : family()) {
-            row.own = true;
-            all.push_back(std::move(row));
-        }
-    }
-    return all;
+void add_image_commands() {
+    add_commands(Group::General, general_commands());
+    add_commands(Group::Control, control_commands());
+    add_commands(Group::Read, read_commands());
+    add_commands(Group::Write, write_commands());
+    add_commands(Group::Write, texture_commands());
+    add_commands(Group::Print, inspect_commands());
+    add_commands(Group::Color, color_commands());
+    add_commands(Group::Metadata, metadata_commands());
+    add_commands(Group::Create, create_commands());
+    add_commands(Group::Arithmetic, arithmetic_commands());
+    add_commands(Group::Geometry, geometry_commands());
+    add_commands(Group::Filter, filter_commands());
+    add_commands(Group::Composite, composite_commands());
+    add_commands(Group::Color, ocio_commands());
+    add_commands(Group::Channels, channel_commands());
+    add_commands(Group::Stack, stack_commands());
 }
 
-std::vector<Modifier> inserted(std::vector<Modifier> rows, const std::string& key,
-                               const std::vector<Modifier>& more) {
-    const auto at =
-        std::find_if(rows.begin(), rows.end(), [&](const Modifier& row) { return row.key == key; });
-    rows.insert(at + 1, more.begin(), more.end());
-    return rows;
+void add_measuring_commands() {
+    constexpr bool own = true;
+    add_commands(Group::Compare, diff_commands());
+    add_commands(Group::Compare, compare_commands(), own);
+    add_commands(Group::Measure, qc_commands(), own);
+    add_commands(Group::Color, exposure_commands(), own);
+    add_commands(Group::Color, tone_commands(), own);
+    add_commands(Group::Color, cgtmo_commands(), own);
+    add_commands(Group::Channels, light_commands(), own);
+    add_commands(Group::General, memory_commands(), own);
 }
 
 } // namespace tonetool::chain

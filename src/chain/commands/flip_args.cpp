@@ -177,13 +177,13 @@ private:
 
 } // namespace
 
-std::vector<Modifier> pixel_modifiers() {
+Modifiers pixel_modifiers() {
     return {
         {"layer", "NAME", "layer whose R,G,B are used, \"ViewLayer.Combined\""},
         {"from", "SPACE", "colour space of the pixels: " + join(ToneAlgo::color_spaces(), ", ")}};
 }
 
-std::vector<Modifier> pair_modifiers() {
+Modifiers pair_modifiers() {
     return concatenated(
         {pixel_modifiers(),
          {{"resize", "0|1", "resize the test image to the reference's display window"},
@@ -192,11 +192,7 @@ std::vector<Modifier> pair_modifiers() {
            "what becomes of alpha: error: its difference joins the map"}}});
 }
 
-std::vector<Modifier> viewing_modifiers() {
-    return modifiers_of<FlipOptions>();
-}
-
-std::vector<Modifier> hdr_modifiers() {
+Modifiers hdr_modifiers() {
     return concatenated(
         {{{"tonemapper", "NAME", "tone curve (aces): " + join(ToneAlgo::flip_tonemappers(), ", ")}},
          curve_modifiers(false, true),
@@ -204,8 +200,8 @@ std::vector<Modifier> hdr_modifiers() {
          modifiers_of<HdrFlipOptions>()});
 }
 
-std::vector<Modifier> threshold_modifiers(const Measures& measures, const std::string& unless) {
-    std::vector<Modifier> rows = {
+Modifiers threshold_modifiers(const Measures& measures, const std::string& unless) {
+    Modifiers rows = {
         {"fail", "X|QUANTITY=X,...",
          "exit status 3 unless the quantity is " + unless +
              (measures.map ? "; p99.9 and max find local faults, which the mean does not" : "")},
@@ -222,13 +218,6 @@ std::vector<Modifier> threshold_modifiers(const Measures& measures, const std::s
     return rows;
 }
 
-std::vector<Modifier> concatenated(const std::vector<std::vector<Modifier>>& lists) {
-    std::vector<Modifier> all;
-    for (const std::vector<Modifier>& list : lists)
-        all.insert(all.end(), list.begin(), list.end());
-    return all;
-}
-
 PixelOptions pixel_options(const Call& call, const std::string& prefix) {
     return {call.text(prefix + "layer").value_or(""), call.text(prefix + "from").value_or("")};
 }
@@ -242,7 +231,8 @@ void read_view_spaces(const std::optional<ViewOptions>& view, PixelOptions& pixe
 }
 
 void read_pair_options(const Session& session, const Call& call, PairOptions& options) {
-    options.memory = session.memory - std::min(session.memory, shown_bytes(session, call));
+    options.memory =
+        session.settings.memory - std::min(session.settings.memory, shown_bytes(session, call));
     options.pixels = pixel_options(call);
     read_size(call, options);
     bool error = call.choice("alpha", {"ignore", "error"}).value_or("ignore") == "error";
@@ -273,7 +263,7 @@ Limits limits_of(const Call& call, const Measures& measures, Strings& pooled) {
     return LimitReader(call, measures, pooled).read();
 }
 
-std::vector<Modifier> error_modifiers() {
+Modifiers error_modifiers() {
     Measures measures;
     measures.names.insert(measures.names.begin(), "METRIC");
     const std::string in_decibels = join(metrics_that_have(metrics::kDecibels), ", ");
@@ -306,7 +296,7 @@ ErrorOptions error_options(const Session& session, const Call& call) {
     return options;
 }
 
-std::vector<Modifier> flipdiff_modifiers() {
+Modifiers flipdiff_modifiers() {
     return {
         {"hdr", "0|1", "HDR-FLIP (1), or LDR-FLIP"},
         {"maxluminance", "X",
@@ -327,7 +317,8 @@ std::vector<Modifier> flipdiff_modifiers() {
 
 HdrFlipOptions flipdiff_options(const Session& session, const Call& call) {
     HdrFlipOptions options;
-    options.memory = session.memory - std::min(session.memory, shown_bytes(session, call));
+    options.memory =
+        session.settings.memory - std::min(session.settings.memory, shown_bytes(session, call));
     options.pixels = pixel_options(call);
     options.ppd = call.number("ppd", kPpdRange).value_or(67.02);
     options.curve.name =

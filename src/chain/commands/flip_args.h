@@ -35,15 +35,13 @@ struct Measures {
 };
 
 // Lists of modifiers, to be put together into rows.
-std::vector<Modifier> pixel_modifiers();   ///< layer, from
-std::vector<Modifier> pair_modifiers();    ///< and resize, crop, alpha
-std::vector<Modifier> viewing_modifiers(); ///< ppd, distance, width, pixels
-std::vector<Modifier> hdr_modifiers();     ///< tone curve and exposures
+Modifiers pixel_modifiers(); ///< layer, from
+Modifiers pair_modifiers();  ///< and resize, crop, alpha
+Modifiers hdr_modifiers();   ///< tone curve and exposures
 /// fail, warn, quantity, print, and above where there is a map; `unless` says what keeps from
 /// failing.
-std::vector<Modifier> threshold_modifiers(const Measures& measures = {},
-                                          const std::string& unless = "at most X (0 to 1)");
-std::vector<Modifier> concatenated(const std::vector<std::vector<Modifier>>& lists);
+Modifiers threshold_modifiers(const Measures& measures = {},
+                              const std::string& unless = "at most X (0 to 1)");
 
 /// layer and from, or "ldrlayer" and "ldrfrom" with the prefix "ldr".
 PixelOptions pixel_options(const Call& call, const std::string& prefix = "");
@@ -56,11 +54,11 @@ void read_hdr_options(const Session& session, const Call& call, HdrFlipOptions& 
 /// fail= and warn=: a number, or quantity=number with commas between them. What has to be pooled
 /// for them is added to `pooled`.
 Limits limits_of(const Call& call, const Measures& measures, Strings& pooled);
-std::vector<Modifier> error_modifiers();
+Modifiers error_modifiers();
 ErrorOptions error_options(const Session& session, const Call& call);
 
 /// OpenImageIO 3.2's names and defaults.
-std::vector<Modifier> flipdiff_modifiers();
+Modifiers flipdiff_modifiers();
 HdrFlipOptions flipdiff_options(const Session& session, const Call& call);
 
 } // namespace tonetool::chain

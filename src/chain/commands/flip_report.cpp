@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "chain/commands/flip_report.h"
 
-#include "chain/commands/check_part.h"
 #include "sequence/results/measuring.h"
 #include "text/error.h"
 
@@ -151,11 +150,11 @@ std::string summary_text(const std::string& label, const TmqiSummary& summary,
 }
 
 void record(Session& session, const Call& call, sequence::Measurement measurement, size_t test) {
-    if (result_of(session)) {
+    if (session.check.result) {
         measurement.command = call.row().label();
         measurement.reference = call.images.front()->name();
         measurement.test = call.images.at(test + 1)->name();
-        result_of(session)->measurements.push_back(std::move(measurement));
+        session.check.result->measurements.push_back(std::move(measurement));
     }
 }
 
@@ -173,15 +172,15 @@ bool judge(Session& session, const Call& call, const Limits& limits,
                               limit.warn});
         said.add(thresholds.back());
     }
-    if (result_of(session))
-        result_of(session)->measurements.back().thresholds = thresholds;
+    if (session.check.result)
+        session.check.result->measurements.back().thresholds = thresholds;
     const std::string where =
         worst ? ", worst pixel " + std::to_string(worst->x) + "," + std::to_string(worst->y) : "";
     const std::string file = " (" + call.images.at(test + 1)->name() + ")";
     if (!said.warned.empty())
         session.warning(label, join(said.warned, ", ") + where + file);
     if (!said.failed.empty()) {
-        ++session.failures;
+        ++session.outcome.failures;
         session.print(label + ": FAIL " + join(said.failed, ", ") + where + file);
     } else if (!said.warned.empty()) {
         session.report(label + ": WARNING " + join(said.warned, ", ") + where + file);

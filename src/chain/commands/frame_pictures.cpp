@@ -3,9 +3,9 @@
 
 #include <algorithm>
 
-#include "chain/commands/check_part.h"
 #include "chain/commands/color_input.h"
 #include "sequence/report/report_store.h"
+#include "sequence/results/results.h"
 
 namespace tonetool::chain {
 
@@ -21,8 +21,8 @@ uint64_t shown_bytes(const Session& session, const Call& call) {
     uint64_t bytes = 0;
     for (const ImagePtr& image : call.images)
         bytes += image->part().header().image_pixels() * 4 * sizeof(float);
-    const bool fits = session.memory == 0 || bytes <= session.memory / 3;
-    return painter_of(session) && fits ? bytes : 0;
+    const bool fits = session.settings.memory == 0 || bytes <= session.settings.memory / 3;
+    return session.check.painter && fits ? bytes : 0;
 }
 
 OIIO::ImageBuf shown_input(Session& session, const Call& call, const Image& image,
@@ -40,15 +40,15 @@ OIIO::ImageBuf shown_input(Session& session, const Call& call, const Image& imag
 }
 
 void show(Session& session, const Call& call, sequence::PictureRequest request) {
-    if (!painter_of(session))
+    if (!session.check.painter)
         return;
-    sequence::FramePainter& painter = *painter_of(session);
+    sequence::FramePainter& painter = *session.check.painter;
     const std::string nothing = call.row().label() + ": no pictures for the report: ";
     if (!is_read(request.reference) || !is_read(request.test)) {
         session.report(nothing + "the images do not fit into --memory");
         return;
     }
-    sequence::FrameResult so_far = *result_of(session);
+    sequence::FrameResult so_far = *session.check.result;
     sequence::judge(so_far);
     request.full = painter.store.wants_full(so_far) && painter.wants(request);
     for (const sequence::Measurement& measured : so_far.measurements)

@@ -7,10 +7,6 @@
 
 namespace tonetool::chain {
 
-std::vector<Modifier> light_modifiers() {
-    return modifiers_of<LightOptions>();
-}
-
 LightOptions light_options(const Call& call) {
     LightOptions options;
     read_options(call, options);

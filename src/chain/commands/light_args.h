@@ -10,7 +10,6 @@
 namespace tonetool::chain {
 
 /// lights=, lightunit=, index=, groups=.
-std::vector<Modifier> light_modifiers();
 LightOptions light_options(const Call& call);
 
 } // namespace tonetool::chain

@@ -23,8 +23,8 @@ std::string hint_of(const Option<Owner, T>& row) {
 }
 
 template <class Options>
-std::vector<Modifier> modifiers_of() {
-    std::vector<Modifier> rows;
+Modifiers modifiers_of() {
+    Modifiers rows;
     describe(Options(), [&](const auto& row) {
         const std::string initial = row.initial();
         rows.push_back(
@@ -70,9 +70,5 @@ void read_options(const Call& call, Options& options) {
         read_value(call, row.key, range, options.*row.member);
     });
 }
-
-/// A list put into another one, behind the row of that key.
-std::vector<Modifier> inserted(std::vector<Modifier> rows, const std::string& key,
-                               const std::vector<Modifier>& more);
 
 } // namespace tonetool::chain

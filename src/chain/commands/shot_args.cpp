@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "chain/commands/shot_args.h"
 
-#include "chain/commands/check_part.h"
 #include "chain/commands/color_input.h"
 #include "sequence/results/shot_exposures.h"
 #include "text/error.h"
@@ -18,15 +17,15 @@ void measure_sample(Session& session, const Call& call, const PixelOptions& opti
     std::string why;
     if (!ToneAlgo::luminance_stats(stats, pixels, why, options))
         throw CommandError(why);
-    session.check->sample->reference = reference.name();
-    session.check->sample->max_luminance = stats.max;
-    session.check->sample->median_luminance = stats.median > 0 ? stats.median : stats.median_lit;
+    session.check.sample->reference = reference.name();
+    session.check.sample->max_luminance = stats.max;
+    session.check.sample->median_luminance = stats.median > 0 ? stats.median : stats.median_lit;
     throw EndOfRun();
 }
 
 sequence::ShotExposures range_of(const Session& session, const std::string& from) {
-    if (session.check && session.check->shot)
-        return *session.check->shot;
+    if (session.check.shot)
+        return *session.check.shot;
     if (from == "shot")
         throw CommandError("exposures=shot has no shot here (valid: frame, FILE)");
     return sequence::read_exposures(from);
@@ -42,7 +41,7 @@ void read_shot_exposures(Session& session, const Call& call, HdrFlipOptions& opt
         throw CommandError("exposures=" + from +
                            " goes without maxluminance= and medianluminance= (valid: either)");
     }
-    if (from == "shot" && session.check && session.check->sample)
+    if (from == "shot" && session.check.sample)
         measure_sample(session, call, options.pixels);
     const sequence::ShotExposures range = range_of(session, from);
     const std::string& name = call.images.front()->name();

@@ -39,8 +39,8 @@ bool is_measured(const std::string& white) {
 
 } // namespace
 
-std::vector<Modifier> curve_modifiers(bool measured, bool flip) {
-    std::vector<Modifier> rows;
+Modifiers curve_modifiers(bool measured, bool flip) {
+    Modifiers rows;
     for (const Parameter& p : parameters(flip)) {
         bool white = measured && p.name == "white";
         rows.push_back({p.name, white ? "X|max|pN" : "X",
@@ -73,7 +73,7 @@ CurveOptions curve_options(const Call& call, const std::string& key) {
     return options;
 }
 
-std::vector<Modifier> view_modifiers() {
+Modifiers view_modifiers() {
     return {{"display", "NAME", "display of the OpenColorIO configuration (its default)"},
             {"view", "NAME", "view of that display (its default)"},
             {"looks", "LOOKS", "instead of the view's own looks: \"+a,-b\""},
@@ -82,7 +82,7 @@ std::vector<Modifier> view_modifiers() {
 
 std::optional<ViewOptions> view_options(const Session& session, const Call& call) {
     ViewOptions options;
-    options.config = session.color_config;
+    options.config = session.settings.color_config;
     options.display = call.text("display").value_or("");
     options.view = call.text("view").value_or("");
     options.looks = call.text("looks").value_or("");
@@ -112,10 +112,6 @@ void check_one_way(const Call& call, const std::string& key) {
                                       "(valid: either)");
         }
     }
-}
-
-std::vector<Modifier> calibration_modifiers() {
-    return modifiers_of<CalibrationOptions>();
 }
 
 CalibrationOptions calibration_options(const Call& call) {

@@ -11,19 +11,18 @@ namespace tonetool::chain {
 
 /// The parameters of all curves, coeffs=, on=, saturation=; with `white=max|pN` if `measured`, and
 /// HDR-FLIP's defaults in the help if `flip`.
-std::vector<Modifier> curve_modifiers(bool measured, bool flip = false);
+Modifiers curve_modifiers(bool measured, bool flip = false);
 /// The curve that the modifier `key` names.
 CurveOptions curve_options(const Call& call, const std::string& key);
 
 /// display=, view=, looks=, context=.
-std::vector<Modifier> view_modifiers();
+Modifiers view_modifiers();
 /// nullopt where none of them is given.
 std::optional<ViewOptions> view_options(const Session& session, const Call& call);
 /// A view and a curve exclude each other: `key` names the curve.
 void check_one_way(const Call& call, const std::string& key);
 
 /// calibrate=, stops=, key=, level=, ...
-std::vector<Modifier> calibration_modifiers();
 CalibrationOptions calibration_options(const Call& call);
 /// white=max or white=pN.
 std::optional<double> white_percentile(const Call& call);

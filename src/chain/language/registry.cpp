@@ -11,20 +11,8 @@ namespace tonetool::chain {
 namespace {
 
 // Rows keep their places: calls point at them.
-std::deque<Command> collect() {
-    std::deque<Command> all;
-    for (auto family : {general_commands, control_commands, read_commands, write_commands,
-                        texture_commands, inspect_commands, color_commands, metadata_commands,
-                        create_commands, arithmetic_commands, geometry_commands, filter_commands,
-                        composite_commands, ocio_commands, channel_commands, stack_commands}) {
-        std::vector<Command> rows = family();
-        std::move(rows.begin(), rows.end(), std::back_inserter(all));
-    }
-    return all;
-}
-
 std::deque<Command>& registry() {
-    static std::deque<Command> all = collect();
+    static std::deque<Command> all;
     return all;
 }
 
@@ -69,34 +57,39 @@ bool Command::writes_to(const std::string& key) const {
     });
 }
 
-Command of_process(Command row) {
-    row.of_process = true;
-    return row;
-}
-
-Command of_manner(Command row) {
-    row.manner = true;
-    return row;
-}
-
-std::vector<Command> keeping_headers(std::vector<Command> rows) {
-    for (Command& row : rows)
-        row.keeps_header = true;
-    return rows;
-}
-
 std::string Command::label() const {
     return names.front().size() == 1 ? "-" + names.front() : names.front();
 }
 
-Command setting(Group group, Strings names, Strings args, std::string help, Run run,
-                std::vector<Modifier> modifiers) {
-    Shape shape{std::move(names), std::move(args), 0, 0, group};
-    return {std::move(shape), std::move(modifiers), std::move(help), std::move(run)};
+Modifiers concatenated(const std::vector<Modifiers>& lists) {
+    Modifiers all;
+    for (const Modifiers& list : lists)
+        all.insert(all.end(), list.begin(), list.end());
+    return all;
 }
 
-void add_commands(std::vector<Command> rows) {
-    std::move(rows.begin(), rows.end(), std::back_inserter(registry()));
+Row::Row(const std::string& usage, std::string help, Run run) {
+    const Strings words = split(usage, ' ');
+    m_command.names = split(words.front(), '|');
+    m_command.args.assign(words.begin() + 1, words.end());
+    m_command.help = std::move(help);
+    m_command.run = std::move(run);
+}
+
+Command Row::finished(Group group_of_family, bool own) const {
+    Row row = *this;
+    row.m_command.group = m_group.value_or(group_of_family);
+    row.m_command.own = own;
+    if (m_command.of_subimages) {
+        row.modifier("subimages", "N,NAME,...", "of these subimages (-N: of all but N), or all")
+            .modifier("allsubimages", "0|1", "of all subimages (as -a says)");
+    }
+    return row.m_command;
+}
+
+void add_commands(Group group, const Rows& rows, bool own) {
+    for (const Row& row : rows)
+        registry().push_back(row.finished(group, own));
 }
 
 const std::deque<Command>& all_commands() {

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The commands: one row each. Help, checks and tests are all read from these rows.
+// The commands: one row each, written with Row. Help, checks and tests are all read from these
+// rows.
 #pragma once
 
 #include <deque>
 #include <functional>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "text/text.h"
@@ -23,6 +26,9 @@ struct Modifier {
 
     bool writes() const { return hint == "PREFIX"; }
 };
+using Modifiers = std::vector<Modifier>;
+/// One list of them all.
+Modifiers concatenated(const std::vector<Modifiers>& lists);
 
 /// In the order in which help lists them.
 enum class Group {
@@ -47,27 +53,25 @@ enum class Group {
 inline constexpr int kGroupCount = 17;
 std::string group_title(Group group);
 
-/// What a command takes and leaves, and where help lists it.
-struct Shape {
+using Run = std::function<void(Session&, const Call&)>;
+using Count = int (*)(const Call&);
+inline void do_nothing(Session&, const Call&) {}
+inline constexpr int kAnyNumber = -1;
+
+struct Command {
     Strings names;  ///< without dashes; the first one is the one that messages use
     Strings args;   ///< names of the arguments; "[NAME]" may be left out, only as the last
     int pops = 0;   ///< images taken from the stack
-    int pushes = 0; ///< images put on it, or any_number
+    int pushes = 0; ///< images put on it, or kAnyNumber
     Group group = Group::General;
-};
-
-using Run = std::function<void(Session&, const Call&)>;
-inline constexpr int kAnyNumber = -1;
-
-struct Command : Shape {
-    std::vector<Modifier> modifiers;
+    Modifiers modifiers;
     std::string help; ///< one line
     Run run = nullptr;
     /// Wait for images that are still to come, as oiiotool does with operators.
     bool postponable = true;
     /// Where the numbers of images depend on a modifier; else nullptr.
-    int (*pops_of)(const Call&) = nullptr;
-    int (*pushes_of)(const Call&) = nullptr;
+    Count pops_of = nullptr;
+    Count pushes_of = nullptr;
     /// --if and the like: seen also where commands are skipped.
     bool control = false;
     std::string operation = {}; ///< of oiiotool's on pixels: see Call::operation
@@ -81,6 +85,8 @@ struct Command : Shape {
     /// Each image leaves it with the windows, the number of channels and the data type that it
     /// came with, as do images that are read after it.
     bool keeps_header = false;
+    /// It has subimages= and allsubimages=, behind its other modifiers.
+    bool of_subimages = false;
     /// A reference and a test become a map of errors: one channel of floats.
     bool makes_map = false;
 
@@ -98,25 +104,67 @@ struct Command : Shape {
 /// Whether an argument or modifier of that name or hint is a file, or may be one.
 bool names_file(const std::string& hint);
 
-/// The row of a command that sets something of the process, or says how a line runs.
-Command of_process(Command row);
-Command of_manner(Command row);
+/// A row as it is written: command("label NAME", "Label the current image", label).images(1, 1).
+class Row {
+public:
+    Row(const std::string& usage, std::string help, Run run);
 
-/// The row, here or in a table of the commands, of one that keeps headers.
-template <class Row>
-Row keeping_header(Row row) {
-    row.keeps_header = true;
-    return row;
+    /// Taken from the stack and put on it; without this none are.
+    Row& images(int pops, int pushes) {
+        return set(&Command::pops, pops).set(&Command::pushes, pushes);
+    }
+    /// Of one call, where a modifier says how many.
+    Row& images_of(Count pops, Count pushes = nullptr) {
+        return set(&Command::pops_of, pops).set(&Command::pushes_of, pushes);
+    }
+    Row& modifier(const std::string& key, const std::string& hint, const std::string& help) {
+        return modifiers(Modifiers{{key, hint, help}});
+    }
+    template <class... Lists>
+    Row& modifiers(const Lists&... lists) {
+        return set(&Command::modifiers, concatenated({m_command.modifiers, lists...}));
+    }
+    /// Instead of the family's.
+    Row& in(Group group) {
+        m_group = group;
+        return *this;
+    }
+    Row& operation(std::string name) { return set(&Command::operation, std::move(name)); }
+    Row& at_once() { return set(&Command::postponable, false); }
+    Row& control() { return set(&Command::control, true); }
+    Row& of_process() { return set(&Command::of_process, true); }
+    Row& manner() { return set(&Command::manner, true); }
+    Row& whole_line() {
+        return set(&Command::whole_line, true).set(&Command::run, Run(do_nothing));
+    }
+    Row& keeps_header() { return set(&Command::keeps_header, true); }
+    Row& makes_map() { return set(&Command::makes_map, true); }
+    Row& of_subimages() { return set(&Command::of_subimages, true); }
+
+    Command finished(Group group_of_family, bool own) const;
+
+private:
+    template <class T>
+    Row& set(T Command::*member, T value) {
+        m_command.*member = std::move(value);
+        return *this;
+    }
+
+    Command m_command;
+    std::optional<Group> m_group;
+};
+
+using Rows = std::vector<Row>;
+
+/// `usage`: names and arguments, "no-clobber|noclobber", "resize GEOM". What is read from the whole
+/// line has no `run`.
+inline Row command(const std::string& usage, std::string help, Run run = nullptr) {
+    return {usage, std::move(help), std::move(run)};
 }
-/// All of them.
-std::vector<Command> keeping_headers(std::vector<Command> rows);
 
-/// The row of a command that takes and leaves no image.
-Command setting(Group group, Strings names, Strings args, std::string help, Run run,
-                std::vector<Modifier> modifiers = {});
-
-/// Rows of the rooms above. Before anything runs: rows are looked up without a lock.
-void add_commands(std::vector<Command> rows);
+/// A family's rows, which help lists in that group unless they name another; `own`: none of
+/// oiiotool's. Before anything runs: rows are looked up without a lock.
+void add_commands(Group group, const Rows& rows, bool own = false);
 
 /// All rows.
 const std::deque<Command>& all_commands();
@@ -129,23 +177,5 @@ std::string nearest_command(const std::string& name);
 
 /// "did you mean --x, --y?" or "see --help".
 std::string suggest_command(const std::string& name);
-
-// The families, one file each.
-std::vector<Command> general_commands();
-std::vector<Command> control_commands();
-std::vector<Command> read_commands();
-std::vector<Command> write_commands();
-std::vector<Command> texture_commands();
-std::vector<Command> inspect_commands();
-std::vector<Command> color_commands();
-std::vector<Command> channel_commands();
-std::vector<Command> stack_commands();
-std::vector<Command> metadata_commands();
-std::vector<Command> create_commands();
-std::vector<Command> arithmetic_commands();
-std::vector<Command> geometry_commands();
-std::vector<Command> filter_commands();
-std::vector<Command> composite_commands();
-std::vector<Command> ocio_commands();
 
 } // namespace tonetool::chain

@@ -13,7 +13,7 @@ namespace tonetool::chain {
 namespace {
 
 void run_help(Session& session, const Call& call) {
-    session.produced = true;
+    session.outcome.produced = true;
     if (!call.has_argument(0)) {
         session.out << help_text();
         return;
@@ -34,9 +34,9 @@ void run_help(Session& session, const Call& call) {
 
 } // namespace
 
-std::vector<Command> help_commands() {
-    return {setting(
-        Group::General, {"help"}, {"[COMMAND]"},
+Rows help_commands() {
+    return {command(
+        "help [COMMAND]",
         "List all commands, tell more about one, or all as man, bash, zsh (completion) or json",
         run_help)};
 }

@@ -23,6 +23,6 @@ std::string registry_text(const std::string& format);
 bool is_registry_format(const std::string& format);
 
 /// The row of --help.
-std::vector<Command> help_commands();
+Rows help_commands();
 
 } // namespace tonetool::chain

@@ -17,8 +17,8 @@ void note_lineage(const Session& session, const Call& call, size_t first) {
             return;
         of_popped += std::to_string(image->lineage) + ' ';
     }
-    for (size_t i = first; i < session.stack.size() && !of_popped.empty(); ++i) {
-        Image& made = *session.stack[i];
+    for (size_t i = first; i < session.stack.images.size() && !of_popped.empty(); ++i) {
+        Image& made = *session.stack.images[i];
         if (made.lineage == 0) {
             made.lineage = std::hash<std::string>()(of_popped + call.quoted_words() + ' ' +
                                                     std::to_string(i - first));
@@ -56,10 +56,10 @@ void note_ancestry(const Session& session, const Call& call, size_t first) {
     note_lineage(session, call, first);
     if (call.row().group == Group::Compare || chooses_a_part(call))
         return;
-    for (size_t i = first; i < session.stack.size(); ++i) {
+    for (size_t i = first; i < session.stack.images.size(); ++i) {
         for (const ImagePtr& from : call.images)
-            if (from != session.stack[i])
-                note_left_out(*session.stack[i], *from);
+            if (from != session.stack.images[i])
+                note_left_out(*session.stack.images[i], *from);
     }
 }
 

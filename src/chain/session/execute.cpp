@@ -24,10 +24,11 @@ void refuse_deep(const Session& session, const Call& call) {
         const Chosen chosen = chosen_subimages(session, call, *image);
         for (size_t s = 0; s < chosen.count; ++s) {
             if (chosen.active[s] && image->part(s).header().deep) {
-                throw CommandError(session.compat ? "deep images not supported"
-                                                  : "\"" + image->name() +
-                                                        "\" is deep, which this command cannot use "
-                                                        "(--flatten makes it flat)");
+                throw CommandError(session.settings.compat
+                                       ? "deep images not supported"
+                                       : "\"" + image->name() +
+                                             "\" is deep, which this command cannot use "
+                                             "(--flatten makes it flat)");
             }
         }
     }
@@ -36,10 +37,8 @@ void refuse_deep(const Session& session, const Call& call) {
 } // namespace
 
 void execute(Session& session, Call& call) {
-    std::vector<ImagePtr>& stack = session.stack;
-    auto first = stack.end() - call.pops();
-    call.images.assign(first, stack.end());
-    stack.erase(first, stack.end());
+    const std::vector<ImagePtr>& stack = session.stack.images;
+    call.images = session.stack.pop(size_t(call.pops()));
     for (const ImagePtr& image : call.images) {
         image->used = true;
         image->worked_on |= call.row().group != Group::Stack && call.row().group != Group::Print;
@@ -72,11 +71,11 @@ void locate_files(Session& session, const Command& row, Token& token, Strings& a
 }
 
 void run_command(Session& session, const std::string& word, Strings arguments) {
-    Token token = parse_token("--" + word, session.compat);
+    Token token = parse_token("--" + word, session.settings.compat);
     const Command* row = find_command(token.name);
     if (!row)
         throw CommandError("internal error: no command " + word);
-    Call call(*row, std::move(token), std::move(arguments), session.compat);
+    Call call(*row, std::move(token), std::move(arguments), session.settings.compat);
     execute(session, call);
 }
 

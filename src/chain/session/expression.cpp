@@ -23,9 +23,9 @@ public:
             return std::to_string(frame.number);
         if (name == "FRAME_NUMBER_PAD")
             return OIIO::Strutil::fmt::format("{:0{}d}", frame.number, frame.padding);
-        if (!m_session.variables.contains(name))
+        if (!m_session.stack.variables.contains(name))
             return std::nullopt;
-        const OIIO::ParamValue& variable = *m_session.variables.find(name);
+        const OIIO::ParamValue& variable = *m_session.stack.variables.find(name);
         const OIIO::TypeDesc type = variable.type();
         // Of several values oiiotool marks where they begin and end: {1,2,3}, (0.5,0.5,0.5).
         const bool several = type.basevalues() > 1 && type != OIIO::TypeRational &&
@@ -36,7 +36,7 @@ public:
         return number ? expression_number(double(OIIO::Strutil::stof(text))) : text;
     }
     bool select_top() override {
-        m_image = m_session.stack.empty() ? nullptr : m_session.stack.back();
+        m_image = m_session.stack.images.empty() ? nullptr : m_session.stack.top();
         return m_image != nullptr;
     }
     bool select(const std::string& which) override {
@@ -49,11 +49,12 @@ public:
 
 private:
     ImagePtr found(const std::string& which) const {
-        const std::vector<ImagePtr>& stack = m_session.stack;
+        const std::vector<ImagePtr>& stack = m_session.stack.images;
         auto index = parse_integer(which);
         if (index && *index >= 0 && size_t(*index) < stack.size())
             return stack[stack.size() - 1 - size_t(*index)];
-        if (auto labelled = m_session.labels.find(which); labelled != m_session.labels.end())
+        const auto& labels = m_session.stack.labels;
+        if (auto labelled = labels.find(which); labelled != labels.end())
             return labelled->second;
         if (which == "TOP" && !stack.empty())
             return stack.back();
@@ -72,9 +73,9 @@ private:
 std::string value_or_text(Session& session, const std::string& text) {
     Names names(session);
     try {
-        return evaluated(text, names, session.compat);
+        return evaluated(text, names, session.settings.compat);
     } catch (const CommandError& problem) {
-        if (!session.compat)
+        if (!session.settings.compat)
             throw CommandError(std::string("expression : ") + problem.what());
         session.error("expression", problem.what());
         return text;
@@ -94,7 +95,7 @@ void check_size(size_t size) {
 } // namespace
 
 std::string with_values(Session& session, const std::string& word) {
-    if (!session.evaluate || word.find('{') == std::string::npos)
+    if (!session.settings.evaluate || word.find('{') == std::string::npos)
         return word;
     Strings plain, nested; // a plain text, an expression, a plain text, ...
     OIIO::string_view rest = word;

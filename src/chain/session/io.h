@@ -26,7 +26,7 @@ using Save = void (*)(Session&, const Call&, const Image&, const std::string& fi
                       const OutputSettings&);
 /// -o and its like: writes the current image, or all of them, unless old files are to stay.
 void write_to_files(Session& session, const Call& call, const Save& save);
-std::string output_modifiers();
+Modifiers output_modifiers();
 
 /// Settings that no output has used: a -d CHAN=TYPE that fits no channel is an error.
 void check_outputs(const Session& session);

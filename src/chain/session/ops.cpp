@@ -3,8 +3,6 @@
 
 #include <OpenImageIO/strutil.h>
 #include <algorithm>
-#include <cstdio>
-#include <iterator>
 #include <set>
 
 namespace tonetool::chain {
@@ -61,38 +59,13 @@ OIIO::ImageBuf made(Session& session, const Call& call, const Kernel& kernel, in
         throw CommandError(result.has_error() ? result.geterror() : "failed");
     if (op.unchanged)
         result.copy(op.a());
-    for (size_t i = 1; i < op.src.size() && session.metamerge; ++i)
+    for (size_t i = 1; i < op.src.size() && session.settings.metamerge; ++i)
         result.specmod().extra_attribs.merge(op.src[i]->spec().extra_attribs);
     changed |= !op.unchanged;
     return result;
 }
 
-Shape shape_of(const std::string& usage, int pops, int pushes, Group group) {
-    Strings words = split(usage, ' ');
-    return {split(words.front(), '|'), {words.begin() + 1, words.end()}, pops, pushes, group};
-}
-
-std::vector<Modifier> modifiers_of(const std::string& lines, bool of_subimages) {
-    std::vector<Modifier> all;
-    for (const std::string& line : OIIO::Strutil::splits(lines, "\n")) {
-        size_t equals = line.find('='), colon = line.find(": ");
-        if (!line.empty()) {
-            all.push_back({line.substr(0, equals), line.substr(equals + 1, colon - equals - 1),
-                           line.substr(colon + 2)});
-        }
-    }
-    if (of_subimages) {
-        all.push_back({"subimages", "N,NAME,...", "of these subimages (-N: of all but N), or all"});
-        all.push_back({"allsubimages", "0|1", "of all subimages (as -a says)"});
-    }
-    return all;
-}
-
 } // namespace
-
-std::string Op::text(const std::string& key, const std::string& otherwise) const {
-    return call.text(key).value_or(otherwise);
-}
 
 Floats Op::list(const std::string& what, const std::string& words) const {
     Floats values;
@@ -108,7 +81,7 @@ Floats Op::per_channel(const std::string& what, const std::string& words, float 
 Floats Op::per_value(const std::string& what, const std::string& words, float rest,
                      size_t count) const {
     Floats values(count, rest);
-    if (session.compat) {
+    if (session.settings.compat) {
         OIIO::Strutil::extract_from_list_string(values, words);
         values.resize(count, values.size() == 1 ? values.front() : rest);
         return values;
@@ -138,19 +111,20 @@ Chosen chosen_subimages(const Session& session, const Call& call, const Image& i
     const size_t count = image.part_count();
     const auto subimages = call.text("subimages");
     const Listed which = subimages ? listed(*subimages, image) : Listed();
-    if (!session.compat && !which.unknown.empty()) {
+    if (!session.settings.compat && !which.unknown.empty()) {
         throw CommandError("subimages \"" + *subimages + "\": " + image.name() +
                            " has no subimage \"" + which.unknown.front() +
                            "\" (valid: all, numbers from 0, names, -N for all but N)");
     }
     if (which.says_nothing()) {
-        bool all = call.flag("allsubimages", session.all_subimages);
+        bool all = call.flag("allsubimages", session.settings.all_subimages);
         return {all ? count : 1, std::vector<bool>(all ? count : 1, true)};
     }
     Chosen chosen{count, {}};
     for (size_t s = 0; s < count; ++s)
         chosen.active.push_back(which.has(s));
-    if (!session.compat && std::count(chosen.active.begin(), chosen.active.end(), true) == 0) {
+    if (!session.settings.compat &&
+        std::count(chosen.active.begin(), chosen.active.end(), true) == 0) {
         throw CommandError("subimages \"" + *subimages + "\" chooses none of the " +
                            std::to_string(count) + " subimages of " + image.name());
     }
@@ -164,7 +138,7 @@ void run_kernel(Session& session, const Call& call, const Kernel& kernel, Scope 
     bool changed = false;
     for (size_t s = 0; s < chosen.count; ++s) {
         Part& part = first.part(s);
-        const bool all_levels = scope == Scope::Levels && session.all_subimages;
+        const bool all_levels = scope == Scope::Levels && session.settings.all_subimages;
         for (int level = 0; level < (all_levels ? part.mip_levels() : 1); ++level) {
             subimages[s].push_back(chosen.active[s]
                                        ? made(session, call, kernel, int(s), level, changed)
@@ -172,15 +146,15 @@ void run_kernel(Session& session, const Call& call, const Kernel& kernel, Scope 
         }
     }
     if (!changed) {
-        session.push(call.images.front());
+        session.stack.push(call.images.front());
         return;
     }
-    if (chosen.count == 1 && !session.compat)
+    if (chosen.count == 1 && !session.settings.compat)
         session.warn_of_other_parts(call.row().label(), first);
     ImagePtr result = Image::derived(first, std::move(subimages));
-    if (session.compat && !call.operation().empty())
+    if (session.settings.compat && !call.operation().empty())
         result->rename(call.operation());
-    session.push(std::move(result));
+    session.stack.push(std::move(result));
 }
 
 ImagePtr with_headers(const Image& image, const Chosen& chosen,
@@ -192,43 +166,29 @@ ImagePtr with_headers(const Image& image, const Chosen& chosen,
     return std::make_shared<Image>(image.name(), std::move(parts));
 }
 
-std::vector<Command> op_rows(Group group, const std::vector<OpRow>& rows) {
-    std::vector<Command> all;
-    for (const OpRow& row : rows) {
-        Run run = [kernel = row.kernel, scope = row.scope](Session& session, const Call& call) {
-            run_kernel(session, call, kernel, scope);
-        };
-        all.push_back({shape_of(row.usage, row.images, 1, group), modifiers_of(row.modifiers, true),
-                       row.help, run});
-        all.back().operation = row.operation == "-" ? "-" + all.back().label() : row.operation;
-        all.back().keeps_header = row.keeps_header;
-    }
-    return all;
+Row on_pixels(const std::string& usage, int images, std::string help, Kernel kernel, Scope scope) {
+    const auto run = [kernel, scope](Session& session, const Call& call) {
+        run_kernel(session, call, kernel, scope);
+    };
+    const std::string name = usage.substr(0, usage.find_first_of("| "));
+    return command(usage, std::move(help), run)
+        .images(images, 1)
+        .operation("-" + name)
+        .of_subimages();
 }
 
-std::vector<Command> header_rows(Group group, const std::vector<HeaderRow>& rows) {
-    std::vector<Command> all;
-    for (const HeaderRow& row : rows) {
-        Run run = [edit = row.edit](Session& session, const Call& call) {
-            const Image& image = *call.images.front();
-            session.push(with_headers(image, chosen_subimages(session, call, image),
-                                      [&](OIIO::ImageSpec& spec) { edit(spec, call, session); }));
-        };
-        all.push_back(
-            {shape_of(row.usage, 1, 1, group), modifiers_of(row.modifiers, true), row.help, run});
-    }
-    return all;
-}
-
-Command free_row(Group group, const std::string& usage, int pops, int pushes,
-                 const std::string& help, Run run, const std::string& modifiers) {
-    return {shape_of(usage, pops, pushes, group), modifiers_of(modifiers, false), help,
-            std::move(run)};
+Row on_headers(const std::string& usage, std::string help, Edit edit) {
+    const auto run = [edit](Session& session, const Call& call) {
+        const Image& image = *call.images.front();
+        session.stack.push(with_headers(image, chosen_subimages(session, call, image),
+                                        [&](OIIO::ImageSpec& spec) { edit(spec, call, session); }));
+    };
+    return command(usage, std::move(help), run).images(1, 1).of_subimages();
 }
 
 bool adjust_window(Session& session, const Call& call, const std::string& text, Geometry allowed,
                    OIIO::ROI& window) {
-    const Adjusted adjusted = adjust_window(text, allowed, window, session.compat);
+    const Adjusted adjusted = adjust_window(text, allowed, window, session.settings.compat);
     if (!adjusted.error.empty())
         throw CommandError(adjusted.error, call.text());
     if (!adjusted.warning.empty())
@@ -238,23 +198,16 @@ bool adjust_window(Session& session, const Call& call, const std::string& text, 
 
 std::vector<ImagePtr> take_images(Session& session, size_t count) {
     const bool some = count > 0;
-    count = count == 0 ? std::max(session.stack.size(), size_t(1)) : count;
-    if (session.stack.size() < count) {
-        throw CommandError("needs " + std::to_string(count) + " image(s), the stack has " +
-                           std::to_string(session.stack.size()));
-    }
-    std::vector<ImagePtr> images(session.stack.end() - std::ptrdiff_t(count), session.stack.end());
-    session.stack.resize(session.stack.size() - count);
+    count = count == 0 ? std::max(session.stack.images.size(), size_t(1)) : count;
+    if (session.stack.images.size() < count)
+        throw CommandError(session.stack.lacks(int(count)));
+    std::vector<ImagePtr> images = session.stack.pop(count);
     for (const ImagePtr& image : images) {
         image->used = true;
-        if (some || !session.compat) // oiiotool does not look at the types of "all"
+        if (some || !session.settings.compat) // oiiotool does not look at the types of "all"
             session.note_format(*image);
     }
     return images;
-}
-
-void append(std::vector<Command>& all, std::vector<Command> more) {
-    std::move(more.begin(), more.end(), std::back_inserter(all));
 }
 
 } // namespace tonetool::chain

@@ -44,7 +44,9 @@ struct Op {
     bool flag(const std::string& key, bool otherwise = false) const {
         return call.flag(key, otherwise);
     }
-    std::string text(const std::string& key, const std::string& otherwise = "") const;
+    std::string text(const std::string& key, const std::string& otherwise = "") const {
+        return call.text(key).value_or(otherwise);
+    }
     /// "V" for all channels, or "V,V,...", the rest of them `rest`.
     Floats per_channel(const std::string& what, const std::string& list, float rest) const;
     /// The same of so many values instead of one for each channel.
@@ -58,39 +60,36 @@ struct Op {
 
 using Kernel = bool (*)(Op&);
 
-/// Which of an image's parts a command makes: without -a the first subimage only.
+// Kernels that are functions of OpenImageIO on one image, on two, and on one and constants, of
+// which those that are not given are `Rest`.
+using OfOne = bool (*)(OIIO::ImageBuf&, const OIIO::ImageBuf&, OIIO::ROI, int);
+using OfTwo = bool (*)(OIIO::ImageBuf&, OIIO::Image_or_Const, OIIO::Image_or_Const, OIIO::ROI, int);
+template <OfOne Function>
+bool of_one(Op& op) {
+    return Function(op.dst, op.a(), {}, 0);
+}
+template <OfTwo Function>
+bool of_two(Op& op) {
+    return Function(op.dst, op.a(), op.b(), {}, 0);
+}
+template <OfTwo Function, int Rest>
+bool of_constants(Op& op) {
+    return Function(op.dst, op.a(), op.constants(Rest), {}, 0);
+}
+
+/// Which of an image's parts a command makes: without -a the first subimage only. Levels: with -a
+/// MIP levels stay.
 enum class Scope { Largest, Levels };
 
-/// A command that pops some images and pushes the one that its kernel makes.
-struct OpRow {
-    const char* usage; ///< "resize GEOM"
-    int images;
-    std::string help;
-    Kernel kernel;
-    std::string modifiers = {};   ///< lines of "key=hint: help"
-    Scope scope = Scope::Largest; ///< Levels: with -a MIP levels stay
-    std::string operation = "-";  ///< as Call::operation; "-": the name with a dash
-    bool keeps_header = false;    ///< as Command::keeps_header
-};
-/// The same row with another Call::operation, "" if the image keeps its name.
-inline OpRow named(std::string operation, OpRow row) {
-    row.operation = std::move(operation);
-    return row;
-}
-std::vector<Command> op_rows(Group group, const std::vector<OpRow>& rows);
+/// A command that pops some images and pushes the one that its kernel makes, which is named after
+/// it: Row::operation() gives another name, "" none.
+Row on_pixels(const std::string& usage, int images, std::string help, Kernel kernel,
+              Scope scope = Scope::Largest);
+
+using Edit = void (*)(OIIO::ImageSpec&, const Call&, Session&);
 
 /// A command that changes headers and no pixels.
-struct HeaderRow {
-    const char* usage;
-    const char* help;
-    void (*edit)(OIIO::ImageSpec&, const Call&, Session&);
-    std::string modifiers = {};
-};
-std::vector<Command> header_rows(Group group, const std::vector<HeaderRow>& rows);
-
-/// A command of any other kind, from "label NAME".
-Command free_row(Group group, const std::string& usage, int pops, int pushes,
-                 const std::string& help, Run run, const std::string& modifiers = {});
+Row on_headers(const std::string& usage, std::string help, Edit edit);
 
 /// The subimages that -a, allsubimages= and subimages= choose.
 struct Chosen {
@@ -115,8 +114,6 @@ std::vector<ImagePtr> take_images(Session& session, size_t count);
 
 /// --noise and --pattern noise: onto the pixels of dst.
 bool add_noise(Op& op, bool to_blank);
-std::string noise_modifiers();
-
-void append(std::vector<Command>& all, std::vector<Command> more);
+Modifiers noise_modifiers();
 
 } // namespace tonetool::chain

@@ -26,15 +26,15 @@ std::string name_in_messages(const Call& call, bool compat) {
 
 void Runner::run_all() {
     Flow& flow = m_session.flow;
-    const bool stops = m_session.compat || m_session.error_exit;
-    while (flow.next < m_words.size() && !m_ended && !(m_session.aborted && stops)) {
+    const bool stops = m_session.settings.compat || m_session.settings.error_exit;
+    while (flow.next < m_words.size() && !m_ended && !(m_session.outcome.aborted && stops)) {
         m_where.clear();
         guarded(&Runner::run_word);
     }
     m_where.clear();
-    if (!m_session.aborted && !m_ended)
+    if (!m_session.outcome.aborted && !m_ended)
         guarded(&Runner::finish);
-    if (m_session.runstats)
+    if (m_session.settings.runstats)
         print_statistics();
 }
 
@@ -44,20 +44,19 @@ void Runner::guarded(void (Runner::*step)()) {
     } catch (const std::bad_alloc&) {
         m_session.error(m_where, "not enough memory");
     } catch (const ReadError& problem) {
-        m_session.error(m_session.compat ? "read" : m_where,
-                        m_session.compat ? problem.why : problem.what());
+        m_session.error(m_session.settings.compat ? "read" : m_where,
+                        m_session.settings.compat ? problem.why : problem.what());
     } catch (const EndOfRun&) {
         m_ended = true;
     } catch (const UsageError& problem) {
-        ++m_session.errors;
-        m_session.aborted = true;
-        m_session.misused = true;
+        ++m_session.outcome.errors;
+        m_session.outcome.aborted = m_session.outcome.misused = true;
         m_session.complaints() << problem.what() << "\n\nFull command line was:\n> "
                                << m_session.command_line << std::endl;
     } catch (const CommandError& problem) {
-        const bool renamed = m_session.compat && !problem.place.empty();
+        const bool renamed = m_session.settings.compat && !problem.place.empty();
         m_session.error(renamed ? problem.place : m_where, problem.what());
-        if (m_session.compat && problem.again)
+        if (m_session.settings.compat && problem.again)
             m_session.error(m_where, "");
     } catch (const std::exception& problem) {
         m_session.error(m_where, problem.what());
@@ -73,7 +72,7 @@ void Runner::run_word() {
     flow.command = flow.next++;
     m_where = raw.substr(0, raw.find(':'));
     const std::string text = flow.running() ? evaluated(flow.command) : raw;
-    Word word = parse_word(m_words, flow.command, text, m_session.compat);
+    Word word = parse_word(m_words, flow.command, text, m_session.settings.compat);
     flow.next = word.end();
     note_varying(flow.command);
     if (word.token.is_command)
@@ -83,16 +82,16 @@ void Runner::run_word() {
 }
 
 void Runner::run_command_word(Word word) {
-    const bool strict = !m_session.compat || (word.row && word.row->own);
+    const bool strict = !m_session.settings.compat || (word.row && word.row->own);
     if (strict && !word.token.problem.empty())
         throw CommandError(word.token.problem);
     const Command& row = known(word);
-    m_where = m_session.compat ? word.token.text : row.label();
-    check_policy(Call(row, word.token, {}, m_session.compat));
+    m_where = m_session.settings.compat ? word.token.text : row.label();
+    check_policy(Call(row, word.token, {}, m_session.settings.compat));
     Strings arguments = arguments_of(word);
     locate_files(m_session, row, word.token, arguments);
     if (m_session.flow.running() || row.control) {
-        Call call(row, std::move(word.token), std::move(arguments), m_session.compat);
+        Call call(row, std::move(word.token), std::move(arguments), m_session.settings.compat);
         for (const std::string& modifier : call.dropped()) {
             m_session.warning(m_where, "\"" + modifier +
                                            "\" is no modifier of this command, it has "
@@ -131,12 +130,12 @@ void Runner::run_file(const std::string& word) {
     if (m_session.flow.running()) {
         m_where = "read";
         OIIO::Timer time;
-        double& seconds = m_session.seconds["-i"];
-        const bool from_file = m_session.labels.count(word) == 0;
+        double& seconds = m_session.outcome.seconds["-i"];
+        const bool from_file = m_session.stack.labels.count(word) == 0;
         push_file_or_label(m_session, word);
         seconds += time();
         if (from_file)
-            mark_frames(*m_session.stack.back());
+            mark_frames(*m_session.stack.top());
         run_postponed();
     }
 }
@@ -146,11 +145,11 @@ const Command& Runner::known(const Word& word) {
     const Token& token = word.token;
     // "--hdrflip=fail=1": a check that looks at no threshold would pass.
     const bool takes_value = row && !row->args.empty() && std::strchr("=[", row->args[0].front());
-    if (row && !token.value.empty() && !takes_value && !m_session.compat) {
+    if (row && !token.value.empty() && !takes_value && !m_session.settings.compat) {
         m_where = row->label();
         throw CommandError("takes no \"=" + token.value[0] + "\" (modifiers follow a colon)");
     }
-    if (!row && m_session.compat) {
+    if (!row && m_session.settings.compat) {
         const std::string near = nearest_command(token.name);
         throw UsageError("Invalid option \"" + token.text + "\"" +
                          (near.empty() ? "" : " (did you mean " + near + "?)"));
@@ -165,7 +164,7 @@ const Command& Runner::known(const Word& word) {
 
 void Runner::refuse_missing_argument(const Word& word) const {
     const bool at_end = word.end() >= m_words.size();
-    if (at_end && m_session.compat) {
+    if (at_end && m_session.settings.compat) {
         const size_t given = word.token.value.size() + word.arguments.size();
         const std::string label = word.row->label();
         throw UsageError("Missing parameter " + std::to_string(given + 1) + " from option \"" +
@@ -191,8 +190,8 @@ Strings Runner::arguments_of(const Word& word) const {
 
 // A waiting operator's image must not be changed under it.
 void Runner::refuse_to_overtake(const Call& call) const {
-    if (call.pops() > 0 && !m_postponed.empty() && !m_session.compat) {
-        throw CommandError("--" + m_session.waiting +
+    if (call.pops() > 0 && !m_postponed.empty() && !m_session.settings.compat) {
+        throw CommandError("--" + m_session.stack.waiting +
                            " still waits for an image, so this would not work on its result");
     }
 }
@@ -225,7 +224,7 @@ void Runner::note_varying(size_t begin) {
 void Runner::refuse_the_same_in_all_frames(const Call& call) const {
     if (!m_session.judges || m_varies || call.row().group != Group::Compare)
         return;
-    const std::vector<ImagePtr> images(m_session.stack.end() - call.pops(), m_session.stack.end());
+    const std::vector<ImagePtr> images = m_session.stack.top(size_t(call.pops()));
     for (const ImagePtr& image : images) {
         if (image->same_in_all_frames && !image->meant_for_all_frames) {
             throw CommandError("\"" + image->name() +
@@ -260,8 +259,8 @@ void Runner::mark_pushed(const Call& call, size_t first) const {
                            [is](const ImagePtr& image) { return (*image).*is; });
     };
     const bool measured = call.row().group == Group::Compare || call.row().group == Group::Measure;
-    for (size_t i = first; i < m_session.stack.size(); ++i) {
-        const ImagePtr& image = m_session.stack[i];
+    for (size_t i = first; i < m_session.stack.images.size(); ++i) {
+        const ImagePtr& image = m_session.stack.images[i];
         if (std::find(popped.begin(), popped.end(), image) != popped.end())
             continue;
         if (call.row().group == Group::Read) {
@@ -283,30 +282,28 @@ void Runner::run_or_postpone(Call call) {
         run_call(call);
         return;
     }
-    if (!call.row().postponable) {
-        throw CommandError("needs " + std::to_string(call.pops()) + " image(s), the stack has " +
-                           std::to_string(m_session.stack.size()));
-    }
-    if (m_session.compat) // as oiiotool, which has room for one
+    if (!call.row().postponable)
+        throw CommandError(m_session.stack.lacks(call.pops()));
+    if (m_session.settings.compat) // as oiiotool, which has room for one
         m_postponed.clear();
     m_postponed.push_back(std::move(call));
-    m_session.waiting = m_postponed.front().row().label();
+    m_session.stack.waiting = m_postponed.front().row().label();
 }
 
 void Runner::run_call(Call& call) {
-    m_where = name_in_messages(call, m_session.compat);
-    const bool told = m_session.debug && call.pops() > 0;
+    m_where = name_in_messages(call, m_session.settings.compat);
+    const bool told = m_session.settings.debug && call.pops() > 0;
     if (told) {
         m_session.print("Performing '-" + call.row().names.front() +
                         (call.has_argument(0) ? "' with args:  " : "' ") + call.quoted_words());
     }
     refuse_the_same_in_all_frames(call);
     OIIO::Timer time;
-    const size_t first = m_session.stack.size() - size_t(call.pops());
+    const size_t first = m_session.stack.images.size() - size_t(call.pops());
     execute(m_session, call);
     mark_pushed(call, first);
     if (call.row().group != Group::General && call.row().group != Group::Control)
-        m_session.seconds["-" + call.row().names.front()] += time();
+        m_session.outcome.seconds["-" + call.row().names.front()] += time();
     if (told) {
         m_session.print(OIIO::Strutil::fmt::format(
             "    -{} took {:.2f}s  (total time {:.2f}s, mem {})", call.row().names.front(), time(),
@@ -318,7 +315,7 @@ void Runner::run_postponed() {
     while (!m_postponed.empty() && enough_images(m_postponed.front())) {
         Call call = std::move(m_postponed.front());
         m_postponed.pop_front();
-        m_session.waiting = m_postponed.empty() ? "" : m_postponed.front().row().label();
+        m_session.stack.waiting = m_postponed.empty() ? "" : m_postponed.front().row().label();
         run_call(call);
     }
 }

@@ -31,7 +31,7 @@ private:
     [[noreturn]] void refuse_missing_argument(const Word& word) const;
     Strings arguments_of(const Word& word) const;
     bool enough_images(const Call& call) const {
-        return static_cast<size_t>(call.pops()) <= m_session.stack.size();
+        return static_cast<size_t>(call.pops()) <= m_session.stack.images.size();
     }
     void refuse_to_overtake(const Call& call) const;
     bool is_found_name(size_t at) const;

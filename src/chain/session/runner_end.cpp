@@ -17,7 +17,7 @@ void Runner::print_statistics() {
         "\nThreads: {}\ntonetool runtime statistics:\n  Total time: {:.2f}s\n",
         OIIO::get_int_attribute("threads"), m_time());
     double rest = m_time();
-    for (const auto& [name, seconds] : m_session.seconds) {
+    for (const auto& [name, seconds] : m_session.outcome.seconds) {
         text += OIIO::Strutil::fmt::format("      {:<12} : {:5.2f}\n", name, seconds);
         rest -= seconds;
     }
@@ -31,7 +31,7 @@ void Runner::print_statistics() {
 
 // A shell's * in place of #, or a forgotten tests=, leaves images that nothing has looked at.
 void Runner::refuse_what_was_not_compared() const {
-    for (const ImagePtr& image : m_session.stack) {
+    for (const ImagePtr& image : m_session.stack.images) {
         if (m_session.judges && !image->worked_on && !image->written) {
             throw CommandError("\"" + image->name() +
                                "\" was never compared (valid: names with # "
@@ -42,38 +42,37 @@ void Runner::refuse_what_was_not_compared() const {
 
 // "ref a b --hdrflip" compares a with b: the forgotten tests=2 must not go unnoticed.
 void Runner::warn_of_unused() {
-    const bool listing = m_session.listing() || m_session.produced_by_name;
-    for (const ImagePtr& image : m_session.stack) {
-        const bool result = m_session.for_images && image == m_session.stack.back();
+    const bool listing = m_session.settings.listing() || m_session.outcome.produced_by_name;
+    for (const ImagePtr& image : m_session.stack.images) {
+        const bool result = m_session.for_images && image == m_session.stack.top();
         if (!listing && !result && !image->used && image->part().from_file())
             m_session.warning("", "\"" + image->name() + "\" was read, but no command used it");
     }
 }
 
 void Runner::finish() {
-    if (m_session.compat) {
+    if (m_session.settings.compat) {
         finish_leniently();
         return;
     }
     if (!m_postponed.empty()) {
         const Call& call = m_postponed.front();
         m_where = call.row().label();
-        throw CommandError("never executed: needs " + std::to_string(call.pops()) +
-                           " image(s), the stack has " + std::to_string(m_session.stack.size()));
+        throw CommandError("never executed: " + m_session.stack.lacks(call.pops()));
     }
     if (!m_session.flow.blocks.empty()) {
         throw CommandError("--" + m_session.flow.blocks.back().kind + " without its --end" +
                            m_session.flow.blocks.back().kind);
     }
-    if (!m_session.unused_limit.empty()) {
-        m_where = m_session.unused_limit;
+    if (!m_session.outcome.unused_limit.empty()) {
+        m_where = m_session.outcome.unused_limit;
         throw CommandError("no --diff ran after it, so nothing was held to this limit (other "
                            "measurements have their own, as --hdrflip:fail=X)");
     }
     check_outputs(m_session);
     refuse_what_was_not_compared();
     warn_of_unused();
-    if (!m_session.produced && !m_session.wrote && !m_session.for_images)
+    if (!m_session.outcome.produced && !m_session.outcome.wrote && !m_session.for_images)
         throw CommandError("produced no output. Did you forget -o?");
 }
 
@@ -85,12 +84,12 @@ void Runner::finish_leniently() {
         const std::string& kind = m_session.flow.blocks.back().kind;
         m_session.warning(kind, "unterminated " + kind);
     }
-    if (!m_session.produced && !m_session.listing() && !m_session.dry_run &&
-        !m_session.for_images) {
-        const Image* top = m_session.stack.empty() ? nullptr : m_session.stack.back().get();
+    if (!m_session.outcome.produced && !m_session.settings.listing() &&
+        !m_session.settings.dry_run && !m_session.for_images) {
+        const Image* top = m_session.stack.images.empty() ? nullptr : m_session.stack.top().get();
         if (top && !top->written && !top->part().from_file())
             m_session.warning("", "modified images without outputting them. Did you forget -o?");
-        else if (!m_session.wrote)
+        else if (!m_session.outcome.wrote)
             m_session.warning("", kNoOutput);
     }
 }

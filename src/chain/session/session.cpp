@@ -10,45 +10,34 @@
 
 namespace tonetool::chain {
 
-namespace {
-
-std::string prefix(const char* kind, const std::string& where, bool compat) {
-    const char* none = compat ? " : " : ": ";
-    return std::string("tonetool ") + kind + (where.empty() ? none : ": " + where + " : ");
+std::string Session::message(const char* kind, const std::string& where,
+                             const std::string& what) const {
+    const bool compat = settings.compat;
+    const std::string begin = std::string("tonetool ") + kind +
+                              (!where.empty() ? ": " + where + " : "
+                               : compat       ? " : "
+                                              : ": ");
+    if (compat)
+        return begin + what;
+    const std::string view = frame.view.empty() ? "" : ", view " + frame.view;
+    // A line break in a name must not begin a line that looks like one of this program.
+    return begin + OIIO::Strutil::replace(what, "\n", "\n  ", true) +
+           (frame.loops ? " (frame " + std::to_string(frame.number) + view + ")" : "");
 }
-
-// A line break in a name must not begin a line that looks like one of this program.
-std::string indented(const std::string& text, bool compat) {
-    return compat ? text : OIIO::Strutil::replace(text, "\n", "\n  ", true);
-}
-
-std::string of_frame(const Session& session) {
-    return session.frame.loops && !session.compat
-               ? " (frame " + std::to_string(session.frame.number) +
-                     (session.frame.view.empty() ? "" : ", view " + session.frame.view) + ")"
-               : "";
-}
-
-} // namespace
 
 void Session::error(const std::string& where, const std::string& what, bool ends) {
-    ++errors;
-    aborted |= ends;
-    if (first_error.empty())
-        first_error = (where.empty() ? "" : where + " : ") + what;
+    outcome.note_error((where.empty() ? "" : where + " : ") + what, ends);
     out.flush();
     complaints() << (what.empty() ? "tonetool ERROR: " + where + " (unknown error)"
-                                  : prefix("ERROR", where, compat) + indented(what, compat) +
-                                        of_frame(*this))
+                                  : message("ERROR", where, what))
                  << "\nFull command line was:\n> " << command_line << std::endl;
 }
 
 void Session::warning(const std::string& where, const std::string& what) {
-    ++warnings;
-    warning_texts.push_back((where.empty() ? "" : where + " : ") + what);
+    ++outcome.warnings;
+    outcome.warning_texts.push_back((where.empty() ? "" : where + " : ") + what);
     out.flush();
-    complaints() << prefix("WARNING", where, compat) << indented(what, compat) << of_frame(*this)
-                 << std::endl;
+    complaints() << message("WARNING", where, what) << std::endl;
 }
 
 void Session::warn_of_other_parts(const std::string& where, const Image& image) {
@@ -59,7 +48,7 @@ void Session::warn_of_other_parts(const std::string& where, const Image& image) 
 }
 
 void Session::report(const std::string& line) {
-    if (!quiet)
+    if (!settings.quiet)
         print(line);
 }
 
@@ -71,17 +60,20 @@ void Session::note_format(Image& image) {
     if (image.noted || !image.part().from_file())
         return;
     image.noted = true;
-    types.note(image);
+    stack.types.note(image);
     const OIIO::ImageSpec& spec = image.part().header();
-    if (compat && output.tile_width == 0 && !output.scanline) { // oiiotool goes on in its tiles
+    OutputSettings& output = settings.output;
+    if (settings.compat && output.tile_width == 0 &&
+        !output.scanline) { // oiiotool goes on in its tiles
         output.tile_width = spec.tile_width;
         output.tile_height = spec.tile_height;
     }
 }
 
 Writer Session::writer(const std::string& where) {
-    return {command_line, compat, &types,
-            [this, where](const std::string& text) { warning(where, text); }, &matched_channels};
+    return {command_line, settings.compat, &stack.types,
+            [this, where](const std::string& text) { warning(where, text); },
+            &outcome.matched_channels};
 }
 
 std::string Session::file(const std::string& name) {
@@ -94,12 +86,12 @@ std::string Session::file(const std::string& name) {
     return path;
 }
 
-void Session::keep_pixels_of(const std::string& filename) {
+void Stack::keep_pixels_of(const std::string& filename) const {
     const auto keep = [&](const Image& image) {
         for (const PartPtr& part : image.parts())
             part->read_before_replacing(filename);
     };
-    for (const ImagePtr& image : stack)
+    for (const ImagePtr& image : images)
         keep(*image);
     for (const auto& [name, image] : labels)
         keep(*image);
@@ -118,25 +110,18 @@ void WrittenFiles::claim(const std::string& filename, int number, const std::str
 }
 
 void Session::claim(const std::string& filename) {
-    if (dry_run)
+    if (settings.dry_run)
         return;
-    if (written && !compat)
+    if (written && !settings.compat)
         written->claim(filename, frame.number, frame.view);
-    claimed.push_back(filename);
+    outcome.claimed.push_back(filename);
 }
 
 OIIO::ColorConfig& color_config(Session& session) {
-    if (!session.ocio)
-        session.ocio = std::make_shared<OIIO::ColorConfig>(session.color_config);
-    return *session.ocio;
-}
-
-int Session::exit_status() const {
-    if (errors > 0 || differs)
-        return 1;
-    if (failures > 0)
-        return compat ? 1 : 3;
-    return warnings > 0 && warnings_exit ? 2 : 0;
+    Settings& settings = session.settings;
+    if (!settings.ocio)
+        settings.ocio = std::make_shared<OIIO::ColorConfig>(settings.color_config);
+    return *settings.ocio;
 }
 
 } // namespace tonetool::chain

@@ -2,28 +2,27 @@
 // What one command line knows while it runs: the stack, the settings, what was found.
 #pragma once
 
-#include <OpenImageIO/color.h>
-#include <ctime>
 #include <functional>
 #include <iosfwd>
 #include <map>
 #include <memory>
 #include <mutex>
-#include <optional>
-#include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
-#include "chain/images/inspect.h"
-#include "chain/images/output.h"
 #include "chain/language/policy.h"
+#include "chain/session/outcome.h"
+#include "chain/session/settings.h"
+#include "chain/session/stack.h"
 #include "sequence/frames/file_stamp.h"
-#include "sequence/results/diff_limits.h"
-#include "text/text.h"
 
-namespace tonetool::chain {
-struct CheckPart;
-} // namespace tonetool::chain
+namespace tonetool::sequence {
+struct ExposureSample;
+struct FramePainter;
+struct FrameResult;
+struct ShotExposures;
+} // namespace tonetool::sequence
 
 namespace tonetool::chain {
 
@@ -65,74 +64,43 @@ struct Flow {
     bool running() const { return blocks.empty() || blocks.back().running; }
 };
 
+/// Where a check collects what commands find, and what it tells them; null outside a check.
+struct CheckPart {
+    sequence::FrameResult* result = nullptr;   ///< collects the measurements of commands
+    sequence::FramePainter* painter = nullptr; ///< with a report: draws its images
+    /// The range of exposures=shot or of a file; while the range is still being measured, the place
+    /// for the frame's sample.
+    const sequence::ShotExposures* shot = nullptr;
+    sequence::ExposureSample* sample = nullptr;
+};
+
 struct Session {
     Session(std::ostream& out_stream, std::ostream& err_stream, std::string command)
         : out(out_stream),
           err(err_stream),
           command_line(std::move(command)) {}
 
+    Settings settings;
+    Stack stack;
+    Outcome outcome;
+
+    // What it runs in.
     std::ostream& out;
     std::ostream& err;
     std::string command_line;
-
-    std::vector<ImagePtr> stack; ///< the top is the last
-    std::map<std::string, ImagePtr> labels;
-    OIIO::ParamValueList variables; ///< of --set and --for
+    Flow flow;
     Frame frame;
     Policy policy{false, "", 0};
     sequence::FileLog files; ///< that were read or looked for, as they were opened
     /// The words at one place of the command line in all frames.
     std::function<Strings(size_t at)> in_all_frames;
-    Flow flow;
-
-    bool compat = false;        ///< lenient as oiiotool is
-    bool all_subimages = false; ///< -a: and all MIP levels
-    bool dry_run = false, no_clobber = false, update = false, debug = false, runstats = false;
-    bool verbose = false, quiet = false, warnings_exit = false, error_exit = true;
-    bool evaluate = true;    ///< {expressions} are replaced by their values
     bool for_images = false; ///< what is left on the stack is the result
-    bool autocc = false, autocc_unpremult = false, autoorient = false;
-    bool complains_to_out = false; ///< errors and warnings go to the standard output
-    bool metamerge = false;        ///< results have the metadata of all inputs
-
-    ReadOptions input;
-    std::string missing_file = "error"; ///< or what stands in for it: "black", "checker"
-    ReadTypes types;
-    std::optional<OIIO::ImageSpec> first_header; ///< of the image read first
-    std::time_t newest_input = 0;
-    OutputSettings output;
-    std::set<std::string> matched_channels; ///< those of -d CHAN=TYPE that some output had
-
-    std::map<std::string, double> seconds; ///< that commands took, for --runstats
-    sequence::DiffLimits diff;
-    std::string unused_limit; ///< the option that set one of them which no --diff has looked at yet
-    Listing list;             ///< what is printed of files as they are read
-
-    std::string color_config; ///< file of the OpenColorIO configuration; empty: $OCIO
-    std::shared_ptr<OIIO::ColorConfig> ocio; ///< what is in it, once it is needed
-    uint64_t memory = 0; ///< bound of the comparisons in bytes; 0: none was given
-    int parallel = 1;    ///< frames that share that memory
-
-    // What the exit status is made from.
-    bool produced = false;         ///< something was written, printed or measured
-    bool produced_by_name = false; ///< --echo and the like: also of images that no command used
-    bool wrote = false;            ///< -o has
-    bool differs = false;          ///< a --diff has failed
-    bool aborted = false;          ///< by an error
-    bool misused = false;          ///< --compat: cannot be taken apart, --help is the answer
-    int errors = 0, warnings = 0, failures = 0;
-    std::string first_error;
-    Strings warning_texts;
-    CheckPart* check = nullptr; ///< of a check: what its commands find goes there
-
-    /// The name of an operator that waits for images; empty if none does.
-    std::string waiting;
-
     /// What was not compared must not be passed: an image that no command used is an error.
     bool judges = false;
+    CheckPart check;
     /// Which frame has written which file, of all frames of the command line in this process.
     std::shared_ptr<WrittenFiles> written;
-    Strings claimed; ///< by this frame
+
     /// Says that this frame writes that file; a CommandError if another one has, which --compat
     /// lets pass as oiiotool does.
     void claim(const std::string& filename);
@@ -140,22 +108,14 @@ struct Session {
     /// Where a file is that the chain names.
     std::string file(const std::string& name);
 
-    /// Reads what the stack and the labels still have to read from a file about to be replaced.
-    void keep_pixels_of(const std::string& filename);
-
-    /// Files are described when they are read.
-    bool listing() const { return list.info || list.stats || list.hash || list.dump; }
-
     /// What is computed is written in the widest type of all images that were read for it.
     void note_format(Image& image);
 
     /// What outputs are told; `where` is the command that their warnings name.
     Writer writer(const std::string& where);
 
-    void push(ImagePtr image) { stack.push_back(std::move(image)); }
-
     /// Where errors and warnings go.
-    std::ostream& complaints() { return complains_to_out ? out : err; }
+    std::ostream& complaints() { return settings.complains_to_out ? out : err; }
     /// `ends`: unless --no-error-exit, the command line ends with it.
     void error(const std::string& where, const std::string& what, bool ends = true);
     void warning(const std::string& where, const std::string& what);
@@ -166,8 +126,10 @@ struct Session {
     /// A line that was asked for by name, or a failure: also under -q.
     void print(const std::string& line);
 
-    /// 1 any error, 3 a threshold exceeded, 2 only warnings and --warnings-exit, else 0.
-    int exit_status() const;
+    /// What error() and warning() print.
+    std::string message(const char* kind, const std::string& where, const std::string& what) const;
+
+    int exit_status() const { return outcome.exit_status(settings); }
 };
 
 /// The OpenColorIO configuration, loaded with its first use.

@@ -43,13 +43,13 @@ TEST_F(Expression, StandsWithinAWordAndNotWithoutItsEnd) {
     EXPECT_EQ(value("a{1}b{2}c"), "a1b2c");
     EXPECT_EQ(value("{1} {2"), "1 {2");
     EXPECT_EQ(value("}{"), "}{");
-    session.evaluate = false;
+    session.settings.evaluate = false;
     EXPECT_EQ(value("{1+1}"), "{1+1}");
 }
 
 TEST_F(Expression, KnowsVariablesAndTheFrame) {
-    session.variables.attribute("x", 3);
-    session.variables.attribute("name", "hello");
+    session.stack.variables.attribute("x", 3);
+    session.stack.variables.attribute("name", "hello");
     session.frame.number = 7;
     session.frame.padding = 4;
     EXPECT_EQ(value("{x*x} {name}"), "9 hello");
@@ -62,8 +62,8 @@ TEST_F(Expression, KnowsImages) {
     spec.x = 5;
     OIIO::ImageBuf pixels(spec);
     pixels.setpixel(5, 0, 0, std::vector<float>{2, 4}.data());
-    session.push(Image::created("below.exr", OIIO::ImageBuf(OIIO::ImageSpec(9, 9, 1))));
-    session.push(Image::created("dir/top.exr", std::move(pixels)));
+    session.stack.push(Image::created("below.exr", OIIO::ImageBuf(OIIO::ImageSpec(9, 9, 1))));
+    session.stack.push(Image::created("dir/top.exr", std::move(pixels)));
     EXPECT_EQ(value("{TOP.width}x{TOP.height} {TOP.x} {TOP.nchannels}"), "4x3 5 2");
     EXPECT_EQ(value("{TOP.geom} {TOP.MAXCOLOR}"), "4x3+5+0 2,4");
     EXPECT_EQ(value("{TOP.'a/b'} {TOP[a/b]}"), "deep inside deep inside");
@@ -80,9 +80,9 @@ TEST_F(Expression, WhatIsNotUnderstoodIsAnErrorWithItsPlace) {
 }
 
 TEST_F(Expression, IsLenientWithCompat) {
-    session.compat = true;
+    session.settings.compat = true;
     EXPECT_EQ(value("{1+}"), "1+");
-    EXPECT_EQ(session.errors, 1);
+    EXPECT_EQ(session.outcome.errors, 1);
     EXPECT_THAT(err.str(), HasSubstr("expression : syntax error"));
 }
 
@@ -113,13 +113,13 @@ TEST_F(Expression, IsBoundedInItsDepth) {
 TEST_F(Expression, MayHaveAnyLengthBesideOneAnother) {
     EXPECT_EQ(value(repeated("{1}", 20000)), repeated("1", 20000));
     EXPECT_EQ(value("{0" + repeated("+1", 2000) + "}"), "2000");
-    session.compat = true;
+    session.settings.compat = true;
     EXPECT_EQ(value("{1+}{" + repeated("!", 300) + "1}"), "1+" + repeated("!", 300) + "1");
-    EXPECT_EQ(session.errors, 2);
+    EXPECT_EQ(session.outcome.errors, 2);
 }
 
 TEST_F(Expression, DoesNotGrowWithoutAnEnd) {
-    session.variables.attribute("x", repeated("abcdefgh", 100000));
+    session.stack.variables.attribute("x", repeated("abcdefgh", 100000));
     EXPECT_EQ(value("{x}").size(), 800000U);
     EXPECT_THAT(problem("{x}{x}"), HasSubstr("longer than 1.0 MB"));
 }

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What the commands of a line work on: images, their labels, variables.
+#pragma once
+
+#include <ctime>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "chain/images/output.h"
+
+namespace tonetool::chain {
+
+struct Stack {
+    std::vector<ImagePtr> images; ///< the top is the last
+    std::map<std::string, ImagePtr> labels;
+    OIIO::ParamValueList variables; ///< of --set and --for
+    std::string waiting;            ///< the operator that waits for images; empty if none does
+
+    // Of the images that were read.
+    ReadTypes types;
+    std::optional<OIIO::ImageSpec> first_header;
+    std::time_t newest_input = 0;
+
+    const ImagePtr& top() const { return images.back(); }
+    /// The images on top, the deepest first.
+    std::vector<ImagePtr> top(size_t count) const {
+        return {images.end() - std::ptrdiff_t(count), images.end()};
+    }
+    void push(ImagePtr image) { images.push_back(std::move(image)); }
+    std::vector<ImagePtr> pop(size_t count) {
+        std::vector<ImagePtr> popped = top(count);
+        images.resize(images.size() - count);
+        return popped;
+    }
+
+    /// The complaint that there are not so many images.
+    std::string lacks(int count) const {
+        return "needs " + std::to_string(count) + " image(s), the stack has " +
+               std::to_string(images.size());
+    }
+
+    /// Reads what images and labels still have to read from a file about to be replaced.
+    void keep_pixels_of(const std::string& filename) const;
+};
+
+} // namespace tonetool::chain
