@@ -109,8 +109,10 @@ Color mixed(const CurveNumbers& curve, const Color& v) {
         return aces_hill(curve.p, v);
     case CurveKind::Agx:
         return agx(v);
-    default:
+    case CurveKind::Neutral:
         return neutral(v);
+    default: // of one channel
+        return v;
     }
 }
 

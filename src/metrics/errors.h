@@ -25,6 +25,7 @@ struct ErrorMetric {
     const char* name;
     ErrorKind kind;
     unsigned traits;
+    const char* source = ""; ///< where it was published
 
     constexpr bool has(ErrorTrait trait) const { return (traits & trait) != 0; }
 
@@ -35,13 +36,18 @@ struct ErrorMetric {
 };
 
 inline constexpr ErrorMetric kErrorMetrics[] = {
-    {"smape", ErrorKind::Symmetric, kBounded | kEps},
-    {"rmae", ErrorKind::RelativeAbsolute, kEps},
-    {"relmse", ErrorKind::RelativeSquared, kEps},
+    {"smape", ErrorKind::Symmetric, kBounded | kEps,
+     "Vogels et al., \"Denoising with Kernel Prediction and Asymmetric Loss Functions\", 2018"},
+    {"rmae", ErrorKind::RelativeAbsolute, kEps, "as the viewer tev"},
+    {"relmse", ErrorKind::RelativeSquared, kEps,
+     "Rousselle, Knaus, Zwicker, \"Adaptive Sampling and Reconstruction using Greedy Error "
+     "Minimization\", 2011"},
     {"mse", ErrorKind::Squared, 0},
     {"mae", ErrorKind::Absolute, 0},
     {"psnr", ErrorKind::Squared, kDecibels | kPeak},
-    {"mpsnr", ErrorKind::Exposed, kBounded | kDecibels | kExposures},
+    {"mpsnr", ErrorKind::Exposed, kBounded | kDecibels | kExposures,
+     "Munkberg, Clarberg, Hasselgren, Akenine-Moller, \"High Dynamic Range Texture Compression for "
+     "Graphics Hardware\", 2006"},
 };
 
 /// nullptr for any other name.

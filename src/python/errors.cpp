@@ -10,11 +10,13 @@ namespace tonetool::python {
 
 namespace {
 
-const std::string kSource =
-    "relmse: Rousselle, Knaus, Zwicker, \"Adaptive Sampling and Reconstruction using Greedy Error "
-    "Minimization\", 2011. smape: Vogels et al., \"Denoising with Kernel Prediction and Asymmetric "
-    "Loss Functions\", 2018. mpsnr: Munkberg, Clarberg, Hasselgren, Akenine-Moller, \"High Dynamic "
-    "Range Texture Compression for Graphics Hardware\", 2006. rmae: as the viewer tev.";
+std::string sources() {
+    std::string text;
+    for (const metrics::ErrorMetric& metric : metrics::kErrorMetrics)
+        if (*metric.source)
+            text += std::string(text.empty() ? "" : " ") + metric.name + ": " + metric.source + ".";
+    return text;
+}
 
 using Options = On<ErrorOptions>;
 using ErrorObject = Imaged<ErrorSummary>;
@@ -60,7 +62,7 @@ void add_errors(Module& module) {
         module,
         Description{
             "error_map",
-            "The map of SMAPE, RMAE, relMSE, MSE, MAE, PSNR or mPSNR, and the measure of it.",
+            "The map of one of error_metrics(), and the measure of it.",
             {reference_parameter(), test_parameter()},
             "ErrorResult",
             "The map, and in `summary` the measure.",
@@ -70,9 +72,9 @@ void add_errors(Module& module) {
                        "error, in both as 0. Counted, and in summary.warnings."),
             "An unknown metric, no R, G, B, deep images, different display windows, a value out "
             "of range, an unreadable file, no finite pixel.",
-            kSource},
+            sources()},
         fields(), run);
-    define_names(module, "error_metrics", "Names of the metrics of error_map().", kSource,
+    define_names(module, "error_metrics", "Names of the metrics of error_map().", sources(),
                  ToneAlgo::error_metrics);
 }
 

@@ -296,6 +296,8 @@ ErrorOptions error_options(const Session& session, const Call& call) {
     return options;
 }
 
+constexpr double kFlipdiffPpd = 67.02; // OpenImageIO's
+
 Modifiers flipdiff_modifiers() {
     return {
         {"hdr", "0|1", "HDR-FLIP (1), or LDR-FLIP"},
@@ -306,7 +308,8 @@ Modifiers flipdiff_modifiers() {
         {"startExposure", "STOPS", "first exposure"},
         {"stopExposure", "STOPS", "last exposure"},
         {"numExposures", "N", "number of exposures; 0: from their range"},
-        {"ppd", "X", "pixels per degree of visual angle (67.02)"},
+        {"ppd", "X",
+         OIIO::Strutil::fmt::format("pixels per degree of visual angle ({})", kFlipdiffPpd)},
         {"tonemapper", "NAME", "tone curve (aces): " + join(ToneAlgo::flip_tonemappers(), ", ")},
         {"colormap", "NAME", "push the map in these colours, as --colormap"},
         {"layer", "NAME", "layer whose R,G,B are used"},
@@ -320,7 +323,7 @@ HdrFlipOptions flipdiff_options(const Session& session, const Call& call) {
     options.memory =
         session.settings.memory - std::min(session.settings.memory, shown_bytes(session, call));
     options.pixels = pixel_options(call);
-    options.ppd = call.number("ppd", kPpdRange).value_or(67.02);
+    options.ppd = call.number("ppd", kPpdRange).value_or(kFlipdiffPpd);
     options.curve.name =
         call.choice("tonemapper", ToneAlgo::flip_tonemappers()).value_or(options.curve.name);
     options.start_exposure = call.number("startExposure", kStopsRange);

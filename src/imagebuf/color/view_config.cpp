@@ -337,7 +337,7 @@ SceneBridge find_bridge(const ChosenView& chosen, const std::string& from) {
     if (const std::string aces = find_scene_space(chosen, {ocio::ROLE_INTERCHANGE_SCENE});
         !aces.empty())
         return {aces, known_to_rec709("aces2065-1")};
-    for (const char* known : {"acescg", "aces2065-1", "rec2020", "p3-d65"})
+    for (const std::string& known : linear_spaces())
         if (const SceneBridge bridge = by_name(known); !bridge.space.empty())
             return bridge;
     if (const auto xyz = known_space(chosen, ocio::ROLE_INTERCHANGE_DISPLAY))

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The fields of FlipOptions, HdrFlipOptions, FilmstripOptions and ErrorOptions that are numbers,
+// The fields of FlipOptions, HdrFlipOptions and ErrorOptions that are numbers,
 // names or switches; pixels, curve and view are structs of their own.
 #pragma once
 

@@ -280,6 +280,14 @@ bool is_interchange_name(const std::string& name) {
     return known && known->is_interchanged(lower(name));
 }
 
+std::vector<std::string> linear_spaces() {
+    std::vector<std::string> names;
+    for (const Known& space : known_spaces())
+        if (!space.srgb_encoded)
+            names.push_back(space.name);
+    return names;
+}
+
 Matrix3 known_to_rec709(const std::string& name) {
     const Known* known = find_known(name);
     return known ? space_of(*known).to_rec709 : ColorSpace().to_rec709;

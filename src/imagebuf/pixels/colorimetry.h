@@ -53,6 +53,8 @@ bool says_only_linear(const std::string& tag);
 /// Names and aliases under which configurations of OpenColorIO have the space that find_space()
 /// calls `name`, likeliest first; none that another space bears in some of them.
 std::vector<std::string> interchange_names(const std::string& name);
+/// Names of the spaces that are known and not encoded.
+std::vector<std::string> linear_spaces();
 /// Whether it is one of these names of any space.
 bool is_interchange_name(const std::string& name);
 
