@@ -4,8 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-
-#include "metrics/refusal.h"
+#include <stdexcept>
 
 namespace tonetool::flip {
 namespace {
@@ -18,25 +17,26 @@ std::string text(const char* format, double a, double b = 0) {
 
 void check_range(double stops, const char* name) {
     if (!(std::isfinite(stops) && stops >= kMinStops && stops <= kMaxStops))
-        throw Refusal(std::string(name) + text(" exposure is %g stops", stops) +
-                      text(": must be finite and between %g and %g; pass ", kMinStops, kMaxStops) +
-                      name + "Exposure");
+        throw std::invalid_argument(
+            std::string(name) + text(" exposure is %g stops", stops) +
+            text(": must be finite and between %g and %g; pass ", kMinStops, kMaxStops) + name +
+            "Exposure");
 }
 
 // One end of the range from a luminance.
 double measured(std::optional<double> bright, double luminance, const char* name) {
     if (!bright)
-        throw Refusal(
+        throw std::invalid_argument(
             text("what the image is shown through never reaches %g, so there is no automatic "
                  "exposure: pass "
                  "startExposure and stopExposure",
                  kAnchorValue));
     if (!(std::isfinite(luminance) && luminance > 0))
-        throw Refusal(std::string(name) +
-                      text(" exposure cannot be measured: the luminance is %g, must "
-                           "be positive and finite; pass ",
-                           luminance) +
-                      name + "Exposure");
+        throw std::invalid_argument(std::string(name) +
+                                    text(" exposure cannot be measured: the luminance is %g, must "
+                                         "be positive and finite; pass ",
+                                         luminance) +
+                                    name + "Exposure");
     return std::log2(*bright / luminance);
 }
 
@@ -93,11 +93,13 @@ std::vector<double> make_exposures(std::optional<double> bright, const ExposureR
     check_range(start, "start");
     check_range(stop, "stop");
     if (start > stop)
-        throw Refusal(text("start exposure %g is above stop exposure %g", start, stop) +
-                      ": must not be larger");
+        throw std::invalid_argument(
+            text("start exposure %g is above stop exposure %g", start, stop) +
+            ": must not be larger");
     const int count = request.count.value_or(std::max(2, int(std::ceil(stop - start))));
     if (count < 1 || count > kMaxExposures)
-        throw Refusal(text("number of exposures is %g: must be 1 to %g", count, kMaxExposures));
+        throw std::invalid_argument(
+            text("number of exposures is %g: must be 1 to %g", count, kMaxExposures));
     std::vector<double> stops;
     for (int i = 0; i < count; ++i)
         stops.push_back(count == 1 ? start : start + i * (stop - start) / (count - 1));

@@ -37,8 +37,8 @@ struct ExposureRequest {
 
 /// The exposures in stops, ascending. Eq. 2 and 3: start = log2(x / max), stop = log2(x / median),
 /// N = max(2, ceil(stop - start)). `bright` is x, the exposure anchor of the curve, if it has one.
-/// One exposure means the start. A number that is out of range is a Refusal that says what would be
-/// valid.
+/// One exposure means the start. A number that is out of range is a std::invalid_argument that says
+/// what would be valid.
 std::vector<double> make_exposures(std::optional<double> bright, const ExposureRequest& request);
 
 } // namespace tonetool::flip

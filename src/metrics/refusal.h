@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How everything below the border says that it cannot do what it was asked for.
+// How everything inside the library says that it cannot do what it was asked for. Folders that
+// stand below throw the standard's type itself.
 #pragma once
 
 #include <stdexcept>
@@ -9,8 +10,8 @@ namespace tonetool {
 
 /// What was wrong, with what value, and what would be valid, in the words of the error that the
 /// caller of a public function gets (imagebuf/pixels/guard.h).
-struct Refusal : std::runtime_error {
-    using std::runtime_error::runtime_error;
+struct Refusal : std::invalid_argument {
+    using std::invalid_argument::invalid_argument;
 };
 
 /// What `run` returns; the reason of its refusal is said as `say(reason)` says it.
@@ -18,7 +19,7 @@ template <class Say, class Run>
 auto refusing_as(const Say& say, const Run& run) {
     try {
         return run();
-    } catch (const Refusal& refusal) {
+    } catch (const std::invalid_argument& refusal) {
         throw Refusal(say(std::string(refusal.what())));
     }
 }

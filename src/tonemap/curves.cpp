@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <stdexcept>
 
 #include "kernels/curve_reference.h"
-#include "metrics/refusal.h"
 #include "tonemap/curve_families.h"
 
 namespace tonetool::tonemap {
@@ -108,15 +108,16 @@ CurveValues curve_values(const Curve& curve, const std::map<std::string, double>
         while (i < all.size() && curve.parameters[i].name != name)
             ++i;
         if (i == all.size())
-            throw Refusal(unknown_parameter(curve, name));
+            throw std::invalid_argument(unknown_parameter(curve, name));
         const CurveParameter& parameter = curve.parameters[i];
         if (!(value >= parameter.low && value <= parameter.high))
-            throw Refusal("\"" + name + "\" of " + of_curve(curve) + " cannot be " + number(value) +
-                          "; valid: " + number(parameter.low) + " to " + number(parameter.high));
+            throw std::invalid_argument("\"" + name + "\" of " + of_curve(curve) + " cannot be " +
+                                        number(value) + "; valid: " + number(parameter.low) +
+                                        " to " + number(parameter.high));
         all[i] = value;
     }
     if (const std::string why = given.empty() ? "" : fault(curve, all); !why.empty())
-        throw Refusal(why);
+        throw std::invalid_argument(why);
     return all;
 }
 

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <cstdio>
 #include <iterator>
+#include <stdexcept>
 
-#include "metrics/refusal.h"
 #include "tonemap/curves.h"
 
 namespace tonetool::tonemap {
@@ -72,7 +72,7 @@ kernels::CurveNumbers coefficient_curve(const std::vector<double>& k) {
                                 ? coefficient_fault(k.data())
                                 : "a curve has 6 coefficients, not " + std::to_string(k.size());
     if (!why.empty())
-        throw Refusal(why);
+        throw std::invalid_argument(why);
     kernels::CurveNumbers curve;
     std::copy(k.begin(), k.end(), curve.p.begin());
     return curve;

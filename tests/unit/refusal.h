@@ -14,7 +14,7 @@ std::string refusal(const Run& run) {
     try {
         run();
         return {};
-    } catch (const Refusal& why) {
+    } catch (const std::invalid_argument& why) {
         return why.what();
     }
 }

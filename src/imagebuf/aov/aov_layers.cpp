@@ -59,9 +59,9 @@ AovLayer named(const std::string& prefix, const OIIO::ImageSpec& spec) {
     // In a file of many parts the name of the part may be all there is.
     layer.name = layer.plain ? part_name(spec) : prefix;
     const LayerName split = split_layer(layer.name);
-    layer.home = split.home;
-    layer.token = split.token;
-    layer.pass = plain_word(layer.token);
+    layer.view_layer = split.view_layer;
+    layer.layer_name = split.layer_name;
+    layer.pass = plain_word(layer.layer_name);
     return layer;
 }
 
@@ -105,10 +105,10 @@ LayerName split_layer(const std::string& layer) {
     const LayerName split = split_layer(before);
     // Stereo pairs of Blender are "ViewLayer.Position.left".
     if (lower(last) == "left" || lower(last) == "right")
-        return {split.home + "." + last, split.token};
+        return {split.view_layer + "." + last, split.layer_name};
     // Mitsuba's manual calls a layer "dd.y".
     if (last == "x" || last == "y")
-        return {split.home, split.token + "." + last};
+        return {split.view_layer, split.layer_name + "." + last};
     return {before, last};
 }
 

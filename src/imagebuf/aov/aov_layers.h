@@ -14,10 +14,10 @@ namespace tonetool {
 struct AovLayer {
     std::string
         name; ///< "ViewLayer.Denoising Normal"; that of the part where the channels have none
-    std::string home;   ///< "ViewLayer": what layers of one picture share; often ""
-    std::string token;  ///< "Denoising Normal"
-    std::string pass;   ///< "denoisingnormal"
-    bool plain = false; ///< its channels are called R, G, B, Z and no more
+    std::string view_layer; ///< "ViewLayer": what layers of one picture share; often ""
+    std::string layer_name; ///< "Denoising Normal"
+    std::string pass;       ///< "denoisingnormal"
+    bool plain = false;     ///< its channels are called R, G, B, Z and no more
     int xyz[3] = {-1, -1, -1};
     int rgb[3] = {-1, -1, -1};
     bool twice = false; ///< a colour is there in two spellings, "R" and "red"
@@ -43,7 +43,7 @@ std::string part_name(const OIIO::ImageSpec& spec);
 std::vector<AovLayer> aov_layers(const OIIO::ImageSpec& spec);
 
 struct LayerName {
-    std::string home, token;
+    std::string view_layer, layer_name;
 };
 /// "ViewLayer" and "Combined" of "ViewLayer.Combined".
 LayerName split_layer(const std::string& layer);

@@ -150,21 +150,21 @@ AovKind kind_of_pass(const std::string& pass) {
 }
 
 // "N" of "N_world": what follows says only which normals, or how they were made.
-std::string first_word(const std::string& token) {
+std::string first_word(const std::string& layer_name) {
     static const Names remarks = {"world",  "camera",   "cam",  "object",   "obj",   "view",
                                   "screen", "filtered", "raw",  "denoised", "noisy", "aov",
                                   "pass",   "layer",    "map",  "ref",      "rest",  "local",
                                   "space",  "buffer",   "data", "closest",  "min",   "max"};
-    const size_t end = token.find_first_of(" _-:", 1);
+    const size_t end = layer_name.find_first_of(" _-:", 1);
     if (end == std::string::npos)
         return "";
-    std::string rest = token.substr(end);
+    std::string rest = layer_name.substr(end);
     for (char& c : rest)
         c = std::isalnum(static_cast<unsigned char>(c)) ? c : ' ';
     for (const std::string& word : OIIO::Strutil::splits(rest))
         if (!has(remarks, lower(word)) && !OIIO::Strutil::string_is_int(word))
             return "";
-    return plain_word(token.substr(0, end));
+    return plain_word(layer_name.substr(0, end));
 }
 
 } // namespace
@@ -208,9 +208,9 @@ std::string bare_pass(const std::string& pass) {
     return pass;
 }
 
-AovKind kind_of_layer(const std::string& token) {
-    const AovKind whole = kind_of_pass(bare_pass(plain_word(token)));
-    const std::string first = first_word(token);
+AovKind kind_of_layer(const std::string& layer_name) {
+    const AovKind whole = kind_of_pass(bare_pass(plain_word(layer_name)));
+    const std::string first = first_word(layer_name);
     return whole != AovKind::Light || first.empty() ? whole : kind_of_pass(first);
 }
 

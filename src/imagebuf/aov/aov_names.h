@@ -22,7 +22,7 @@ std::string bare_pass(const std::string& pass);
 
 /// What a layer of this name (its last part: "Denoising Normal", "N_world") holds: Light unless the
 /// name is known to be that of data. "diffuse" is light: only V-Ray calls its albedo so.
-AovKind kind_of_layer(const std::string& token);
+AovKind kind_of_layer(const std::string& layer_name);
 
 /// Lower case, letters and digits only.
 std::string plain_word(const std::string& name);

@@ -25,7 +25,9 @@ struct Layer {
     int channel[4] = {-1, -1, -1, -1};
     bool twice = false; // a colour is there in two spellings, "R" and "red"
     std::string shown() const { return name.empty() ? kPlain : name; }
-    AovKind kind() const { return kind_of_layer(split_layer(name.empty() ? part : name).token); }
+    AovKind kind() const {
+        return kind_of_layer(split_layer(name.empty() ? part : name).layer_name);
+    }
 };
 
 // Those with colour, in the order of the file.
@@ -42,7 +44,7 @@ std::vector<Layer> find_layers(const OIIO::ImageSpec& spec) {
 
 // The pass name of "ViewLayer.Denoising Normal": "denoisingnormal".
 std::string pass_name(const std::string& layer) {
-    return plain_word(split_layer(layer).token);
+    return plain_word(split_layer(layer).layer_name);
 }
 
 bool is_picture(const Layer& layer) {
@@ -261,7 +263,7 @@ void check_usable(const OIIO::ImageSpec& spec, const Layer& layer) {
 } // namespace
 
 bool is_data_name(const std::string& layer) {
-    return kind_of_layer(split_layer(layer).token) != AovKind::Light;
+    return kind_of_layer(split_layer(layer).layer_name) != AovKind::Light;
 }
 
 bool is_beauty_name(const std::string& layer) {

@@ -65,7 +65,7 @@ struct Finder {
     const ImageSpec& spec;
     std::vector<AovLayer> layers;
     bool vray = false;
-    std::string home;
+    std::string view_layer;
 
     std::string show(Guide guide, const Layers& list) const {
         std::vector<std::string> names;
@@ -74,11 +74,12 @@ struct Finder {
         return OIIO::Strutil::join(names, ", ");
     }
 
-    Layers best(Guide guide, const std::string& of_home) const {
+    Layers best(Guide guide, const std::string& of_view_layer) const {
         Layers out;
         int lowest = kNoRank;
         for (const AovLayer& layer : layers) {
-            const int rank = layer.home == of_home ? rank_of(guide, layer, vray) : kNoRank;
+            const int rank =
+                layer.view_layer == of_view_layer ? rank_of(guide, layer, vray) : kNoRank;
             if (rank < lowest)
                 out.clear();
             lowest = std::min(lowest, rank);
@@ -88,43 +89,43 @@ struct Finder {
         return out;
     }
 
-    int guides_of(const std::string& of_home) const {
+    int guides_of(const std::string& of_view_layer) const {
         int count = 0;
         for (int guide = 0; guide < kGuides; ++guide)
-            count += !best(Guide(guide), of_home).empty();
+            count += !best(Guide(guide), of_view_layer).empty();
         return count;
     }
 
-    void find_home(const GuideOptions& options, std::vector<std::string>& notes);
+    void find_view_layer(const GuideOptions& options, std::vector<std::string>& notes);
     const AovLayer* named(Guide guide, const std::string& name) const;
 };
 
 // Guides of another view layer are of another geometry: all come from one. The picture's is the
 // one; without guides there, that with the most of them.
-void Finder::find_home(const GuideOptions& options, std::vector<std::string>& notes) {
+void Finder::find_view_layer(const GuideOptions& options, std::vector<std::string>& notes) {
     const bool plain_picture = std::any_of(
         layers.begin(), layers.end(), [](const AovLayer& l) { return l.plain && l.has_rgb(); });
-    home = split_layer(options.beauty).home;
-    if ((!options.beauty.empty() || plain_picture) && guides_of(home) > 0)
+    view_layer = split_layer(options.beauty).view_layer;
+    if ((!options.beauty.empty() || plain_picture) && guides_of(view_layer) > 0)
         return;
-    std::vector<std::string> homes;
+    std::vector<std::string> view_layers;
     for (const AovLayer& layer : layers)
-        if (guides_of(layer.home) > 0 &&
-            std::find(homes.begin(), homes.end(), layer.home) == homes.end())
-            homes.push_back(layer.home);
-    if (homes.empty())
+        if (guides_of(layer.view_layer) > 0 && std::find(view_layers.begin(), view_layers.end(),
+                                                         layer.view_layer) == view_layers.end())
+            view_layers.push_back(layer.view_layer);
+    if (view_layers.empty())
         return;
-    home = *std::max_element(homes.begin(), homes.end(), [&](const auto& a, const auto& b) {
-        return guides_of(a) < guides_of(b);
-    });
-    if (homes.size() > 1)
-        notes.push_back(std::to_string(homes.size()) + " view layers have guides; those of \"" +
-                        home + "\" are taken");
+    view_layer = *std::max_element(
+        view_layers.begin(), view_layers.end(),
+        [&](const auto& a, const auto& b) { return guides_of(a) < guides_of(b); });
+    if (view_layers.size() > 1)
+        notes.push_back(std::to_string(view_layers.size()) +
+                        " view layers have guides; those of \"" + view_layer + "\" are taken");
 }
 
 // A layer by its full name, in any case, or by its last part.
 const AovLayer* Finder::named(Guide guide, const std::string& name) const {
-    Layers exact, any_case, by_pass, at_home;
+    Layers exact, any_case, by_pass, in_view_layer;
     std::vector<std::string> valid;
     for (const AovLayer& layer : layers) {
         if (!usable(guide, layer))
@@ -139,9 +140,9 @@ const AovLayer* Finder::named(Guide guide, const std::string& name) const {
             by_pass.push_back(&layer);
     }
     const Layers& all = !exact.empty() ? exact : !any_case.empty() ? any_case : by_pass;
-    std::copy_if(all.begin(), all.end(), std::back_inserter(at_home),
-                 [&](const AovLayer* layer) { return layer->home == home; });
-    const Layers& list = all.size() > 1 && !at_home.empty() ? at_home : all;
+    std::copy_if(all.begin(), all.end(), std::back_inserter(in_view_layer),
+                 [&](const AovLayer* layer) { return layer->view_layer == view_layer; });
+    const Layers& list = all.size() > 1 && !in_view_layer.empty() ? in_view_layer : all;
     const std::string what = std::string(kGuideNames[guide]) + " layer";
     if (list.empty())
         throw Refusal(unknown_name(what, name, valid));
@@ -167,7 +168,7 @@ GBufferNames find_gbuffer(const ImageSpec& spec, const GuideOptions& options) {
     GBufferNames names;
     Finder finder{spec, aov_layers(spec), false, ""};
     finder.vray = is_vray(spec, finder.layers);
-    finder.find_home(options, names.notes);
+    finder.find_view_layer(options, names.notes);
     const std::string* wanted[kGuides] = {&options.position, &options.normal, &options.albedo,
                                           &options.depth};
     std::optional<GuideChannels>* out[kGuides] = {&names.position, &names.normal, &names.albedo,
@@ -179,7 +180,7 @@ GBufferNames find_gbuffer(const ImageSpec& spec, const GuideOptions& options) {
             continue;
         if (!wanted[i]->empty()) {
             found = finder.named(guide, *wanted[i]);
-        } else if (const Layers best = finder.best(guide, finder.home); !best.empty()) {
+        } else if (const Layers best = finder.best(guide, finder.view_layer); !best.empty()) {
             found = best[0];
             if (best.size() > 1)
                 names.notes.push_back(std::string(kGuideNames[i]) + " could be one of " +

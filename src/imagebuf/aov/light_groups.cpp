@@ -25,24 +25,24 @@ bool is_something_else(const std::string& group) {
 
 // The group of "C_Key" for "c": what follows the prefix and one of "_ .-"; "" if it is another
 // name.
-std::string group_after(const std::string& token, const std::string& prefix) {
+std::string group_after(const std::string& layer_name, const std::string& prefix) {
     const size_t n = prefix.size();
-    if (n == 0 || token.size() < n + 2 || lower(token.substr(0, n)) != lower(prefix) ||
-        std::string("_ .-").find(token[n]) == std::string::npos)
+    if (n == 0 || layer_name.size() < n + 2 || lower(layer_name.substr(0, n)) != lower(prefix) ||
+        std::string("_ .-").find(layer_name[n]) == std::string::npos)
         return "";
-    return token.substr(n + 1);
+    return layer_name.substr(n + 1);
 }
 
-std::vector<LightGroup> family(const std::vector<AovLayer>& layers, const std::string& home,
+std::vector<LightGroup> family(const std::vector<AovLayer>& layers, const std::string& view_layer,
                                const std::string& prefix) {
     std::vector<LightGroup> groups;
     for (const AovLayer& layer : layers) {
         if (!layer.has_rgb() || layer.plain)
             continue;
         std::string group;
-        if (layer.home == home)
-            group = group_after(layer.token, prefix);
-        else if (home.empty()) // "RGBA.key"
+        if (layer.view_layer == view_layer)
+            group = group_after(layer.layer_name, prefix);
+        else if (view_layer.empty()) // "RGBA.key"
             group = group_after(layer.name, prefix);
         if (group.empty() || is_something_else(group))
             continue;
@@ -55,14 +55,14 @@ std::vector<LightGroup> family(const std::vector<AovLayer>& layers, const std::s
 
 std::vector<LightGroup> find_light_groups(const OIIO::ImageSpec& spec, const std::string& beauty) {
     const std::vector<AovLayer> layers = aov_layers(spec);
-    const auto [home, own] = split_layer(beauty);
+    const auto [view_layer, own] = split_layer(beauty);
     // Blender; Arnold; Karma; RenderMan and MoonRay by custom; V-Ray; Octane; by custom.
     for (const std::string& prefix :
          {own, std::string("combined"), std::string("rgba"), std::string("c"), std::string("ci"),
           std::string("beauty"), std::string("lightselect"), std::string("vraylightselect"),
           std::string("lightmix"), std::string("light id"), std::string("lightgroup"),
           std::string("light"), std::string("lg")}) {
-        auto groups = family(layers, home, prefix);
+        auto groups = family(layers, view_layer, prefix);
         if (!groups.empty())
             return groups;
     }
@@ -76,7 +76,8 @@ std::vector<LightGroup> choose_light_groups(const OIIO::ImageSpec& spec, const s
         return known;
     for (const AovLayer& layer : aov_layers(spec))
         if (layer.has_rgb() && !layer.plain)
-            known.push_back({layer.token, layer.name, {layer.rgb[0], layer.rgb[1], layer.rgb[2]}});
+            known.push_back(
+                {layer.layer_name, layer.name, {layer.rgb[0], layer.rgb[1], layer.rgb[2]}});
     for (const std::string& name : names) {
         const auto is = [&](const LightGroup& g) { return g.name == name || g.layer == name; };
         const auto it = std::find_if(known.begin(), known.end(), is);

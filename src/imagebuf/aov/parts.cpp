@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which part of a file of several pictures is looked at.
+// Chooses the part (subimage) of a file that holds several images.
 #include <OpenImageIO/strutil.h>
 #include <algorithm>
 

@@ -19,7 +19,7 @@ using OIIO::ROI;
 
 // Rows per task of an image in memory: worth a task, but small beside the image.
 constexpr int kRowsInMemory = 64;
-constexpr size_t kFrugalStep = size_t(2) << 20;
+constexpr size_t kSmallStep = size_t(2) << 20;
 
 // A hash of a pixel and its place; sums of these do not depend on the order.
 uint64_t digest(size_t place, const double (&v)[3]) {
@@ -109,8 +109,8 @@ size_t ColorReader::row_bytes() const {
     return size_t(m_region.width()) * (3 * sizeof(float) + 1 + (m_alpha ? sizeof(float) : 0));
 }
 
-size_t ColorReader::frugal_bytes() const {
-    return kFrugalStep + m_source.decoder_bytes();
+size_t ColorReader::bytes_while_saving() const {
+    return kSmallStep + m_source.decoder_bytes();
 }
 
 ColorPlanes ColorReader::planes() const {
@@ -177,8 +177,8 @@ void ColorReader::fill(int begin, int end, ColorPlanes& planes) {
 void ColorReader::fill_from_file(int begin, int end, ColorPlanes& planes) {
     std::mutex lock;
     for (int first = begin; first < end;) {
-        const int rows =
-            m_frugal ? m_source.rows_at_once(first, kFrugalStep) : m_source.rows_at_once(first);
+        const int rows = m_saving_memory ? m_source.rows_at_once(first, kSmallStep)
+                                         : m_source.rows_at_once(first);
         const int last = std::min(first + rows, end);
         fetch(first, last, m_stage);
         make_parallel(m_nthreads)(last - first, [&](int64_t row) {
@@ -189,9 +189,9 @@ void ColorReader::fill_from_file(int begin, int end, ColorPlanes& planes) {
         });
         first = last;
     }
-    if (m_frugal)
+    if (m_saving_memory)
         m_source.rest();
-    if (m_frugal || end == m_region.yend)
+    if (m_saving_memory || end == m_region.yend)
         m_stage = {};
 }
 

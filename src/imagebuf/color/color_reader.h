@@ -30,9 +30,9 @@ public:
     /// Bytes that one row of the region takes in the planes.
     size_t row_bytes() const;
     /// Read in small steps and hold nothing in between.
-    void be_frugal() { m_frugal = true; }
+    void save_memory() { m_saving_memory = true; }
     /// What reading so holds beside the planes while it reads, by estimate, and in between.
-    size_t frugal_bytes() const;
+    size_t bytes_while_saving() const;
     size_t kept_bytes() const { return m_source.kept_bytes(); }
 
     /// Planes that hold no row yet.
@@ -78,7 +78,7 @@ private:
     ColorChoice m_choice;
     ColorSpace m_space;
     OIIO::ROI m_region, m_window;
-    bool m_alpha = false, m_watch = false, m_frugal = false;
+    bool m_alpha = false, m_watch = false, m_saving_memory = false;
     int m_nthreads = 0;
     int64_t m_uncovered = 0;
     Place m_place[4];

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Rows of an image on their way through a tone curve or a view, and back.
+// Takes rows of an image apart for a tone curve or a view, and puts them back.
 #pragma once
 
 #include <OpenImageIO/imagebuf.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The HDR-FLIP paper's Figure 1 as one picture.
+// Figure 1 of the HDR-FLIP paper as one image.
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imagebufalgo.h>
 #include <OpenImageIO/strutil.h>
@@ -180,7 +180,7 @@ public:
     }
 
 private:
-    // Both ends and what lies evenly between them.
+    // The first, the last, and evenly spaced ones between them.
     std::vector<double> choose(const std::vector<double>& exposures) const {
         const size_t n = exposures.size();
         const size_t count = std::min(n, size_t(m_look.max_columns));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// From the planes of a comparison, band by band, to its map, summary and pictures.
+// From the planes of a comparison, band by band, to its map, summary and exposures.
 #pragma once
 
 #include <OpenImageIO/imagebuf.h>

@@ -22,13 +22,15 @@ using OIIO::Strutil::fmt::format;
 void plan_common(const FlipOptions& options, FlipPlan& plan) {
     plan.common = options;
     plan_pool(options.quantities, plan.pool);
-    check_options(options);
+    FlipOptions screen;
+    screen.ppd = options.ppd;
+    check_options(options.ppd ? screen : options); // with ppd the others have no say
     plan.ppd = options.ppd ? *options.ppd
                            : flip::pixels_per_degree(options.distance, options.width,
                                                      options.pixels_across);
     if (!(plan.ppd >= kPpdRange.low && plan.ppd <= kPpdRange.high))
-        throw Refusal(format("ppd, of distance, width and pixels, is {}: must be {} to {} pixels "
-                             "per degree",
+        throw Refusal(format("ppd is {} by distance, width and pixels: must be {} to {} pixels per "
+                             "degree",
                              plan.ppd, kPpdRange.low, kPpdRange.high));
     plan.evaluation.taps = flip::lane_taps(flip::make_taps(plan.ppd));
 }

@@ -39,7 +39,7 @@ public:
         : m_plan(plan),
           m_image(reference),
           m_nthreads(nthreads),
-          m_reach(plan.filters() ? flip::filter_radius(plan.evaluation.taps) : 0) {}
+          m_radius(plan.filters() ? flip::filter_radius(plan.evaluation.taps) : 0) {}
 
     /// `held`: bytes that earlier groups have made.
     void run(const FittedTest* fitted, const std::vector<ImageBuf*>& dst, const ROI& roi,
@@ -112,15 +112,15 @@ private:
 
     // Tiles of few rows: their halos take time, but little memory.
     flip::Evaluation bounded() const {
-        constexpr int frugal_rows = 16;
+        constexpr int few_rows = 16;
         flip::Evaluation evaluation = m_plan.evaluation;
-        evaluation.most_tile_rows = m_plan.common.memory > 0 ? frugal_rows : 0;
+        evaluation.most_tile_rows = m_plan.common.memory > 0 ? few_rows : 0;
         return evaluation;
     }
 
     void make_bands(size_t exposures) {
         m_needs = {};
-        m_needs.reach = m_reach;
+        m_needs.radius = m_radius;
         m_needs.band_rows = m_plan.band_rows;
         if (m_plan.filters())
             m_needs.thread =
@@ -130,7 +130,7 @@ private:
         for (size_t i = 0; i <= m_tests.size(); ++i) {
             const ColorReader& reader = i == 0 ? m_reference.reader : m_tests[i - 1].reader;
             m_needs.row += reader.row_bytes();
-            m_needs.reading = std::max<uint64_t>(m_needs.reading, reader.frugal_bytes());
+            m_needs.reading = std::max<uint64_t>(m_needs.reading, reader.bytes_while_saving());
             m_needs.held += reader.kept_bytes();
             if (i > 0)
                 m_needs.held += m_fitted[i - 1].held_bytes();
@@ -139,10 +139,10 @@ private:
         if (needs_luminance(m_plan))
             m_needs.measuring = luminance_bytes(m_region) +
                                 m_reference.reader.row_bytes() * kLuminanceRows +
-                                m_reference.reader.frugal_bytes();
+                                m_reference.reader.bytes_while_saving();
         m_bands.plan(m_plan.common.memory, m_needs, m_region, m_roi);
         for (size_t i = 0; !m_bands.one() && i <= m_tests.size(); ++i)
-            (i == 0 ? m_reference.reader : m_tests[i - 1].reader).be_frugal();
+            (i == 0 ? m_reference.reader : m_tests[i - 1].reader).save_memory();
     }
 
     // The exposures, and what is compared if it fits.
@@ -190,29 +190,29 @@ private:
     void run_band(int begin, int end, std::vector<FlipMaps>& maps) {
         const int had = m_reference.planes.end;
         if (!m_reference.planes.whole())
-            read(std::max(begin - m_reach, m_region.ybegin),
-                 std::min(end + m_reach, m_region.yend));
+            read(std::max(begin - m_radius, m_region.ybegin),
+                 std::min(end + m_radius, m_region.yend));
         if (m_reference.planes.end == m_region.yend)
             check_sound();
         const int fresh = m_bands.one() ? m_region.ybegin : had;
-        // A reference with non-finite pixels is mended differently for each test.
+        // A reference with non-finite pixels is changed differently for each test.
         const size_t step = m_reference.planes.counts.nonfinite > 0 ? 1 : m_tests.size();
         for (size_t t = 0; t < m_tests.size(); t += step) {
             for (size_t i = t; i < t + step; ++i)
-                mend(i, fresh);
+                substitute(i, fresh);
             measure_bakes(t, step, fresh);
             if (const int from = std::max(begin, m_roi.ybegin), to = std::min(end, m_roi.yend);
                 from < to)
                 evaluate(t, step, from, to, maps);
             if (m_tests.size() > 1)
-                unmend(m_reference.planes);
+                blacken_nonfinite(m_reference.planes);
         }
     }
 
-    void mend(size_t test, int fresh) {
+    void substitute(size_t test, int fresh) {
         ColorPlanes &r = m_reference.planes, &t = m_tests[test].planes;
-        mend_nonfinite(r, t, r.begin, fresh);
-        const NonfiniteBoth both = mend_nonfinite(r, t, fresh, r.end);
+        substitute_nonfinite(r, t, r.begin, fresh);
+        const NonfiniteBoth both = substitute_nonfinite(r, t, fresh, r.end);
         m_both[test].alike += both.alike;
         m_both[test].unlike += both.unlike;
     }
@@ -279,7 +279,7 @@ private:
 
     const FlipPlan& m_plan;
     const ImageBuf& m_image;
-    int m_nthreads, m_reach;
+    int m_nthreads, m_radius;
     ROI m_region, m_roi;
     const FittedTest* m_fitted = nullptr;
     uint64_t m_held = 0;

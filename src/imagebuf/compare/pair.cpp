@@ -208,7 +208,7 @@ void FittedTest::resize(const ROI& window, const PairOptions& options, int nthre
     of_side(name(),
             [&] { reader.open(*m_test, m_pixels, plane_of(m_test->roi()), alpha, nthreads); });
     if (options.memory > 0)
-        reader.be_frugal();
+        reader.save_memory();
     ColorPlanes planes = reader.planes();
     of_side(name(), [&] { reader.read(planes.region.ybegin, planes.region.yend, planes); });
     fill_window(planes, window, nthreads);
@@ -223,7 +223,8 @@ void FittedTest::fill_window(const ColorPlanes& planes, ROI window, int nthreads
     window.chbegin = 0;
     window.chend = color.nchannels();
     ImageBuf holes;
-    // Mending looks at pixels that it has mended: one thread, or the bits depend on the order.
+    // Substitutes are taken from neighbours that may be substitutes themselves: one thread, or the
+    // bits depend on the order.
     if ((holey && !IBA::fixNonFinite(color, with_holes, IBA::NONFINITE_BOX3, nullptr, {}, 1)) ||
         !oiio::resize(m_resized, color, "", window, nthreads) ||
         (holey && !IBA::resample(holes, with_holes, false, window, nthreads)))
@@ -290,7 +291,7 @@ bool nonfinite_alike(const ColorPlanes& r, size_t at, const ColorPlanes& t, size
     return !one_space || same_numbers(r.beside[at], t.beside[where]);
 }
 
-NonfiniteBoth mend_nonfinite(ColorPlanes& r, ColorPlanes& t, int begin, int end) {
+NonfiniteBoth substitute_nonfinite(ColorPlanes& r, ColorPlanes& t, int begin, int end) {
     NonfiniteBoth both;
     if (r.counts.nonfinite == 0 && t.counts.nonfinite == 0)
         return both;
@@ -309,7 +310,7 @@ NonfiniteBoth mend_nonfinite(ColorPlanes& r, ColorPlanes& t, int begin, int end)
     return both;
 }
 
-void unmend(ColorPlanes& planes) {
+void blacken_nonfinite(ColorPlanes& planes) {
     for (size_t i = 0; planes.counts.nonfinite > 0 && i < planes.nonfinite.size(); ++i)
         for (size_t p = 0; planes.nonfinite[i] && p < 3; ++p)
             planes.plane[p][i] = 0;

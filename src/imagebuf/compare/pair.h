@@ -82,9 +82,9 @@ bool nonfinite_alike(const ColorPlanes& reference, size_t at, const ColorPlanes&
 /// A pixel that is non-finite in one image takes the other's colour, so that the neighbourhood
 /// sees no difference there; non-finite in both it stays black. Works on rows that both hold and
 /// counts the latter; once more it changes nothing.
-NonfiniteBoth mend_nonfinite(ColorPlanes& reference, ColorPlanes& test, int begin, int end);
+NonfiniteBoth substitute_nonfinite(ColorPlanes& reference, ColorPlanes& test, int begin, int end);
 
-/// Makes the non-finite pixels of a mended image black again.
-void unmend(ColorPlanes& planes);
+/// Makes the non-finite pixels of such an image black again.
+void blacken_nonfinite(ColorPlanes& planes);
 
 } // namespace tonetool

@@ -49,7 +49,7 @@ struct Side {
         of_side(side_name(who, image),
                 [&] { reader.open(image, pixels, region, false, nthreads); });
         if (memory > 0)
-            reader.be_frugal();
+            reader.save_memory();
         ColorPlanes planes = reader.planes();
         const std::string name = std::string("the ") + who + " image";
         check_covered(planes, name);

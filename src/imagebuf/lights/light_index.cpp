@@ -28,7 +28,7 @@ constexpr size_t kMostValues = 1 << 20;
 bool is_index(const AovLayer& layer) {
     static const char* const names[] = {"lightindex", "m", "lightid", "lightidx"};
     return layer.count == 1 && std::find(std::begin(names), std::end(names),
-                                         plain_word(layer.token)) != std::end(names);
+                                         plain_word(layer.layer_name)) != std::end(names);
 }
 
 // Integers come as 0..1. Where their type is known no more the header may still tell their bits;
@@ -54,14 +54,14 @@ double index_scale(const ImageBuf& image, int channel, double largest) {
 std::optional<IndexLayer> find_index_layer(const ImageSpec& spec, const std::string& name,
                                            const std::string& beauty) {
     std::optional<IndexLayer> out;
-    const std::string home = split_layer(beauty).home;
+    const std::string view_layer = split_layer(beauty).view_layer;
     std::vector<std::string> valid;
     for (const AovLayer& layer : aov_layers(spec)) {
         if (layer.scalar() < 0 || layer.name.empty())
             continue;
         valid.push_back(layer.name);
-        const bool named = layer.name == name || layer.token == name;
-        const bool here = !out || layer.name == name || layer.home == home;
+        const bool named = layer.name == name || layer.layer_name == name;
+        const bool here = !out || layer.name == name || layer.view_layer == view_layer;
         if ((name.empty() ? is_index(layer) : named) && here)
             out = {layer.name, layer.scalar()};
     }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Scene light as the 0 to 1 that look-up tables are indexed with. Only lut*.cpp include this.
+// Maps scene light to the 0 to 1 that look-up tables are indexed with. Only lut*.cpp include this.
 #pragma once
 
 #include <array>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Memory for pixels, asked for in sizes that headers of files promise.
+// Allocation of pixel memory whose size comes from the header of a file.
 #pragma once
 
 #include <OpenImageIO/imagebuf.h>
@@ -29,7 +29,7 @@ private:
     std::string m_text;
 };
 
-/// What an error says of memory that was not to be had.
+/// The text of an error for an allocation that failed.
 inline std::string memory_text(const std::bad_alloc& failure) {
     const auto* large = dynamic_cast<const TooLarge*>(&failure);
     return large ? large->what() : "not enough memory";
@@ -42,7 +42,7 @@ inline void expect_memory(uint64_t bytes) {
         throw TooLarge(bytes, available);
 }
 
-/// An image whose pixels are there, but not set; a std::bad_alloc else.
+/// An image with allocated, uninitialized pixels; a std::bad_alloc where that fails.
 inline OIIO::ImageBuf allocated_image(const OIIO::ImageSpec& spec) {
     expect_memory(spec.image_bytes());
     OIIO::ImageBuf image(spec, OIIO::InitializePixels::No);

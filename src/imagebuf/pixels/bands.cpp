@@ -43,7 +43,7 @@ void Bands::plan(uint64_t memory, const MemoryNeeds& needs, const OIIO::ROI& reg
     m_one = needs.band_rows == 0 &&
             fixed_for(needs.threads) + needs.reading + needs.row * rows + second <= m_budget;
     const uint64_t band =
-        needs.reading + needs.row * std::min(rows, uint64_t(kLeastRows + 2 * needs.reach));
+        needs.reading + needs.row * std::min(rows, uint64_t(kLeastRows + 2 * needs.radius));
     const int few = std::min(kLeastThreads, needs.threads);
     const uint64_t least = fixed_for(few) + std::max(maps + band, needs.measuring);
     // Half of what is left for more threads, the other half for larger bands.
@@ -64,7 +64,7 @@ int Bands::end_of(int begin) const {
         return m_region.yend;
     if (m_needs.band_rows > 0)
         return std::min(begin + m_needs.band_rows, m_region.yend);
-    const uint64_t around = m_needs.row * uint64_t(2 * m_needs.reach);
+    const uint64_t around = m_needs.row * uint64_t(2 * m_needs.radius);
     const uint64_t taken = m_fixed + m_needs.reading + around + maps_until(begin);
     const uint64_t left = m_budget > taken ? m_budget - taken : 0;
     uint64_t rows = std::max<uint64_t>(left / (m_needs.row + m_needs.map_row), kLeastRows);

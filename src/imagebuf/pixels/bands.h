@@ -21,7 +21,7 @@ struct MemoryNeeds {
     uint64_t measuring = 0; ///< of the pass that measures the reference, in all
     uint64_t thread = 0;    ///< work space of a thread that evaluates
     int threads = 1;        ///< as many as there may be
-    int reach = 0;          ///< rows around a band that its errors depend on
+    int radius = 0;         ///< rows around a band that its errors depend on
     int band_rows = 0;      ///< if not 0, bands are of so many rows, whatever the memory
 };
 

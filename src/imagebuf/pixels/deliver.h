@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Where a finished map goes.
+// Moves a finished map into the image of the caller.
 #pragma once
 
 #include <OpenImageIO/imagebuf.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a person could have meant by a misspelt name. Header only: the command language uses it,
+// Suggestions for misspelt names. Header only: the command language uses it,
 // too, which sees no symbol of the library but the installed ones.
 #pragma once
 

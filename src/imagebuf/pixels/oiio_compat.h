@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// All that differs between OpenImageIO 2.4, 2.5 and 3.x for this project, for every room.
+// All that differs between OpenImageIO 2.4, 2.5 and 3.x for this project, in one place.
 //
 //   ImageCache      3.0 hands it out as a shared_ptr, and ImageBuf takes that; 2.x as a pointer to
 //                   be destroyed.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Numbers in pages of their own: they cost memory once they are written, and pages go back to the
-// system without moving what stays.
+// An array in mapped pages of its own: memory is committed when it is first written, and pages go
+// back to the system without moving the rest.
 #pragma once
 
 #include <algorithm>

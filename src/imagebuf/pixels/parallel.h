@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// OpenImageIO's thread pool as the rooms below see it.
+// OpenImageIO's thread pool as kernels and algorithms see it.
 #pragma once
 
 #include <functional>

@@ -26,7 +26,7 @@ std::string kept_value(const std::string& value) {
 }
 
 bool is_depth(const AovLayer& layer) {
-    return layer.has_lone_z() || kind_of_layer(layer.token) == AovKind::Depth;
+    return layer.has_lone_z() || kind_of_layer(layer.layer_name) == AovKind::Depth;
 }
 
 } // namespace

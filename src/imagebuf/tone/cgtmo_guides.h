@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The guides of CG-TMO: found in the image, in other parts of its file or in files of their own,
-// and what stands in for those that are not there.
+// The G-buffer AOVs that guide CG-TMO: found in the image, in other parts of its file or in files
+// of their own, and substitutes for those that are missing.
 #pragma once
 
 #include <OpenImageIO/imagebuf.h>

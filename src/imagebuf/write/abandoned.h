@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What writers that were killed have left behind.
+// Temporary files left behind by writers that were killed.
 #pragma once
 
 #include <string>

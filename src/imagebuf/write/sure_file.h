@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Where a writer that must not see a failed write writes to.
+// The file of a writer that cannot cope with a failed write.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Textures, written with the promise of all other outputs.
+// Textures, written whole or not at all, as all other outputs.
 #include <OpenImageIO/imagebufalgo.h>
 #include <OpenImageIO/strutil.h>
 #include <fcntl.h>

@@ -3,10 +3,10 @@
 #pragma once
 
 #include <cmath>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
-#include "metrics/refusal.h"
 #include "tonemap/curves.h"
 
 namespace tonetool::kernels {
@@ -25,7 +25,7 @@ inline std::vector<CurveCase> cases_of(const tonemap::Curve& curve) {
         try {
             const auto values = tonemap::curve_values(curve, given, false);
             cases.push_back({curve.name + what, curve.make(values), given.empty()});
-        } catch (const Refusal&) {
+        } catch (const std::invalid_argument&) {
             // These do not go together.
         }
     };

@@ -271,6 +271,8 @@ TEST(Exposed, IsWhatHdrFlipComparesToTheBit) {
         HdrFlipOptions options;
         options.curve.name = curve;
         expect_shown_as_compared(reference, test, options);
+        if (curve == std::string("agx"))
+            continue; // which mixes the channels
         options.curve.on = "luminance";
         expect_shown_as_compared(reference, test, options);
     }

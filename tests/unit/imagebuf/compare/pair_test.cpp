@@ -64,7 +64,7 @@ TEST(MendNonfinite, TakesTheOtherImagesPixel) {
     const auto t = with_pixel(with_pixel(other, 1, 0, {1, 1, kNan}), 2, 0, {kNan, 1, 1});
     ColorPlanes pr = read_planes(r, {}, r.roi(), false, 1);
     ColorPlanes pt = read_planes(t, {}, t.roi(), false, 1);
-    const NonfiniteBoth both = mend_nonfinite(pr, pt, 0, 1);
+    const NonfiniteBoth both = substitute_nonfinite(pr, pt, 0, 1);
     EXPECT_EQ(both.alike, 0);
     EXPECT_EQ(both.unlike, 1) << "NaN in another component";
     for (int p = 0; p < 3; ++p) {
@@ -84,7 +84,7 @@ NonfiniteBoth both_of(std::vector<float> in_reference, std::vector<float> in_tes
     const auto t = with_pixel(noise(4, 1, 2), 2, 0, std::move(in_test));
     ColorPlanes pr = read_planes(r, {}, r.roi(), false, 1);
     ColorPlanes pt = read_planes(t, {"", space}, t.roi(), false, 1);
-    return mend_nonfinite(pr, pt, 0, 1);
+    return substitute_nonfinite(pr, pt, 0, 1);
 }
 
 TEST(MendNonfinite, TellsKindsAndTheOtherComponents) {

@@ -79,6 +79,11 @@ std::vector<Function> comparisons() {
                  c.error = maps.at(0).geterror();
                  return done;
              }});
+        all.push_back({"flip_exposed", how, [=](const Call& c) {
+                           std::vector<FlipExposure> shown;
+                           return flip_exposed(shown, a(c), b(c), c.error,
+                                               linear<HdrFlipOptions>());
+                       }});
         all.push_back({"flip_filmstrip", how, [=](const Call& c) {
                            return flip_filmstrip(c.dst, a(c), b(c), linear<HdrFlipOptions>());
                        }});

@@ -26,7 +26,7 @@ MemoryNeeds needs() {
     out.measuring = 9 * kMega;
     out.thread = kMega;
     out.threads = 8;
-    out.reach = 14;
+    out.radius = 14;
     return out;
 }
 
@@ -34,7 +34,7 @@ MemoryNeeds needs() {
 uint64_t held(const Bands& bands, int begin, int end) {
     const MemoryNeeds n = needs();
     const int64_t rows =
-        std::min(end + n.reach, kRegion.yend) - std::max(begin - n.reach, kRegion.ybegin);
+        std::min(end + n.radius, kRegion.yend) - std::max(begin - n.radius, kRegion.ybegin);
     return kSetAside + n.reading + n.thread * uint64_t(bands.threads()) + n.row * uint64_t(rows) +
            n.map_row * uint64_t(end - kRegion.ybegin);
 }
