@@ -20,10 +20,10 @@ namespace tonetool {
 /// display's encoding.
 class ViewTransform {
 public:
-    /// Chosen and checked; `error` lists what would be valid. `from` names a colour space (or alias
-    /// or role) of the configuration; empty: that which `oiio:ColorSpace` names there, else the
-    /// image's own under one of its known names. Chromaticities are believed over a tag that says
-    /// only "Linear"; stock oiiotool 2.4.7 looks that word up in the configuration.
+    /// Chosen and checked; a Refusal lists what would be valid. `from` names a colour space (or
+    /// alias or role) of the configuration; empty: that which `oiio:ColorSpace` names there, else
+    /// the image's own under one of its known names. Chromaticities are believed over a tag that
+    /// says only "Linear"; stock oiiotool 2.4.7 looks that word up in the configuration.
     void open(const ViewOptions& options, const std::string& from, const OIIO::ImageSpec& header);
 
     const std::string& display() const { return m_display; }

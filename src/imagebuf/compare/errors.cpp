@@ -39,8 +39,12 @@ ErrorSummary summarize(const ErrorMetric& metric, const ErrorOptions& options,
 
 void measure(ImageBuf& dst, const ImageBuf& reference, const ImageBuf& test,
              const ErrorOptions& options, ErrorSummary* summary, ROI roi, int nthreads) {
-    check_options(options);
-    const ErrorMetric& metric = *metrics::find_error_metric(options.metric);
+    const ErrorMetric* known = metrics::find_error_metric(options.metric);
+    ErrorOptions used = options;
+    if (known && !known->has(metrics::kExposures))
+        used.start_exposure = used.stop_exposure = {}, used.num_exposures = {};
+    check_options(used);
+    const ErrorMetric& metric = *known;
     const FlipPlan plan =
         plan_errors(options, {metric.kind, options.eps}, metric.has(metrics::kExposures));
     std::vector<ImageBuf> maps;

@@ -142,6 +142,10 @@ FlipPlan plan_shown(const HdrFlipOptions& options, const std::vector<double>& st
     HdrFlipOptions all = options;
     all.want_exposures = true;
     all.want_exposure_map = false;
+    if (!stops.empty()) { // they have the say, not the options
+        all.start_exposure = all.stop_exposure = all.max_luminance = all.median_luminance = {};
+        all.num_exposures = {};
+    }
     FlipPlan plan = plan_hdr(all);
     plan.only_shown = true;
     for (double exposure : stops)

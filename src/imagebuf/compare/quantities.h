@@ -10,7 +10,7 @@
 
 namespace tonetool {
 
-/// What the named quantities need beside the usual pool. False, with what is valid, for a name that
+/// What the named quantities need beside the usual pool. A Refusal says what is valid where a name
 /// is none.
 void plan_pool(const std::vector<std::string>& names, metrics::PoolRequest& request);
 

@@ -3,6 +3,7 @@
 
 #include <OpenImageIO/strutil.h>
 #include <algorithm>
+#include <cmath>
 
 #include "imagebuf/color/luminance_plane.h"
 #include "imagebuf/pixels/parallel.h"
@@ -22,6 +23,16 @@ void luminances(const ColorPlanes& planes, int y, float* out) {
     const float* rgb[3];
     planes.row(planes.region.xbegin, y, rgb);
     metrics::luminance_row(rgb[0], rgb[1], rgb[2], out, planes.width());
+}
+
+// A pixel of a group that is not finite is black, as where it is indexed: it would be left out of
+// the sums with what the group lacks.
+void blacken_nonfinite(float* pixel, const int (&channel)[3]) {
+    bool finite = true;
+    for (const int c : channel)
+        finite = finite && std::isfinite(pixel[c]);
+    for (const int c : channel)
+        pixel[c] = finite ? pixel[c] : 0;
 }
 
 } // namespace
@@ -107,6 +118,9 @@ void LightScan::compare() {
             if (space.encoded())
                 std::transform(row, row + width, row,
                                [&](float v) { return float(space.light(double(v), 1)); });
+            for (const ScannedGroup& one : m_groups)
+                for (size_t x = 0; x < width; x += size_t(channels))
+                    blacken_nonfinite(row + x, one.group.channel);
             const metrics::ChannelRow pixels{row + (window.xbegin - source.left()) * channels,
                                              channels, window.width(), window.xbegin, begin + i};
             std::vector<metrics::RowChannel> groups;

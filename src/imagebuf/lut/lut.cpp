@@ -49,7 +49,10 @@ bool ToneAlgo::export_lut(const std::string& filename, const LutOptions& options
         const QuietOcio quiet;
         const std::string extension =
             OIIO::Strutil::lower(OIIO::Filesystem::extension(filename, false));
-        check_options(options);
+        LutOptions used = options;
+        if (options.view)
+            used.encode = LutOptions().encode; // of curves
+        check_options(used);
         LutSource source;
         LutShaper shaper;
         source.open(options);

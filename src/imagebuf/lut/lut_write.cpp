@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "metrics/refusal.h"
-
 #include "imagebuf/lut/lut_write.h"
 
 #include <OpenImageIO/strutil.h>
 #include <algorithm>
 #include <locale>
 #include <sstream>
+
+#include "metrics/refusal.h"
 
 namespace tonetool {
 namespace {

@@ -17,7 +17,7 @@ struct LutRemarks {
 };
 
 bool holds_scene_light(const std::string& format); ///< clf, ctf
-/// False, with an error, where the format cannot hold such steps.
+/// A Refusal where the format cannot hold such steps.
 void check_format(const std::string& format, const LutSource& source);
 std::string lut_text(const std::string& format, const LutSteps& steps, const LutRemarks& remarks);
 

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "metrics/refusal.h"
-
 #include "imagebuf/write/sure_file.h"
 
 #include <cerrno>
@@ -10,6 +8,8 @@
 #include <sys/resource.h>
 #include <unistd.h>
 #include <vector>
+
+#include "metrics/refusal.h"
 
 namespace tonetool {
 namespace {

@@ -89,6 +89,21 @@ TEST(LightIndex, AddsGroupsUpAsQcDoes) {
     }
 }
 
+// Pixels that are no numbers are black: a group of nothing else does not make the others add up.
+TEST(LightIndex, AGroupThatIsNotFiniteIsMissedInTheSum) {
+    const float nan = std::numeric_limits<float>::quiet_NaN();
+    const ImageSpec spec = make_spec(
+        16, 8,
+        {"R", "G", "B", "C_key.R", "C_key.G", "C_key.B", "C_fill.R", "C_fill.G", "C_fill.B"});
+    for (const std::vector<float>& key : {std::vector<float>{nan, nan, nan}, {0.9f, nan, 0.9f}}) {
+        const ImageBuf image = constant(spec, {1, 1, 1, key[0], key[1], key[2], 0.1f, 0.1f, 0.1f});
+        LightIndexSummary summary;
+        ASSERT_FALSE(light_index(image, {}, {}, &summary).has_error());
+        EXPECT_NEAR(summary.difference, 0.9, 1e-6);
+        EXPECT_THAT(summary.warnings, Contains(HasSubstr("add up")));
+    }
+}
+
 TEST(LightIndex, SaysWhatIsWrong) {
     const ImageBuf plain = noise(8, 8, 1);
     EXPECT_THAT(light_index(plain).geterror(), HasSubstr("light_index: no light groups"));
