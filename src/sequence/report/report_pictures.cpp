@@ -124,13 +124,15 @@ private:
                 shown.push_back({exposure, displayed(reference), displayed(linear.test)});
             return shown;
         }
-        std::vector<FlipExposure> exposed;
-        std::string error;
-        if (!ToneAlgo::flip_exposed(exposed, reference, linear.test, error, m_look, stops, {},
-                                    m_nthreads))
-            throw std::runtime_error(error);
-        for (const FlipExposure& at : exposed)
-            shown.push_back({at.stops, srgb_bytes(at.reference), srgb_bytes(at.test)});
+        for (double exposure : stops) { // one at a time: they are large
+            std::vector<FlipExposure> exposed;
+            std::string error;
+            if (!ToneAlgo::flip_exposed(exposed, reference, linear.test, error, m_look, {exposure},
+                                        {}, m_nthreads))
+                throw std::runtime_error(error);
+            shown.push_back(
+                {exposure, srgb_bytes(exposed.at(0).reference), srgb_bytes(exposed.at(0).test)});
+        }
         return shown;
     }
 
