@@ -3,6 +3,7 @@
 
 #include <OpenImageIO/strutil.h>
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "imagebuf/color/luminance_plane.h"
@@ -27,12 +28,16 @@ void luminances(const ColorPlanes& planes, int y, float* out) {
 
 // A pixel of a group that is not finite is black, as where it is indexed: it would be left out of
 // the sums with what the group lacks.
-void blacken_nonfinite(float* pixel, const int (&channel)[3]) {
+void keep_if_finite(float* pixel, const std::array<int, 3>& channel) {
     bool finite = true;
     for (const int c : channel)
         finite = finite && std::isfinite(pixel[c]);
     for (const int c : channel)
         pixel[c] = finite ? pixel[c] : 0;
+}
+
+std::array<int, 3> from(int first, const int (&channel)[3]) {
+    return {channel[0] - first, channel[1] - first, channel[2] - first};
 }
 
 } // namespace
@@ -102,10 +107,22 @@ void LightScan::compare() {
     ColorChoice picture;
     ColorSpace space;
     find_picture(deciding_spec(*m_image), m_pixels, picture, space);
-    const int channels = m_image->nchannels();
+    // Of a file of many AOVs only what lies between the first and the last of them is read.
+    int first = std::min({picture.r, picture.g, picture.b});
+    int last = std::max({picture.r, picture.g, picture.b});
+    for (const ScannedGroup& one : m_groups)
+        for (const int channel : one.group.channel) {
+            first = std::min(first, channel);
+            last = std::max(last, channel);
+        }
+    const int channels = last + 1 - first;
+    const std::array<int, 3> beauty = from(first, {picture.r, picture.g, picture.b});
+    std::vector<std::array<int, 3>> groups;
+    for (const ScannedGroup& one : m_groups)
+        groups.push_back(from(first, one.group.channel));
     const OIIO::ROI window = OIIO::roi_intersection(m_image->roi(), m_region);
     RowSource source;
-    source.open(*m_image, {{0, channels}});
+    source.open(*m_image, {{first, last + 1}});
     const size_t width = size_t(source.width()) * size_t(channels);
     std::vector<float> rows;
     for (int begin = window.ybegin, end = begin; begin < window.yend; begin = end) {
@@ -118,17 +135,17 @@ void LightScan::compare() {
             if (space.encoded())
                 std::transform(row, row + width, row,
                                [&](float v) { return float(space.light(double(v), 1)); });
-            for (const ScannedGroup& one : m_groups)
+            for (const auto& group : groups)
                 for (size_t x = 0; x < width; x += size_t(channels))
-                    blacken_nonfinite(row + x, one.group.channel);
+                    keep_if_finite(row + x, group);
             const metrics::ChannelRow pixels{row + (window.xbegin - source.left()) * channels,
                                              channels, window.width(), window.xbegin, begin + i};
-            std::vector<metrics::RowChannel> groups;
-            for (const ScannedGroup& one : m_groups)
-                for (const int channel : one.group.channel)
-                    groups.push_back({pixels, channel});
+            std::vector<metrics::RowChannel> light;
+            for (const auto& group : groups)
+                for (const int channel : group)
+                    light.push_back({pixels, channel});
             compared[size_t(i)].add_row(
-                {{pixels, picture.r}, {pixels, picture.g}, {pixels, picture.b}}, groups);
+                {{pixels, beauty[0]}, {pixels, beauty[1]}, {pixels, beauty[2]}}, light);
         });
         for (const metrics::GroupScan& row : compared)
             m_compared.add(row);

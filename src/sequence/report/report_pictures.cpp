@@ -24,7 +24,6 @@ using OIIO::ROI;
 constexpr int kLargeQuality = 82, kMapQuality = 85, kSmallQuality = 72;
 
 struct Shown {
-    double stops = 0;
     ImageBuf reference, test; ///< 8 bits, sRGB-encoded
 };
 
@@ -59,16 +58,11 @@ public:
         FramePictures pictures;
         const PixelSize small = fitted(m_whole, kThumbnailSide);
         const Linear linear = read(m_whole, m_request.full ? fitted(m_whole, kPictureSide) : small);
-        std::vector<double> stops = exposures(linear);
+        const std::vector<double> stops = exposures(linear);
         const double middle = (stops.front() + stops.back()) / 2;
-        if (!m_request.full)
-            stops.clear();
-        stops.push_back(middle);
-        std::vector<Shown> shown = show(linear, stops);
-        draw_small(pictures, shown.back().test, small);
-        shown.pop_back();
+        draw_small(pictures, linear, middle, small);
         if (m_request.full)
-            draw_large(pictures, shown);
+            draw_large(pictures, linear, stops);
         draw_spots(pictures, middle);
         return pictures;
     }
@@ -114,26 +108,17 @@ private:
         return chosen(stops);
     }
 
-    // The pair as it is compared at these exposures.
-    std::vector<Shown> show(const Linear& linear, const std::vector<double>& stops) const {
+    // The pair as it is compared at one exposure: all of them together take much memory.
+    Shown show(const Linear& linear, double stops) const {
         const ImageBuf& reference = m_request.reference ? linear.reference : linear.test;
-        std::vector<Shown> shown;
-        shown.reserve(stops.size());
-        if (!m_request.hdr) {
-            for (double exposure : stops)
-                shown.push_back({exposure, displayed(reference), displayed(linear.test)});
-            return shown;
-        }
-        for (double exposure : stops) { // one at a time: they are large
-            std::vector<FlipExposure> exposed;
-            std::string error;
-            if (!ToneAlgo::flip_exposed(exposed, reference, linear.test, error, m_look, {exposure},
-                                        {}, m_nthreads))
-                throw std::runtime_error(error);
-            shown.push_back(
-                {exposure, srgb_bytes(exposed.at(0).reference), srgb_bytes(exposed.at(0).test)});
-        }
-        return shown;
+        if (!m_request.hdr)
+            return {displayed(reference), displayed(linear.test)};
+        std::vector<FlipExposure> exposed;
+        std::string error;
+        if (!ToneAlgo::flip_exposed(exposed, reference, linear.test, error, m_look, {stops}, {},
+                                    m_nthreads))
+            throw std::runtime_error(error);
+        return {srgb_bytes(exposed.at(0).reference), srgb_bytes(exposed.at(0).test)};
     }
 
     std::string uri(ImageBuf picture, Encoding encoding, int quality = kLargeQuality) const {
@@ -150,8 +135,10 @@ private:
         return srgb_bytes(result);
     }
 
-    void draw_small(FramePictures& pictures, const ImageBuf& test, const PixelSize& side) const {
-        pictures.small_test = uri(resized(test, side), Encoding::Jpeg, kSmallQuality);
+    void draw_small(FramePictures& pictures, const Linear& linear, double stops,
+                    const PixelSize& side) const {
+        const Shown shown = show(linear, stops);
+        pictures.small_test = uri(resized(shown.test, side), Encoding::Jpeg, kSmallQuality);
         if (m_request.error) {
             const ImageBuf error = reduced_maps(*m_request.error, nullptr, side).error;
             pictures.small_error =
@@ -159,16 +146,19 @@ private:
         }
     }
 
-    void draw_large(FramePictures& pictures, const std::vector<Shown>& exposures) const {
+    void draw_large(FramePictures& pictures, const Linear& linear,
+                    const std::vector<double>& exposures) const {
         const PixelSize side = fitted(m_whole, kPictureSide);
         pictures.width = side.width;
         pictures.height = side.height;
         if (lies_on_its_side(m_orientation))
             std::swap(pictures.width, pictures.height);
-        for (const Shown& shown : exposures)
+        for (double stops : exposures) {
+            const Shown shown = show(linear, stops);
             pictures.exposures.push_back(
-                {shown.stops, m_request.reference ? uri(shown.reference, Encoding::Jpeg) : "",
+                {stops, m_request.reference ? uri(shown.reference, Encoding::Jpeg) : "",
                  uri(shown.test, Encoding::Jpeg)});
+        }
         if (m_request.error)
             draw_maps(pictures, side);
     }
@@ -205,7 +195,7 @@ private:
     SpotPictures spot(const Position& at, const ROI& near, double stops) const {
         const PixelSize side{near.width(), near.height()};
         const Linear linear = read(near, side);
-        Shown shown = std::move(show(linear, {stops}).front());
+        Shown shown = show(linear, stops);
         SpotPictures result;
         result.at = at;
         mark_nonfinite(shown.test, *m_request.test, m_request.look.pixels, near);
