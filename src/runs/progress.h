@@ -39,13 +39,22 @@ public:
           m_progress(progress),
           m_to(stream.rdbuf()) {
         if (progress.on_terminal())
-            stream.rdbuf(this);
+            exchange(this);
     }
-    ~ClearingStream() override { m_stream.rdbuf(m_to); }
+    ~ClearingStream() override {
+        if (m_progress.on_terminal())
+            exchange(m_to);
+    }
     ClearingStream(const ClearingStream&) = delete;
     ClearingStream& operator=(const ClearingStream&) = delete;
 
 private:
+    // A write that has failed stays known, which rdbuf() alone forgets.
+    void exchange(std::streambuf* buffer) {
+        const std::ios_base::iostate state = m_stream.rdstate();
+        m_stream.rdbuf(buffer);
+        m_stream.setstate(state);
+    }
     int_type overflow(int_type c) override {
         m_progress.clear();
         return m_to->sputc(traits_type::to_char_type(c));

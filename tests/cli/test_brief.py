@@ -47,16 +47,17 @@ def test_ldr_other_metrics_and_tmqi(tonetool, pair, testimages):
 
 def test_what_is_unusual_is_said(tonetool, make_image):
     pixels = np.full((8, 8, 3), 0.5)
-    make_image("ref.exr", pixels=pixels, attributes={"oiio:ColorSpace": "ACEScg"})
+    make_image("ref.exr", 8, 8, pixels=pixels)
     pixels[0, :3] = -1
-    make_image("test.exr", pixels=pixels)
+    make_image("test.exr", 8, 8, pixels=pixels)
     text = tonetool("ref.exr", "test.exr", "--hdrflip").out
-    assert "colour space rec709 against acescg" in text
+    assert "colour space" not in text
+    assert "colour space acescg" in tonetool("ref.exr", "test.exr", "--hdrflip:from=acescg").out
     assert "note: 3 pixel(s) of the test have negative values, which count as 0" in text
     assert "note:" not in tonetool("ref.exr", "ref.exr", "--hdrflip").out
     dark = np.zeros((8, 8, 3))
     dark[0] = 1
-    make_image("dark.exr", pixels=dark)
+    make_image("dark.exr", 8, 8, pixels=dark)
     assert "more than half of the reference is black" in tonetool(
         "dark.exr", "test.exr", "--hdrflip").out
 
@@ -96,9 +97,11 @@ def test_frames_that_warn_print_a_line(tonetool):
 
 
 @pytest.mark.usefixtures("shots")
-def test_frames_without_a_check_print_their_numbers(tonetool):
-    lines = tonetool("r.#.exr", "t.#.exr", "--hdrflip", "-o", "e.#.exr").out.splitlines()
-    assert len(lines) == 3
-    for frame, line in enumerate(lines, 1):
+def test_frames_without_a_limit_print_their_numbers_with_v(tonetool):
+    words = ["r.#.exr", "t.#.exr", "--hdrflip", "-o", "e.#.exr"]
+    assert [line.split()[0] for line in tonetool(*words).out.splitlines()] == ["check:"]
+    lines = [line for line in tonetool(*words, "-v").out.splitlines() if "hdrflip: mean" in line]
+    assert len(lines) == 4 and lines[-1].startswith("check: measured")
+    for frame, line in enumerate(lines[:3], 1):
         assert re.fullmatch(rf"hdrflip: mean {NUMBER}, p99\.9 {NUMBER}, max {NUMBER} at \d+,\d+ "
-                            rf"\(t\.000{frame}\.exr\)", line)
+                            rf"\(\./t\.000{frame}\.exr\)", line)

@@ -144,7 +144,7 @@ def test_progress_never_shares_a_line_with_results(program, tmp_path, jobs, chec
     if check:
         assert [line.split(":")[0] for line in results] == ["hdrflip", "check"]
     else:
-        assert [line.split(" ")[0] for line in results] == ["hdrflip:"] * 3
+        assert [line.split(" ")[0] for line in results] == ["check:"]
 
 
 def test_loops_conditions_and_variables(tonetool):

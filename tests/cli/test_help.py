@@ -87,7 +87,7 @@ def test_the_examples_of_a_topic_run(tonetool, shop, topic):
     if recipe:
         (shop / "error.tone").write_text(recipe.group().replace("\n  ", "\n").lstrip())
     for words in examples(text):
-        ran = tonetool(*words, status=3 if "--qc" in words else 0)
+        ran = tonetool(*words)
         assert "ERROR" not in ran.err
 
 
@@ -172,23 +172,27 @@ def completed_by_fish(script, line):
     code = f"source {script}; complete -C {shlex.quote(line)}"
     done = subprocess.run(["fish", "--no-config", "-c", code], capture_output=True, text=True,
                           check=True, env={**os.environ, "HOME": str(script.parent)})
-    return [row.split("\t")[0].split(":")[-1].split("=")[-1] if "=" in line.split()[-1]
-            else row.split("\t")[0].split(":")[-1] for row in done.stdout.splitlines()]
+    last = [row.split("\t")[0].split(":")[-1] for row in done.stdout.splitlines()]
+    return [word.split("=")[1] for word in last] if "=" in line.split(":")[-1] else last
 
 
 def completed_by_zsh(script, line):
     """zsh on a terminal of its own lists what it has found."""
+    (script.parent / "_tonetool").write_text(script.read_text())
     code = f"""
 zmodload zsh/zpty
 zpty shell zsh -f -i
-drain() {{ local text; while zpty -r -t shell text; do print -rn -- $text; done }}
-zpty -w shell 'PROMPT=; autoload -U compinit; compinit -D -u; LISTMAX=10000
-zstyle ":completion:*" list-prompt ""; zstyle ":completion:*" menu no
-source_it() {{ eval "_tonetool() {{ $(cat {script}) }}" }}; source_it; compdef _tonetool tonetool
-stty columns 300 rows 2000; print ready'
-sleep 2; drain >/dev/null
-zpty -w -n shell {shlex.quote(line)}$'\\t\\t'
-sleep 1; drain
+drain() {{
+    local text silent=0
+    while (( silent < 10 )); do
+        if zpty -r -t shell text; then print -rn -- $text; silent=0; else sleep 0.1; (( ++silent )); fi
+    done
+}}
+zpty -w shell 'PROMPT=; autoload -U compinit; compinit -D -u; LISTMAX=10000; stty columns 300 rows 2000
+fpath=({script.parent} $fpath); autoload -U _tonetool; compdef _tonetool tonetool; print ready'
+drain >/dev/null
+zpty -w -n shell {shlex.quote(line)}$'\t\t'
+drain
 zpty -d shell"""
     done = subprocess.run(["zsh", "-f", "-c", code], capture_output=True, text=True, check=True)
     plain = re.sub(r"\x1b\[[0-9;?]*[A-Za-z]", "", done.stdout)

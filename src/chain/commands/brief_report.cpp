@@ -94,7 +94,7 @@ std::string numbers_text(const FlipSummary& summary) {
 std::string numbers_text(const ErrorSummary& summary) {
     const FlipPool& pool = summary.pool;
     const std::string value = summary.metric + " " + format_number(summary.value);
-    return value + format(", p99.9 of the map {}, max {} at {},{}", format_number(pool.p999),
+    return value + format(", p99.9 {}, max {} at {},{}", format_number(pool.p999),
                           format_number(pool.max), pool.max_x, pool.max_y);
 }
 

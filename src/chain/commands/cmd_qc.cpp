@@ -112,8 +112,7 @@ Modifiers modifiers() {
 
 Rows qc_commands() {
     return {command("qc",
-                    "Look for faults of single images and of the shot; severities: off, info, "
-                    "warning, error",
+                    "Look for faults that need no reference; severities: off, info, warning, error",
                     run_qc)
                 .images(1, 1)
                 .modifiers(modifiers())};

@@ -22,8 +22,8 @@ void run_help(Session& session, const Call& call) {
 
 Rows help_commands() {
     return {command("help [COMMAND]",
-                    "List all commands, tell more about one or about a subject, or all as man, "
-                    "bash, zsh, fish (completion) or json",
+                    "List all commands, explain one or a subject, or print all as man, bash, zsh, "
+                    "fish or json",
                     run_help),
             command("h", "Print the first page of help", [](Session& session, const Call&) {
                 session.outcome.produced = true;

@@ -160,7 +160,7 @@ std::string fish_completion() {
     with_modifiers([&](const std::string& name, const SortedModifiers& modifiers) {
         keys += "                    case " + fish(name) + "\n                        set found";
         in_order(modifiers, [&](const Modifier& one) {
-            keys += " \\\n                            $before" + fish(one.key + "=") + " " +
+            keys += " \\\n                            \"$before\"" + fish(one.key + "=") + " " +
                     fish(one.help);
         });
         keys += "\n";
@@ -171,8 +171,8 @@ std::string fish_completion() {
             const Strings words = values_of(one);
             if (!words.empty())
                 values += "                    case " + fish(name + ":" + one.key) +
-                          "\n                        set found $before" + one.key + "=" +
-                          join(words, " $before" + one.key + "=") + "\n";
+                          "\n                        set found \"$before\"" + one.key + "=" +
+                          join(words, " \"$before\"" + one.key + "=") + "\n";
         });
     });
     return "function __tonetool_words\n"

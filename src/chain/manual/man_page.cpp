@@ -16,8 +16,11 @@ std::string escaped(std::string text) {
     return text;
 }
 
+// A line may end behind the "|" and "," of long lists.
 std::string troff(const std::string& text) {
-    const std::string safe = escaped(text);
+    std::string safe = escaped(text);
+    for (size_t at = 0; (at = safe.find_first_of("|,", at)) != std::string::npos; at += 3)
+        safe.insert(at + 1, "\\:");
     return !safe.empty() && (safe[0] == '.' || safe[0] == '\'') ? "\\&" + safe : safe;
 }
 
@@ -119,7 +122,7 @@ std::string topic_sections() {
 } // namespace
 
 std::string man_page() {
-    return ".TH TONETOOL 1 \"\" \"tonetool " TONETOOL_VERSION "\" \"User Commands\"\n" +
+    return ".TH TONETOOL 1 \"\" \"tonetool " TONETOOL_VERSION "\" \"User Commands\"\n.ad l\n" +
            section("NAME") + "tonetool \\- compare and tone map HDR images\n" +
            section("SYNOPSIS") + ".B tonetool\n[\\fIfilename\\fR|\\fIcommand\\fR]...\n" +
            section("DESCRIPTION") + verbatim(usage_text().substr(usage_text().find('\n') + 1)) +
