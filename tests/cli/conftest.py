@@ -78,6 +78,16 @@ def tonetool(program, tmp_path):
 
 
 @pytest.fixture
+def tonetool_v(tonetool):
+    """As tonetool; comparisons print every fact, one a line, for Ran.fact()."""
+
+    def run(*words, **options):
+        return tonetool(*words, "-v", **options)
+
+    return run
+
+
+@pytest.fixture
 def oiiotool(tmp_path):
     path = shutil.which("oiiotool", path="/usr/bin")
     if not path:

@@ -5,8 +5,8 @@ import numpy as np
 import pytest
 
 
-def test_summary_is_one_fact_a_line(tonetool, pair):
-    ran = tonetool(*pair, "--hdrflip", "-o", "x.exr")
+def test_summary_is_one_fact_a_line(tonetool_v, pair):
+    ran = tonetool_v(*pair, "--hdrflip", "-o", "x.exr")
     assert all(line.startswith("hdrflip: ") for line in ran.out.splitlines())
     assert ran.fact("reference") == str(pair[0]) and ran.fact("test") == str(pair[1])
     assert ran.fact("reference-layer") == "ViewLayer.Combined"
@@ -19,8 +19,8 @@ def test_summary_is_one_fact_a_line(tonetool, pair):
     assert 0 < float(value) <= 1 and len(where.split(",")) == 2
 
 
-def test_summary_agrees_with_the_map(tonetool, pair, read):
-    ran = tonetool(*pair, "--hdrflip", "-o", "x.exr")
+def test_summary_agrees_with_the_map(tonetool_v, pair, read):
+    ran = tonetool_v(*pair, "--hdrflip", "-o", "x.exr")
     pixels = read("x.exr")[0][:, :, 0].astype(np.float64)
     assert float(ran.fact("mean")) == pytest.approx(pixels.mean(), rel=1e-5)
     value, where = ran.fact("max").split(" at ")
@@ -29,36 +29,36 @@ def test_summary_agrees_with_the_map(tonetool, pair, read):
 
 
 @pytest.mark.parametrize("command", ["hdrflip", "ldrflip", "flipdiff"])
-def test_identical_images_give_exactly_zero(tonetool, pair, read, command):
-    ran = tonetool(pair[0], pair[0], f"--{command}:fail=0", "-o", "x.exr")
+def test_identical_images_give_exactly_zero(tonetool_v, pair, read, command):
+    ran = tonetool_v(pair[0], pair[0], f"--{command}:fail=0", "-o", "x.exr")
     assert f"{command}: PASS" in ran.out
     assert ran.fact("mean") == "0" and not read("x.exr")[0].any()
 
 
-def test_threshold_statuses(tonetool, pair, tmp_path):
-    mean = tonetool(*pair, "--hdrflip").fact("mean")
-    ran = tonetool(*pair, "--hdrflip:fail=0.001", "-o", "x.exr", status=3)
+def test_threshold_statuses(tonetool_v, pair, tmp_path):
+    mean = tonetool_v(*pair, "--hdrflip").fact("mean")
+    ran = tonetool_v(*pair, "--hdrflip:fail=0.001", "-o", "x.exr", status=3)
     assert f"hdrflip: FAIL mean {mean} > 0.001" in ran.out
     assert (tmp_path / "x.exr").exists()
-    ran = tonetool(*pair, "--hdrflip:fail=0.999")
+    ran = tonetool_v(*pair, "--hdrflip:fail=0.999")
     assert f"hdrflip: PASS mean {mean} <= 0.999" in ran.out
-    tonetool(*pair, "--hdrflip:fail=0.999:warn=0.001")
-    ran = tonetool(*pair, "--hdrflip:fail=0.999:warn=0.001", "--warnings-exit", status=2)
+    tonetool_v(*pair, "--hdrflip:fail=0.999:warn=0.001")
+    ran = tonetool_v(*pair, "--hdrflip:fail=0.999:warn=0.001", "--warnings-exit", status=2)
     assert f"tonetool WARNING: hdrflip : mean {mean} > 0.001" in ran.err
-    tonetool(*pair, "--hdrflip:fail=0.001:warn=0.001", "--warnings-exit", status=3)
-    tonetool(*pair, "--hdrflip:fail=0.001", "--pop", pair[0], pair[0], "--hdrflip:fail=0",
+    tonetool_v(*pair, "--hdrflip:fail=0.001:warn=0.001", "--warnings-exit", status=3)
+    tonetool_v(*pair, "--hdrflip:fail=0.001", "--pop", pair[0], pair[0], "--hdrflip:fail=0",
              status=3)
 
 
 @pytest.mark.parametrize("quantity", ["mean", "weighted-median", "weighted-q1", "weighted-q3",
                                       "p50", "p95", "p99", "p99.9", "min", "max"])
-def test_every_quantity_can_fail(tonetool, pair, quantity):
-    value = tonetool(*pair, "--hdrflip").fact(quantity).split(" at ")[0]
-    ran = tonetool(*pair, f"--hdrflip:fail=0.999:quantity={quantity}")
+def test_every_quantity_can_fail(tonetool_v, pair, quantity):
+    value = tonetool_v(*pair, "--hdrflip").fact(quantity).split(" at ")[0]
+    ran = tonetool_v(*pair, f"--hdrflip:fail=0.999:quantity={quantity}")
     assert f"PASS {quantity} {value} <= 0.999" in ran.out
     if float(value) > 1e-3:
         limit = float(value) * 0.99
-        tonetool(*pair, f"--hdrflip:fail={limit}:quantity={quantity}", status=3)
+        tonetool_v(*pair, f"--hdrflip:fail={limit}:quantity={quantity}", status=3)
 
 
 def test_quiet_shows_failures_and_warnings_only(tonetool, pair):
@@ -70,16 +70,16 @@ def test_quiet_shows_failures_and_warnings_only(tonetool, pair):
     assert ran.out.startswith("hdrflip: PASS") and len(ran.out.splitlines()) == 1
 
 
-def test_nonfinite_pixels_are_warnings(tonetool, testimages):
+def test_nonfinite_pixels_are_warnings(tonetool_v, testimages):
     words = [testimages / "plain.exr", testimages / "nan_center.exr", "--hdrflip:fail=0.999"]
-    assert "WARNING: hdrflip" in tonetool(*words).err
-    ran = tonetool("--warnings-exit", *words, status=2)
+    assert "WARNING: hdrflip" in tonetool_v(*words).err
+    ran = tonetool_v("--warnings-exit", *words, status=2)
     assert ran.fact("test-nonfinite") == "1"
 
 
 @pytest.mark.parametrize("kind", ["stops", "index"])
-def test_exposure_map_lies_below(tonetool, pair, read, kind):
-    ran = tonetool(*pair, f"--hdrflip:exposuremap={kind}", "-o", "e.exr", "--pop", "-o", "m.exr")
+def test_exposure_map_lies_below(tonetool_v, pair, read, kind):
+    ran = tonetool_v(*pair, f"--hdrflip:exposuremap={kind}", "-o", "e.exr", "--pop", "-o", "m.exr")
     start, stop, count = (float(word) for word in ran.fact("exposures").split()[1::2])
     error, exposures = read("e.exr")[0], read("m.exr")[0]
     assert error.max() <= 1
@@ -100,8 +100,8 @@ def test_several_tests_against_one_reference(tonetool, pair, read):
     tonetool(pair[0], pair[0], pair[1], "--hdrflip:tests=2:fail=0", status=3)
 
 
-def test_exposures_are_saved(tonetool, pair, tmp_path, read):
-    ran = tonetool(*pair, "--hdrflip:saveexposures=s:numExposures=3", "-o", "x.exr")
+def test_exposures_are_saved(tonetool_v, pair, tmp_path, read):
+    ran = tonetool_v(*pair, "--hdrflip:saveexposures=s:numExposures=3", "-o", "x.exr")
     assert ran.fact("exposures").endswith("count 3")
     for i in range(3):
         for what in ("reference", "test", "flip"):
@@ -110,34 +110,34 @@ def test_exposures_are_saved(tonetool, pair, tmp_path, read):
     assert np.array_equal(np.max(maps, axis=0), read("x.exr")[0])
 
 
-def test_modifiers_reach_the_library(tonetool, pair):
-    ran = tonetool(*pair, "--hdrflip:tonemapper=hable:ppd=40:startExposure=-2:stopExposure=3:"
+def test_modifiers_reach_the_library(tonetool_v, pair):
+    ran = tonetool_v(*pair, "--hdrflip:tonemapper=hable:ppd=40:startExposure=-2:stopExposure=3:"
                           "numExposures=4")
     assert ran.fact("tonemapper") == "hable" and ran.fact("ppd") == "40"
     assert ran.fact("exposures") == "start -2 stop 3 count 4"
-    ran = tonetool(*pair, "--hdrflip:distance=1.4:width=0.7:pixels=1920")
+    ran = tonetool_v(*pair, "--hdrflip:distance=1.4:width=0.7:pixels=1920")
     assert float(ran.fact("ppd")) == pytest.approx(1.4 * 1920 / 0.7 * np.pi / 180, rel=1e-5)
-    ran = tonetool(*pair, "--hdrflip:layer=ViewLayer.Combined_key")
+    ran = tonetool_v(*pair, "--hdrflip:layer=ViewLayer.Combined_key")
     assert ran.fact("reference-layer") == "ViewLayer.Combined_key"
 
 
-def test_derived_images_keep_their_encoding(tonetool, testimages, make_image):
+def test_derived_images_keep_their_encoding(tonetool_v, testimages, make_image):
     grey = make_image("a.tif", kind="uint16")
-    straight = tonetool(grey, grey, "--hdrflip")
-    derived = tonetool(grey, "--ch", "R,G,B", grey, "--hdrflip:fail=0")
+    straight = tonetool_v(grey, grey, "--hdrflip")
+    derived = tonetool_v(grey, "--ch", "R,G,B", grey, "--hdrflip:fail=0")
     assert straight.fact("reference-space") == derived.fact("reference-space")
-    assert tonetool(grey, "--exposure", "1", "-o", "x.exr", status=1).err
+    assert tonetool_v(grey, "--exposure", "1", "-o", "x.exr", status=1).err
 
 
-def test_flipdiff_speaks_openimageio(tonetool, pair, read):
-    ran = tonetool(*pair, "--flipdiff", "-o", "x.exr")
+def test_flipdiff_speaks_openimageio(tonetool_v, pair, read):
+    ran = tonetool_v(*pair, "--flipdiff", "-o", "x.exr")
     assert ran.fact("ppd") == "67.02" and ran.fact("exposures").endswith("count 4")
-    fixed = tonetool(*pair, "--hdrflip:maxluminance=2:medianluminance=0.18:ppd=67.02")
+    fixed = tonetool_v(*pair, "--hdrflip:maxluminance=2:medianluminance=0.18:ppd=67.02")
     assert ran.fact("mean") == fixed.fact("mean")
-    auto = tonetool(*pair, "--flipdiff:maxluminance=0")
-    assert auto.fact("mean") == tonetool(*pair, "--hdrflip:ppd=67.02").fact("mean")
-    ldr = tonetool(*pair, "--flipdiff:hdr=0")
-    assert ldr.fact("mean") == tonetool(*pair, "--ldrflip:ppd=67.02").fact("mean")
+    auto = tonetool_v(*pair, "--flipdiff:maxluminance=0")
+    assert auto.fact("mean") == tonetool_v(*pair, "--hdrflip:ppd=67.02").fact("mean")
+    ldr = tonetool_v(*pair, "--flipdiff:hdr=0")
+    assert ldr.fact("mean") == tonetool_v(*pair, "--ldrflip:ppd=67.02").fact("mean")
     _, spec = read("x.exr")
     for key in ("FLIP:meanerror", "FLIP:maxerror", "FLIP:maxx", "FLIP:maxy",
                 "FLIP:startExposure", "FLIP:stopExposure", "FLIP:numExposures"):
@@ -153,28 +153,28 @@ def test_flipdiff_fails_on_the_largest_error(tonetool, pair, read):
     tonetool(*pair, "--flipdiff:colormap=nosuch", status=1)
 
 
-def test_filmstrip(tonetool, pair, read):
-    ran = tonetool(*pair, "--filmstrip:width=64:columns=3:fail=0.999", "-o", "x.png")
+def test_filmstrip(tonetool_v, pair, read):
+    ran = tonetool_v(*pair, "--filmstrip:width=64:columns=3:fail=0.999", "-o", "x.png")
     pixels, spec = read("x.png")
     assert spec.nchannels == 3 and pixels.std() > 0.01
     assert float(ran.fact("mean")) > 0
-    tonetool(*pair, "--filmstrip:width=0", "-o", "x.png", status=1)
+    tonetool_v(*pair, "--filmstrip:width=0", "-o", "x.png", status=1)
 
 
-def test_exposure(tonetool, pair, read):
-    tonetool(pair[0], "--exposure", "-2", "-o", "x.exr")
-    tonetool(pair[0], "--exposure", "-2", "--exposure", "2", "-o", "same.exr")
+def test_exposure(tonetool_v, pair, read):
+    tonetool_v(pair[0], "--exposure", "-2", "-o", "x.exr")
+    tonetool_v(pair[0], "--exposure", "-2", "--exposure", "2", "-o", "same.exr")
     a, spec = read("x.exr")
-    before, after = tonetool(pair[0], "--luminancestats"), tonetool("x.exr", "--luminancestats")
+    before, after = tonetool_v(pair[0], "--luminancestats"), tonetool_v("x.exr", "--luminancestats")
     assert float(after.fact("max")) == pytest.approx(float(before.fact("max")) / 4, rel=1e-3)
     assert a.shape[2] == 35 and spec.nchannels == 35
 
 
-def test_luminance_statistics(tonetool, pair, testimages):
-    ran = tonetool(pair[0], "--luminancestats")
+def test_luminance_statistics(tonetool_v, pair, testimages):
+    ran = tonetool_v(pair[0], "--luminancestats")
     assert ran.fact("layer") == "ViewLayer.Combined"
     assert float(ran.fact("min")) <= float(ran.fact("median")) <= float(ran.fact("max"))
-    ran = tonetool("--warnings-exit", testimages / "nan_center.exr", "--luminancestats", status=2)
+    ran = tonetool_v("--warnings-exit", testimages / "nan_center.exr", "--luminancestats", status=2)
     assert ran.fact("nonfinite") == "1"
 
 

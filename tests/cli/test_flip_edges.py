@@ -154,22 +154,22 @@ def passes(ran):
 # ---- the reference's luminance
 
 
-def test_reference_more_than_half_black(tonetool, put, testimages):
+def test_reference_more_than_half_black(tonetool_v, put, testimages):
     image = picture()
     image[:, :WIDTH * 5 // 8] = 0
     ref, lit = put("a.exr", image), image[:, WIDTH * 5 // 8:].reshape(-1, 3)
-    ran = tonetool(ref, put("b.exr", image * 2), "--hdrflip:fail=0.01", status=3)
+    ran = tonetool_v(ref, put("b.exr", image * 2), "--hdrflip:fail=0.01", status=3)
     luminance = np.sort(lit @ np.float32([0.2126, 0.7152, 0.0722]))
     text = ran.fact("median-luminance")
     assert text.endswith(" of lit pixels")
     assert float(text.split()[0]) == pytest.approx(luminance[len(luminance) // 2], rel=1e-5)
     assert "more than half of the reference is black" in ran.err
     assert np.isfinite([float(word) for word in ran.fact("exposures").split()[1::2]]).all()
-    tonetool(testimages / "mostly_black.exr", testimages / "plain.exr", "--hdrflip:fail=0.05",
+    tonetool_v(testimages / "mostly_black.exr", testimages / "plain.exr", "--hdrflip:fail=0.05",
              status=3)
 
 
-def test_reference_median_negative(tonetool, put, map_of):
+def test_reference_median_negative(tonetool_v, put, map_of):
     image = picture()
     image[:, :WIDTH * 5 // 8] = -1
     black = np.maximum(image, 0)
@@ -177,7 +177,7 @@ def test_reference_median_negative(tonetool, put, map_of):
     assert np.array_equal(got, map_of(black, picture(2), "")[0]) and got.max() > 0.1
     assert ran.fact("reference-negative") == str(HEIGHT * (WIDTH * 5 // 8))
     assert ran.fact("median-luminance").endswith(" of lit pixels")
-    tonetool(put("a.exr", image), put("b.exr", picture(2)), "--hdrflip:fail=0.01", status=3)
+    tonetool_v(put("a.exr", image), put("b.exr", picture(2)), "--hdrflip:fail=0.01", status=3)
 
 
 @pytest.mark.parametrize("modifiers", ["", "startExposure=0", "stopExposure=0", "numExposures=3",
@@ -237,12 +237,12 @@ def test_nonfinite_pixel(map_of, command, side, at, value):
 
 @pytest.mark.parametrize("at", [FIRST, CENTRE, LAST], ids=["first", "centre", "last"])
 @pytest.mark.parametrize("value", [np.nan, np.inf], ids=["nan", "inf"])
-def test_nonfinite_and_auto_exposure(tonetool, put, at, value):
+def test_nonfinite_and_auto_exposure(tonetool_v, put, at, value):
     """Exposures come from the finite pixels; identical but for the pixel is still a failure."""
     image = picture()
     ref, bad = put("a.exr", image), put("b.exr", with_pixel(image, value, at))
     hidden = put("c.exr", with_pixel(image, 0.5, at))
-    ran = tonetool(bad, ref, "--hdrflip:fail=0", status=3)
+    ran = tonetool_v(bad, ref, "--hdrflip:fail=0", status=3)
     finite = np.delete(image.reshape(-1, 3), at[0] * WIDTH + at[1], axis=0)
     luminance = np.sort(finite @ np.float32([0.2126, 0.7152, 0.0722]))
     assert float(ran.fact("max-luminance")) == pytest.approx(luminance[-1], rel=1e-5)
@@ -250,7 +250,7 @@ def test_nonfinite_and_auto_exposure(tonetool, put, at, value):
                                                                 rel=1e-5)
     for reference, test in ((bad, ref), (ref, bad), (bad, hidden)):
         for command in COMMANDS:
-            tonetool(reference, test, f"--{command}:fail=0", status=3)
+            tonetool_v(reference, test, f"--{command}:fail=0", status=3)
 
 
 def test_nonfinite_in_both(map_of):
@@ -274,20 +274,20 @@ def test_no_finite_pixel(tonetool, put, command):
         assert "no finite pixel" in ran.err and not passes(ran)
 
 
-def test_half_that_overflows_is_not_a_pass(tonetool, put):
+def test_half_that_overflows_is_not_a_pass(tonetool_v, put):
     image = with_pixel(picture(), 1e6)
     ref = put("a.exr", image)
-    assert tonetool(ref, put("b.exr", image, kind="half"), "--hdrflip:fail=0", status=3).fact(
+    assert tonetool_v(ref, put("b.exr", image, kind="half"), "--hdrflip:fail=0", status=3).fact(
         "test-nonfinite") == "1"
 
 
-def test_nonfinite_alpha_counts_only_where_alpha_does(tonetool, put):
+def test_nonfinite_alpha_counts_only_where_alpha_does(tonetool_v, put):
     image = np.dstack([picture(), np.ones((HEIGHT, WIDTH), np.float32)])
     bad = image.copy()
     bad[CENTRE][3] = np.nan
     a, b = put("a.exr", image, tuple("RGBA")), put("b.exr", bad, tuple("RGBA"))
-    assert tonetool(a, b, "--hdrflip:fail=0").fact("test-nonfinite") == "0"
-    ran = tonetool(a, b, "--hdrflip:fail=0:alpha=error", status=3)
+    assert tonetool_v(a, b, "--hdrflip:fail=0").fact("test-nonfinite") == "0"
+    ran = tonetool_v(a, b, "--hdrflip:fail=0:alpha=error", status=3)
     assert ran.fact("max").startswith("1 at ")
 
 
@@ -342,15 +342,15 @@ def test_differences_that_no_exposure_shows(tonetool, put, words):
 # ---- exposures
 
 
-def test_one_exposure(tonetool, two, read):
+def test_one_exposure(tonetool_v, two, read):
     """N=1 is one exposure, at the start."""
-    ran = tonetool(*two, "--hdrflip:numExposures=1:startExposure=1:stopExposure=4:fail=0.01",
+    ran = tonetool_v(*two, "--hdrflip:numExposures=1:startExposure=1:stopExposure=4:fail=0.01",
                    "-o", "one.exr", status=3)
     assert ran.fact("exposures") == "start 1 stop 1 count 1"
-    tonetool(*two, "--hdrflip:startExposure=1:stopExposure=1:numExposures=1", "-o", "two.exr")
+    tonetool_v(*two, "--hdrflip:startExposure=1:stopExposure=1:numExposures=1", "-o", "two.exr")
     assert np.array_equal(read("one.exr")[0], read("two.exr")[0]) and read("one.exr")[0].any()
-    auto = tonetool(*two, "--hdrflip").fact("exposures").split()[1]
-    ran = tonetool(*two, "--hdrflip:numExposures=1:fail=0.01", status=3)
+    auto = tonetool_v(*two, "--hdrflip").fact("exposures").split()[1]
+    ran = tonetool_v(*two, "--hdrflip:numExposures=1:fail=0.01", status=3)
     assert ran.fact("exposures") == f"start {auto} stop {auto} count 1"
 
 
@@ -363,9 +363,9 @@ def test_number_of_exposures(tonetool, two, count):
 
 
 @pytest.mark.parametrize("given, kept", [("startExposure=-3", 0), ("stopExposure=6", 1)])
-def test_one_end_given(tonetool, two, given, kept):
-    auto = tonetool(*two, "--hdrflip").fact("exposures").split()[1:4:2]
-    ends = tonetool(*two, f"--hdrflip:{given}:fail=0.01", status=3).fact("exposures").split()
+def test_one_end_given(tonetool_v, two, given, kept):
+    auto = tonetool_v(*two, "--hdrflip").fact("exposures").split()[1:4:2]
+    ends = tonetool_v(*two, f"--hdrflip:{given}:fail=0.01", status=3).fact("exposures").split()
     assert ends[1:4:2][kept] == given.split("=")[1]
     assert ends[1:4:2][1 - kept] == auto[1 - kept]
 
@@ -402,7 +402,7 @@ def test_curves_that_hide_differences(tonetool, two, coeffs):
         assert not passes(ran)
 
 
-def test_exposure_map_of_equal_pixels(tonetool, put, read):
+def test_exposure_map_of_equal_pixels(tonetool_v, put, read):
     """Where nothing differs it says the first exposure, not whatever was in memory."""
     image = picture()
     changed = image.copy()
@@ -410,7 +410,7 @@ def test_exposure_map_of_equal_pixels(tonetool, put, read):
     a, b = put("a.exr", image), put("b.exr", changed)
     for test in (a, b):
         for kind in ("index", "stops"):
-            ran = tonetool(a, test, f"--hdrflip:ppd=10:exposuremap={kind}", "-o", "e.exr", "--pop",
+            ran = tonetool_v(a, test, f"--hdrflip:ppd=10:exposuremap={kind}", "-o", "e.exr", "--pop",
                            "-o", "m.exr")
             error, exposure = read("e.exr")[0], read("m.exr")[0]
             start = 0 if kind == "index" else float(ran.fact("exposures").split()[1])
@@ -422,14 +422,14 @@ def test_exposure_map_of_equal_pixels(tonetool, put, read):
 
 
 @pytest.mark.parametrize("curve", ["aces", "hable", "reinhard"])
-def test_one_pixel(tonetool, put, map_of, testimages, curve):
+def test_one_pixel(tonetool_v, put, map_of, testimages, curve):
     ref, test = flat(0.25, 0.5, 1, height=1, width=1), flat(1, 0.5, 0.25, height=1, width=1)
     got, ran = map_of(ref, test, f"tonemapper={curve}")
     start, stop, count = ran.fact("exposures").split()[1::2]
     assert start == stop and count == "2" and got.shape == (1, 1) and 0.1 < got[0, 0] <= 1
-    tonetool(put("a.exr", ref), put("b.exr", test), "--hdrflip:fail=0.1", status=3)
+    tonetool_v(put("a.exr", ref), put("b.exr", test), "--hdrflip:fail=0.1", status=3)
     one = testimages / "one_pixel.exr"
-    tonetool(one, one, "--hdrflip:fail=0")
+    tonetool_v(one, one, "--hdrflip:fail=0")
     got, _ = map_of(flat(0, 0, 0, height=1, width=1), flat(1, 1, 1, height=1, width=1), "",
                     "ldrflip")
     assert got[0, 0] == pytest.approx(0.967384, abs=6e-6)
@@ -456,18 +456,18 @@ def test_display_windows_at_different_places(tonetool, put):
     assert "nothing to compare" in ran.err
 
 
-def test_crop_compares_the_intersection(tonetool, put, read):
+def test_crop_compares_the_intersection(tonetool_v, put, read):
     image = picture()
     a = put("a.exr", image, window=(0, 0, 0, 0, WIDTH, HEIGHT))
     part = put("b.exr", image[4:, 5:], window=(5, 4, 5, 4, WIDTH - 5, HEIGHT - 4))
-    ran = tonetool(a, part, f"--hdrflip:{FIXED}:crop=1:fail=0", "-o", "x.exr")
+    ran = tonetool_v(a, part, f"--hdrflip:{FIXED}:crop=1:fail=0", "-o", "x.exr")
     assert ran.fact("pixels") == str((WIDTH - 5) * (HEIGHT - 4))
     assert (read("x.exr")[1].x, read("x.exr")[1].y) == (5, 4)
     changed = image[4:, 5:].copy()
     changed[-1, -1] += 1
     bad = put("c.exr", changed, window=(5, 4, 5, 4, WIDTH - 5, HEIGHT - 4))
-    tonetool(a, bad, "--hdrflip:crop=1:fail=0", status=3)
-    tonetool(bad, a, "--hdrflip:crop=1:fail=0", status=3)
+    tonetool_v(a, bad, "--hdrflip:crop=1:fail=0", status=3)
+    tonetool_v(bad, a, "--hdrflip:crop=1:fail=0", status=3)
 
 
 def test_crop_without_a_covered_pixel(tonetool, put):
@@ -479,14 +479,14 @@ def test_crop_without_a_covered_pixel(tonetool, put):
         assert "nothing to compare" in ran.err
 
 
-def test_resize_brings_the_test_to_the_reference(tonetool, put):
+def test_resize_brings_the_test_to_the_reference(tonetool_v, put):
     a, b = put("a.exr", flat(0.5, 0.5, 0.5)), put("b.exr", flat(0.5, 0.5, 0.5, height=48, width=64))
     red = put("c.exr", flat(0.9, 0.1, 0.1, height=48, width=64))
-    ran = tonetool(a, b, "--hdrflip:fail=0.001:resize=1")
+    ran = tonetool_v(a, b, "--hdrflip:fail=0.001:resize=1")
     assert ran.fact("pixels") == str(WIDTH * HEIGHT)
-    tonetool(a, red, "--hdrflip:fail=0.1:resize=1", status=3)
+    tonetool_v(a, red, "--hdrflip:fail=0.1:resize=1", status=3)
     bad = put("d.exr", with_pixel(flat(0.5, 0.5, 0.5, height=48, width=64), np.nan))
-    tonetool(a, bad, "--hdrflip:fail=0:resize=1", status=3)
+    tonetool_v(a, bad, "--hdrflip:fail=0:resize=1", status=3)
 
 
 @pytest.mark.parametrize("pair", ["ref", "test"])
@@ -506,11 +506,11 @@ def test_uncovered_pixels_are_black_and_counted(map_of, put, pair):
     assert f"outside the {side}'s data window" in maps[0][1].err
 
 
-def test_data_windows_that_do_not_meet(tonetool, put, read):
+def test_data_windows_that_do_not_meet(tonetool_v, put, read):
     a = put("a.exr", picture(), window=(0, 0, 0, 0, 100, 100))
     b = put("b.exr", picture(), window=(60, 70, 0, 0, 100, 100))
     for command in COMMANDS:
-        ran = tonetool(a, b, f"--{command}:fail=0.1", "-o", "x.exr", status=3)
+        ran = tonetool_v(a, b, f"--{command}:fail=0.1", "-o", "x.exr", status=3)
         assert ran.fact("pixels") == str(92 * 94)
         assert ran.fact("reference-uncovered") == str(92 * 94 - WIDTH * HEIGHT)
         assert read("x.exr")[0].max() > 0.1
@@ -572,20 +572,20 @@ def test_no_colour(tonetool, put, channels):
             assert "needs R,G,B" in ran.err and not passes(ran)
 
 
-def test_alpha(tonetool, put, read):
+def test_alpha(tonetool_v, put, read):
     rgba = np.dstack([picture(), np.full((HEIGHT, WIDTH), 0.5, np.float32)])
     changed = rgba.copy()
     changed[CENTRE][3] = 0.25
     a, b = put("a.exr", rgba, tuple("RGBA")), put("b.exr", changed, tuple("RGBA"))
-    tonetool(a, b, "--hdrflip:fail=0")
-    ran = tonetool(a, b, "--hdrflip:fail=0:alpha=error:quantity=max", "-o", "x.exr", status=3)
+    tonetool_v(a, b, "--hdrflip:fail=0")
+    ran = tonetool_v(a, b, "--hdrflip:fail=0:alpha=error:quantity=max", "-o", "x.exr", status=3)
     assert ran.fact("alpha-max") == f"0.25 at {CENTRE[1]},{CENTRE[0]}"
     assert read("x.exr")[0][CENTRE] == 0.25 and np.count_nonzero(read("x.exr")[0]) == 1
     opaque = put("c.exr", picture())
-    ran = tonetool(opaque, a, "--hdrflip:fail=0:alpha=error", status=3)
+    ran = tonetool_v(opaque, a, "--hdrflip:fail=0:alpha=error", status=3)
     assert "only one image has alpha" in ran.err and ran.fact("alpha-max").startswith("0.5 ")
-    tonetool(opaque, opaque, "--hdrflip:fail=0:alpha=error", status=1)
-    tonetool("-i:ch=R,G,B", a, "-i:ch=R,G,B", b, "--hdrflip:fail=0:alpha=error", status=1)
+    tonetool_v(opaque, opaque, "--hdrflip:fail=0:alpha=error", status=1)
+    tonetool_v("-i:ch=R,G,B", a, "-i:ch=R,G,B", b, "--hdrflip:fail=0:alpha=error", status=1)
 
 
 def layers_file(put, name, layers):
@@ -604,11 +604,11 @@ def test_two_candidates_are_an_error(tonetool, put, layers):
     tonetool(a, a, f"--hdrflip:fail=0:layer={layers[1]}")
 
 
-def test_plain_colour_wins_over_layers(tonetool, put):
+def test_plain_colour_wins_over_layers(tonetool_v, put):
     a = layers_file(put, "a.exr", {"": picture(1), "beauty": picture(2)})
     b = layers_file(put, "b.exr", {"": picture(1), "beauty": picture(3)})
-    assert tonetool(a, b, "--hdrflip:fail=0").fact("reference-layer") == "R,G,B"
-    tonetool(a, b, "--hdrflip:fail=0:layer=beauty", status=3)
+    assert tonetool_v(a, b, "--hdrflip:fail=0").fact("reference-layer") == "R,G,B"
+    tonetool_v(a, b, "--hdrflip:fail=0:layer=beauty", status=3)
 
 
 def test_layer_that_one_image_lacks(tonetool, put):
@@ -681,18 +681,18 @@ def test_chromaticities_that_are_not_numbers(outcome, tmp_path, command, white):
 AP1 = (0.713, 0.293, 0.165, 0.830, 0.128, 0.044, 0.32168, 0.33767)
 
 
-def test_primaries_are_told_apart(tonetool, testimages):
+def test_primaries_are_told_apart(tonetool_v, testimages):
     rec709, acescg = testimages / "rec709.exr", testimages / "acescg.exr"
-    tonetool(rec709, acescg, "--hdrflip:fail=0.002")
-    ran = tonetool(rec709, acescg, "--hdrflip:fail=0.002:from=rec709", status=3)
+    tonetool_v(rec709, acescg, "--hdrflip:fail=0.002")
+    ran = tonetool_v(rec709, acescg, "--hdrflip:fail=0.002:from=rec709", status=3)
     assert ran.fact("test-space") == "rec709"
 
 
-def test_wide_colours_are_not_clipped_before_the_tone_map(tonetool, tmp_path):
+def test_wide_colours_are_not_clipped_before_the_tone_map(tonetool_v, tmp_path):
     """A pure ACEScg green is negative in Rec.709: counted, and its brightness still compared."""
     a, b = (write_exr(tmp_path / f"{green}.exr", dict.fromkeys("RGB", "float"),
                       rgb_planes(flat(0.1, green, 0.1)), chromaticities=AP1) for green in (2, 4))
-    ran = tonetool(a, b, "--hdrflip:fail=0.05", status=3)
+    ran = tonetool_v(a, b, "--hdrflip:fail=0.05", status=3)
     assert ran.fact("reference-space") == "acescg"
     assert ran.fact("reference-negative") == str(WIDTH * HEIGHT)
 
@@ -829,9 +829,9 @@ def test_map_stays_within_0_and_1(map_of, tonetool, put, read):
 @pytest.mark.parametrize("name", ["plain", "negative", "huge", "constant", "green", "white",
                                   "one_pixel", "rgba", "datawindow", "overscan", "acescg",
                                   "nan_last", "nan_center", "inf", "mostly_black"])
-def test_identical_images_are_exactly_0(tonetool, testimages, read, name, command):
+def test_identical_images_are_exactly_0(tonetool_v, testimages, read, name, command):
     image = testimages / f"{name}.exr"
-    ran = tonetool(image, image, f"--{command}:fail=0:ppd=50", "-o", "x.exr")
+    ran = tonetool_v(image, image, f"--{command}:fail=0:ppd=50", "-o", "x.exr")
     assert not read("x.exr")[0].any() and ran.fact("mean") == "0"
 
 
@@ -869,12 +869,12 @@ def test_thresholds_that_are_none(tonetool, two, key, value):
     assert f"{key}" in ran.err and not passes(ran)
 
 
-def test_threshold_is_not_lost_in_rounding(tonetool, put):
+def test_threshold_is_not_lost_in_rounding(tonetool_v, put):
     """What is printed with 6 digits is compared with all of them."""
     a, b = put("a.exr", flat(0.5, 0.5, 0.5)), put("b.exr", flat(0.5, 0.6, 0.5))
-    mean = tonetool(a, b, "--ldrflip:fail=0", status=3).fact("mean")
+    mean = tonetool_v(a, b, "--ldrflip:fail=0", status=3).fact("mean")
     for step, status in ((-1e-5, 3), (1e-5, 0)):
-        ran = tonetool(a, b, f"--ldrflip:fail={float(mean) + step:.9f}", status=status)
+        ran = tonetool_v(a, b, f"--ldrflip:fail={float(mean) + step:.9f}", status=status)
         assert bool(passes(ran)) == (status == 0)
 
 
@@ -939,24 +939,24 @@ def test_misspelt_is_an_error(tonetool, two, words):
                                   "\u00fcn\u00ef.exr", "x=1.exr", "ref.exr?x=1",
                                   "ref.exr?x=1&y=2", "test#.exr", "@.exr",
                                   "%04d.exr", "{TOP.width}.exr", "hdrflip", "1", "a,b.exr"])
-def test_odd_file_names_are_that_file(tonetool, two, name, tmp_path):
+def test_odd_file_names_are_that_file(tonetool_v, two, name, tmp_path):
     """Not another one whose name is part of it, and no command."""
     os.rename(tmp_path / two[1], tmp_path / name)
     plain = ["--wildcardoff", "--evaloff"] if set("#@%{") & set(name) else []
-    ran = tonetool(*plain, two[0], name, "--hdrflip:fail=0.01", status=3)
+    ran = tonetool_v(*plain, two[0], name, "--hdrflip:fail=0.01", status=3)
     assert ran.fact("test") == name
-    tonetool(*plain, name, name, "--hdrflip:fail=0")
+    tonetool_v(*plain, name, name, "--hdrflip:fail=0")
 
 
-def test_labels_and_file_names(tonetool, two):
+def test_labels_and_file_names(tonetool_v, two):
     a, b = two
-    tonetool(a, "--label", "x", b, "--label", "x", "--pop", "x", "--hdrflip:fail=0.01", status=3)
-    ran = tonetool(b, "--label", a, "--pop", a, b, "--hdrflip:fail=0")
+    tonetool_v(a, "--label", "x", b, "--label", "x", "--pop", "x", "--hdrflip:fail=0.01", status=3)
+    ran = tonetool_v(b, "--label", a, "--pop", a, b, "--hdrflip:fail=0")
     assert ran.fact("reference") == b  # the label hides the file, and the summary says so
-    tonetool(b, "--label", a, "--pop", "-i", a, b, "--hdrflip:fail=0.01", status=3)
-    tonetool("--hdrflip:fail=0.01", a, b, status=3)
-    tonetool(a, "--hdrflip:fail=0.01", b, status=3)
-    tonetool("-i", a, "-i:ch=R,G,B=0", b, "--hdrflip:fail=0.01", status=3)
+    tonetool_v(b, "--label", a, "--pop", "-i", a, b, "--hdrflip:fail=0.01", status=3)
+    tonetool_v("--hdrflip:fail=0.01", a, b, status=3)
+    tonetool_v(a, "--hdrflip:fail=0.01", b, status=3)
+    tonetool_v("-i", a, "-i:ch=R,G,B=0", b, "--hdrflip:fail=0.01", status=3)
 
 
 # ---- several tests, saved exposures

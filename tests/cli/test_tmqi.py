@@ -20,8 +20,8 @@ def shown():
 
 
 @pytest.mark.parametrize("golden", GOLDENS, ids=lambda g: f"{g['scene']}_{g['ldr']}")
-def test_numbers_are_those_of_the_authors_program(tonetool, golden):
-    ran = tonetool(TESTIMAGES / f"{golden['scene']}_ref.exr",
+def test_numbers_are_those_of_the_authors_program(tonetool_v, golden):
+    ran = tonetool_v(TESTIMAGES / f"{golden['scene']}_ref.exr",
                    TESTIMAGES / "golden" / f"{golden['scene']}_{golden['ldr']}.png", "--tmqi")
     for name in "QSN":
         assert float(ran.fact(name)) == pytest.approx(golden[name], abs=1e-5)
@@ -30,8 +30,8 @@ def test_numbers_are_those_of_the_authors_program(tonetool, golden):
     assert ran.err == ""
 
 
-def test_the_map_is_the_finest_scale(tonetool, shown, read):
-    ran = tonetool(*shown, "--tmqi", "-o", "x.exr")
+def test_the_map_is_the_finest_scale(tonetool_v, shown, read):
+    ran = tonetool_v(*shown, "--tmqi", "-o", "x.exr")
     assert all(line.startswith("tmqi: ") for line in ran.out.splitlines())
     pixels, spec = read("x.exr")
     assert pixels.shape == (72, 128, 1)
@@ -41,28 +41,28 @@ def test_the_map_is_the_finest_scale(tonetool, shown, read):
     assert ran.fact("hdr") == str(shown[0]) and ran.fact("ldr-space") == "srgb"
 
 
-def test_pictures_made_on_the_way(tonetool, shown):
-    straight = tonetool(shown[0], "--dup", "--tonemap:curve=aces", "-o", "x.png", "--tmqi")
-    read_again = tonetool(shown[0], "x.png", "--tmqi")
+def test_pictures_made_on_the_way(tonetool_v, shown):
+    straight = tonetool_v(shown[0], "--dup", "--tonemap:curve=aces", "-o", "x.png", "--tmqi")
+    read_again = tonetool_v(shown[0], "x.png", "--tmqi")
     assert float(straight.fact("Q")) == pytest.approx(float(read_again.fact("Q")), abs=5e-3)
-    linear = tonetool(shown[0], "--dup", "--tonemap:curve=aces:encode=none", "--tmqi")
+    linear = tonetool_v(shown[0], "--dup", "--tonemap:curve=aces:encode=none", "--tmqi")
     assert linear.fact("ldr-space") == "rec709"
     assert float(linear.fact("Q")) == pytest.approx(float(straight.fact("Q")), abs=1e-4)
 
 
-def test_thresholds_are_to_be_reached(tonetool, shown):
-    q = tonetool(*shown, "--tmqi").fact("Q")
-    ran = tonetool(*shown, "--tmqi:fail=0.99", status=3)
+def test_thresholds_are_to_be_reached(tonetool_v, shown):
+    q = tonetool_v(*shown, "--tmqi").fact("Q")
+    ran = tonetool_v(*shown, "--tmqi:fail=0.99", status=3)
     assert f"tmqi: FAIL Q {q} < 0.99" in ran.out
-    assert f"tmqi: PASS Q {q} >= 0.1" in tonetool(*shown, "--tmqi:fail=0.1").out
-    ran = tonetool(*shown, "--tmqi:fail=0.1:warn=0.99")
+    assert f"tmqi: PASS Q {q} >= 0.1" in tonetool_v(*shown, "--tmqi:fail=0.1").out
+    ran = tonetool_v(*shown, "--tmqi:fail=0.1:warn=0.99")
     assert f"tmqi: WARNING Q {q} < 0.99" in ran.out
     assert f"WARNING: tmqi : Q {q} < 0.99" in ran.err
-    tonetool(*shown, "--tmqi:warn=0.99", "--warnings-exit", status=2)
+    tonetool_v(*shown, "--tmqi:warn=0.99", "--warnings-exit", status=2)
     for quantity in "SN":
-        ran = tonetool(*shown, f"--tmqi:fail=0.9999:quantity={quantity}", status=3)
+        ran = tonetool_v(*shown, f"--tmqi:fail=0.9999:quantity={quantity}", status=3)
         assert f"tmqi: FAIL {quantity} " in ran.out
-    assert "higher is better" in tonetool("--help", "--tmqi").out
+    assert "higher is better" in tonetool_v("--help", "--tmqi").out
 
 
 def test_threads_do_not_change_the_numbers(tonetool, shown, read):
@@ -72,17 +72,17 @@ def test_threads_do_not_change_the_numbers(tonetool, shown, read):
     assert np.array_equal(read("a.exr")[0], read("b.exr")[0])
 
 
-def test_holes_are_warnings(tonetool, testimages):
-    ran = tonetool("--warnings-exit", testimages / "nan_center.exr", testimages / "plain.exr",
+def test_holes_are_warnings(tonetool_v, testimages):
+    ran = tonetool_v("--warnings-exit", testimages / "nan_center.exr", testimages / "plain.exr",
                    "--tmqi", status=2)
     assert ran.fact("hdr-nonfinite") == "1"
     assert "1 pixel(s) of the HDR image are NaN or Inf" in ran.err
 
 
-def test_each_image_has_its_own_layer_and_space(tonetool, shown, make_image):
-    ran = tonetool(shown[0], shown[0], "--tmqi:layer=ViewLayer.Combined_daylight", status=1)
+def test_each_image_has_its_own_layer_and_space(tonetool_v, shown, make_image):
+    ran = tonetool_v(shown[0], shown[0], "--tmqi:layer=ViewLayer.Combined_daylight", status=1)
     assert "ViewLayer.Combined" in ran.err
-    ran = tonetool(shown[0], shown[0], "--tmqi:ldrlayer=ViewLayer.Combined:ldrfrom=srgb")
+    ran = tonetool_v(shown[0], shown[0], "--tmqi:ldrlayer=ViewLayer.Combined:ldrfrom=srgb")
     assert ran.fact("ldr-space") == "srgb" and ran.fact("hdr-space") == "rec709"
 
 

@@ -242,19 +242,19 @@ def test_mip_levels_that_are_not_looked_at(tonetool, put):
              "--selectmip", "1", "--hdrflip:fail=0.1")
 
 
-def test_alpha_that_is_ignored(tonetool, put):
+def test_alpha_that_is_ignored(tonetool_v, put):
     alpha = np.ones((HEIGHT, WIDTH, 1), np.float32)
     hole = alpha.copy()
     hole[5:15, 10:20] = 0
     full = put("full.exr", np.concatenate([GOOD, alpha], -1), "RGBA")
     put("hole.exr", np.concatenate([GOOD, hole], -1), "RGBA")
     for command in ("hdrflip", "ldrflip", "flipdiff", "errormap:metric=mae"):
-        ran = tonetool(full, "hole.exr", f"--{command}", "--warnings-exit", status=2)
+        ran = tonetool_v(full, "hole.exr", f"--{command}", "--warnings-exit", status=2)
         assert "100 pixel(s) differ in alpha, which is ignored" in ran.err
         assert ran.fact("alpha-ignored") == "100"
-    assert not tonetool(full, put("rgb.exr", GOOD), "--hdrflip:fail=0", "--warnings-exit").err
-    assert "100 pixel(s)" in tonetool("hole.exr", "rgb.exr", "--hdrflip").err
-    tonetool(full, "hole.exr", "--hdrflip:fail=0.01:alpha=error", status=3)
+    assert not tonetool_v(full, put("rgb.exr", GOOD), "--hdrflip:fail=0", "--warnings-exit").err
+    assert "100 pixel(s)" in tonetool_v("hole.exr", "rgb.exr", "--hdrflip").err
+    tonetool_v(full, "hole.exr", "--hdrflip:fail=0.01:alpha=error", status=3)
 
 
 def test_light_that_is_white_at_every_exposure(tonetool, put):
@@ -271,53 +271,53 @@ def test_light_that_is_white_at_every_exposure(tonetool, put):
 # ---- values that are no numbers
 
 @pytest.mark.parametrize("a, b", [("inf", "nan"), ("inf", "-inf"), ("nan", "-inf")])
-def test_kinds_of_values_that_are_no_numbers(tonetool, put, a, b):
+def test_kinds_of_values_that_are_no_numbers(tonetool_v, put, a, b):
     files = []
     for kind in (a, b):
         pixels = GOOD.copy()
         pixels[5:10, 30:40] = float(kind)
         files.append(put(f"kind{kind}.exr", pixels))
     for command in ("hdrflip", "ldrflip", "errormap:metric=mse"):
-        ran = tonetool(*files, f"--{command}:fail=0", status=3)
+        ran = tonetool_v(*files, f"--{command}:fail=0", status=3)
         assert ran.fact("nonfinite-unlike") == "50" and "FAIL" in ran.out
         copy = put("copy.exr", pixels)
-        ran = tonetool(files[1], copy, f"--{command}:fail=0")
+        ran = tonetool_v(files[1], copy, f"--{command}:fail=0")
         assert ran.fact("max").startswith("0 ") and ran.fact("nonfinite-in-both") == "50"
-    tonetool(*files, "--diff", status=1)
+    tonetool_v(*files, "--diff", status=1)
 
 
-def test_what_stands_beside_a_value_that_is_no_number(tonetool, put):
+def test_what_stands_beside_a_value_that_is_no_number(tonetool_v, put):
     for name, color in (("a", [np.inf, 0.1, 0.1]), ("b", [np.inf, 9, 9])):
         pixels = GOOD.copy()
         pixels[5:10, 30:40] = color
         put(f"red_{name}.exr", pixels)
         put(f"half_{name}.exr", pixels, kind="half")
-    ran = tonetool("red_a.exr", "red_b.exr", "--hdrflip:fail=0", status=3)
+    ran = tonetool_v("red_a.exr", "red_b.exr", "--hdrflip:fail=0", status=3)
     assert ran.fact("nonfinite-unlike") == "50"
-    assert tonetool("red_a.exr", "half_a.exr", "--hdrflip").fact("nonfinite-unlike") == "0"
-    tonetool("red_a.exr", "half_b.exr", "--hdrflip:fail=0.5:quantity=max", status=3)
+    assert tonetool_v("red_a.exr", "half_a.exr", "--hdrflip").fact("nonfinite-unlike") == "0"
+    tonetool_v("red_a.exr", "half_b.exr", "--hdrflip:fail=0.5:quantity=max", status=3)
 
 
 # ---- limits
 
-def test_a_hole_that_the_mean_does_not_see(tonetool, put):
+def test_a_hole_that_the_mean_does_not_see(tonetool_v, put):
     plate = np.full((120, 160, 3), 0.2) * (1 + 0.3 * np.sin(np.arange(160) / 9))[None, :, None]
     broken = plate.copy()
     broken[40:46, 60:66] = 0
     files = put("plate.exr", plate), put("hole.exr", broken)
-    tonetool(*files, "--hdrflip:fail=0.05")
+    tonetool_v(*files, "--hdrflip:fail=0.05")
     for limits in ("fail=0.05:quantity=p99.9", "fail=p99.95=0.05", "fail=max=0.05",
                    "fail=above0.2=0.0001", "above=0.2:fail=above=0.0001",
                    "fail=mean=0.05,p99.9=0.05", "fail=mean=0.05,max=0.9,p99.9=0.05"):
-        ran = tonetool(*files, f"--hdrflip:print=0:{limits}", status=3)
+        ran = tonetool_v(*files, f"--hdrflip:print=0:{limits}", status=3)
         assert ran.out.count("\n") == 1 and ran.out.startswith("hdrflip: FAIL ")
         assert ", worst pixel " in ran.out and "mean" not in ran.out
-    ran = tonetool(*files, "--hdrflip:print=0:fail=mean=0.05,p99=0.5:warn=max=0.1",
+    ran = tonetool_v(*files, "--hdrflip:print=0:fail=mean=0.05,p99=0.5:warn=max=0.1",
                    "--warnings-exit", status=2)
     assert ran.out.startswith("hdrflip: WARNING max ")
-    ran = tonetool(*files, "--hdrflip:print=0:fail=mean=0.05,p99=0.5")
+    ran = tonetool_v(*files, "--hdrflip:print=0:fail=mean=0.05,p99=0.5")
     assert ran.out.startswith("hdrflip: PASS mean ") and " <= 0.5 (hole.exr)" in ran.out
-    assert float(tonetool(*files, "--hdrflip:above=0.2").fact("above0.2")) > 36 / 19200
+    assert float(tonetool_v(*files, "--hdrflip:above=0.2").fact("above0.2")) > 36 / 19200
 
 
 def test_several_limits_of_one_measurement(tonetool, pair, tmp_path):

@@ -43,14 +43,14 @@ def test_calibration_goes_before_the_view(tonetool, tmp_path):
     assert np.abs(pixels(tmp_path / "a.exr") - pixels(tmp_path / "b.exr")).max() < 1e-6
 
 
-def test_hdrflip_through_a_baked_view_is_near_the_exact_one(tonetool, tmp_path):
-    tonetool("--colorconfig", CONFIG, REFERENCE, TEST, "--hdrflip", "-o", "curve.exr")
-    ran = tonetool("--colorconfig", CONFIG, REFERENCE, TEST, f"--hdrflip:{ACES}", "-o", "baked.exr")
+def test_hdrflip_through_a_baked_view_is_near_the_exact_one(tonetool_v, tmp_path):
+    tonetool_v("--colorconfig", CONFIG, REFERENCE, TEST, "--hdrflip", "-o", "curve.exr")
+    ran = tonetool_v("--colorconfig", CONFIG, REFERENCE, TEST, f"--hdrflip:{ACES}", "-o", "baked.exr")
     assert ran.fact("tonemapper") == "sRGB/ACES SDR"
     words = ran.fact("bake-error").split()
     assert words[0] == "max" and words[2] == "mean"
     assert 0 < float(words[3]) < float(words[1]) < 0.02
-    exact = tonetool("--colorconfig", CONFIG, REFERENCE, TEST, f"--hdrflip:{ACES}:exact=1",
+    exact = tonetool_v("--colorconfig", CONFIG, REFERENCE, TEST, f"--hdrflip:{ACES}:exact=1",
                      "-o", "exact.exr")
     assert "bake-error" not in exact.out
     difference = np.abs(error_map(tmp_path / "baked.exr") - error_map(tmp_path / "exact.exr"))
@@ -89,8 +89,8 @@ def test_one_exposure_through_a_view_is_ldrflip_of_what_it_shows(tonetool, tmp_p
 
 
 @pytest.mark.parametrize("exact", [0, 1])
-def test_an_image_is_itself_through_a_view(tonetool, exact):
-    ran = tonetool("--colorconfig", CONFIG, TEST, TEST, f"--hdrflip:{ACES}:exact={exact}:fail=0")
+def test_an_image_is_itself_through_a_view(tonetool_v, exact):
+    ran = tonetool_v("--colorconfig", CONFIG, TEST, TEST, f"--hdrflip:{ACES}:exact={exact}:fail=0")
     assert ran.fact("mean") == "0"
 
 
@@ -98,32 +98,32 @@ def test_a_threshold_is_exceeded_through_a_view(tonetool):
     tonetool("--colorconfig", CONFIG, REFERENCE, TEST, f"--hdrflip:{ACES}:fail=0.01", status=3)
 
 
-def test_bands_and_threads_give_the_same_map(tonetool, tmp_path):
+def test_bands_and_threads_give_the_same_map(tonetool_v, tmp_path):
     for name, words in (("a", ["--threads", 1]), ("b", ["--threads", 3]),
                         ("c", ["--memory", "200M"])):
-        ran = tonetool(*words, "--colorconfig", CONFIG, REFERENCE, TEST, f"--hdrflip:{ACES}",
+        ran = tonetool_v(*words, "--colorconfig", CONFIG, REFERENCE, TEST, f"--hdrflip:{ACES}",
                        "-o", f"{name}.exr")
         assert ran.fact("bake-error")
     assert np.array_equal(error_map(tmp_path / "a.exr"), error_map(tmp_path / "b.exr"))
     assert np.array_equal(error_map(tmp_path / "a.exr"), error_map(tmp_path / "c.exr"))
 
 
-def test_a_grey_of_the_references_median_is_shown_at_085(tonetool, make_image, tmp_path):
-    ran = tonetool("--colorconfig", CONFIG, REFERENCE, TEST, f"--hdrflip:{ACES}:exact=1")
+def test_a_grey_of_the_references_median_is_shown_at_085(tonetool_v, make_image, tmp_path):
+    ran = tonetool_v("--colorconfig", CONFIG, REFERENCE, TEST, f"--hdrflip:{ACES}:exact=1")
     words = ran.fact("exposures").split()
     for fact, stops in (("max-luminance", float(words[1])), ("median-luminance", float(words[3]))):
         value = float(ran.fact(fact)) * 2 ** stops
         grey = make_image("grey.exr", 4, 4, pixels=np.full((4, 4, 3), value, np.float32))
-        tonetool("--colorconfig", CONFIG, grey, f"--tonemap:{ACES}", "-d", "float", "-o", "out.exr")
+        tonetool_v("--colorconfig", CONFIG, grey, f"--tonemap:{ACES}", "-d", "float", "-o", "out.exr")
         code = float(pixels(tmp_path / "out.exr").mean())
         assert ((code + 0.055) / 1.055) ** 2.4 == pytest.approx(0.85, abs=1e-4)
 
 
-def test_displays_of_high_dynamic_range_need_a_peak(tonetool):
+def test_displays_of_high_dynamic_range_need_a_peak(tonetool_v):
     pq = "--hdrflip:display=Rec.2100-PQ:view='ACES HDR 1000'"
-    ran = tonetool("--colorconfig", CONFIG, REFERENCE, TEST, pq, status=1)
+    ran = tonetool_v("--colorconfig", CONFIG, REFERENCE, TEST, pq, status=1)
     assert "high dynamic range" in ran.err and "peak=" in ran.err
-    ran = tonetool("--colorconfig", CONFIG, REFERENCE, TEST, pq + ":peak=1000")
+    ran = tonetool_v("--colorconfig", CONFIG, REFERENCE, TEST, pq + ":peak=1000")
     assert float(ran.fact("mean")) > 0.05
 
 
@@ -207,7 +207,7 @@ FILM = "view=Film:encoding=gamma2.2"
                                          ("scene_linear: lin_ap1", "lin_ap1"),
                                          ("aces_interchange: AP0x", "AP0x"),
                                          ("scene_linear: lin_srgb", "lin_srgb")])
-def test_hdrflip_from_a_space_of_the_configuration(tonetool, make_image, tmp_path, roles, light):
+def test_hdrflip_from_a_space_of_the_configuration(tonetool_v, make_image, tmp_path, roles, light):
     (tmp_path / "c.ocio").write_text(PLAIN_CONFIG.format(roles=roles, light=light))
     config = ["--colorconfig", "c.ocio"]
     scene = np.random.default_rng(1).uniform(0.1, 2, (12, 16, 3)).astype(np.float32)
@@ -215,17 +215,17 @@ def test_hdrflip_from_a_space_of_the_configuration(tonetool, make_image, tmp_pat
     log, brighter_log = (make_image(f"{name}_log.exr", pixels=np.log2(pixels))
                          for name, pixels in (("a", scene), ("b", scene * 1.5)))
     same = ":startExposure=-2:stopExposure=0:exact=1"
-    want = tonetool(*config, lit, brighter, f"--hdrflip:{FILM}:from={light}{same}")
-    got = tonetool(*config, log, brighter_log, f"--hdrflip:{FILM}:from=LOG{same}")
+    want = tonetool_v(*config, lit, brighter, f"--hdrflip:{FILM}:from={light}{same}")
+    got = tonetool_v(*config, log, brighter_log, f"--hdrflip:{FILM}:from=LOG{same}")
     assert got.fact("reference-space") == "LOG"
     assert float(want.fact("mean")) > 0.05
     assert abs(float(got.fact("mean")) - float(want.fact("mean"))) < 1e-3
-    tonetool(*config, log, log, f"--hdrflip:{FILM}:from=LOG:fail=0")
+    tonetool_v(*config, log, log, f"--hdrflip:{FILM}:from=LOG:fail=0")
     # As --tonemap takes it.
-    tonetool(*config, log, f"--tonemap:view=Film:from=LOG", "-o", "t.exr")
+    tonetool_v(*config, log, f"--tonemap:view=Film:from=LOG", "-o", "t.exr")
     assert np.abs(pixels(tmp_path / "t.exr") - scene ** (1 / 2.2)).max() < 1e-3
     for command in (f"hdrflip:{FILM}", "tonemap:view=Film"):
-        ran = tonetool(*config, log, log, f"--{command}:from=LOGS", status=1)
+        ran = tonetool_v(*config, log, log, f"--{command}:from=LOGS", status=1)
         assert 'did you mean "LOG"' in ran.err
 
 
