@@ -90,13 +90,13 @@ def two(put):
 
 
 @pytest.fixture
-def map_of(tonetool, put, read):
+def map_of(tonetool_v, put, read):
     """The error map of two arrays or files, and what the command said."""
 
     def compare(reference, test, modifiers=FIXED, command="hdrflip", status=0):
         names = [image if isinstance(image, str) else put(name, image)
                  for image, name in ((reference, "map_ref.exr"), (test, "map_test.exr"))]
-        ran = tonetool(*names, f"--{command}" + (f":{modifiers}" if modifiers else ""),
+        ran = tonetool_v(*names, f"--{command}" + (f":{modifiers}" if modifiers else ""),
                        "-o", "map.exr", status=status)
         return read("map.exr")[0][:, :, 0], ran
 
@@ -182,29 +182,29 @@ def test_reference_median_negative(tonetool_v, put, map_of):
 
 @pytest.mark.parametrize("modifiers", ["", "startExposure=0", "stopExposure=0", "numExposures=3",
                                        "numExposures=1", "maxluminance=1", "medianluminance=1"])
-def test_all_black_reference(tonetool, testimages, modifiers):
+def test_all_black_reference(tonetool_v, testimages, modifiers):
     black, plain = testimages / "black.exr", testimages / "plain.exr"
     for test in (plain, black):
-        ran = tonetool(black, test, ":".join(filter(None, ["--hdrflip:fail=0.9999", modifiers])),
+        ran = tonetool_v(black, test, ":".join(filter(None, ["--hdrflip:fail=0.9999", modifiers])),
                        status=1)
         assert "the reference is black" in ran.err and not passes(ran)
         for name in ("startExposure", "stopExposure", "maxluminance", "medianluminance"):
             assert name in ran.err
 
 
-def test_all_black_reference_with_exposures(tonetool, testimages):
+def test_all_black_reference_with_exposures(tonetool_v, testimages):
     black, plain = testimages / "black.exr", testimages / "plain.exr"
     for how in ("startExposure=0:stopExposure=4", "maxluminance=1:medianluminance=0.1"):
-        tonetool(black, plain, f"--hdrflip:fail=0.1:{how}", status=3)
-        tonetool(black, black, f"--hdrflip:fail=0:{how}")
-    tonetool(black, plain, "--ldrflip:fail=0.1", status=3)
-    tonetool(black, plain, "--flipdiff:fail=0.1", status=3)
+        tonetool_v(black, plain, f"--hdrflip:fail=0.1:{how}", status=3)
+        tonetool_v(black, black, f"--hdrflip:fail=0:{how}")
+    tonetool_v(black, plain, "--ldrflip:fail=0.1", status=3)
+    tonetool_v(black, plain, "--flipdiff:fail=0.1", status=3)
 
 
 @pytest.mark.parametrize("scale", [1e-38, 3e-45, 3e38])
-def test_luminance_at_the_ends_of_float(tonetool, put, scale):
+def test_luminance_at_the_ends_of_float(tonetool_v, put, scale):
     ref = put("a.exr", np.full((4, 4, 3), scale, np.float32))
-    ran = tonetool(ref, put("b.exr", flat(0.5, 0.5, 0.5, height=4, width=4)), "--hdrflip:fail=0.1",
+    ran = tonetool_v(ref, put("b.exr", flat(0.5, 0.5, 0.5, height=4, width=4)), "--hdrflip:fail=0.1",
                    status=1)
     assert "exposure" in ran.err and not passes(ran)
 
@@ -267,10 +267,10 @@ def test_nonfinite_in_both(map_of):
 
 
 @pytest.mark.parametrize("command", COMMANDS)
-def test_no_finite_pixel(tonetool, put, command):
+def test_no_finite_pixel(tonetool_v, put, command):
     ref, nothing = put("a.exr", picture()), put("b.exr", flat(np.nan, 0, 0))
     for pair in ((ref, nothing), (nothing, ref), (nothing, nothing)):
-        ran = tonetool(*pair, f"--{command}:fail=0.9999", status=1)
+        ran = tonetool_v(*pair, f"--{command}:fail=0.9999", status=1)
         assert "no finite pixel" in ran.err and not passes(ran)
 
 
@@ -320,9 +320,9 @@ def test_negative_pixel_is_black(map_of, curve, value):
 
 
 @pytest.mark.parametrize("command", ["ldrflip", "flipdiff"])
-def test_all_negative_images_do_not_pass_in_silence(tonetool, put, command):
+def test_all_negative_images_do_not_pass_in_silence(tonetool_v, put, command):
     a, b = put("a.exr", -picture(1)), put("b.exr", -picture(2))
-    assert "negative" in tonetool("-q", a, b, f"--{command}:fail=0").err
+    assert "negative" in tonetool_v("-q", a, b, f"--{command}:fail=0").err
 
 
 @pytest.mark.parametrize("words", [
@@ -333,10 +333,10 @@ def test_all_negative_images_do_not_pass_in_silence(tonetool, put, command):
     ("--hdrflip:fail=0:coeffs=0,1,2,0,0,1:startExposure=0:stopExposure=0", 1, 1)],
     ids=["ldrflip above 1", "flipdiff above its range", "all white", "all black", "maxluminance",
          "coeffs above 1"])
-def test_differences_that_no_exposure_shows(tonetool, put, words):
+def test_differences_that_no_exposure_shows(tonetool_v, put, words):
     command, scale, offset = words
     a, b = put("a.exr", picture(1) * scale + offset), put("b.exr", picture(2) * scale + offset)
-    assert tonetool("-q", "--warnings-exit", a, b, command, status=2).err
+    assert tonetool_v("-q", "--warnings-exit", a, b, command, status=2).err
 
 
 # ---- exposures
@@ -356,8 +356,8 @@ def test_one_exposure(tonetool_v, two, read):
 
 @pytest.mark.parametrize("count", ["0", "-1", "1.5", "1e9", "1025", "99999999999999999999", "nan",
                                    "0x2", "2 ", "two"])
-def test_number_of_exposures(tonetool, two, count):
-    ran = tonetool(*two, f"--hdrflip:fail=0.9999:numExposures={count}", status=1)
+def test_number_of_exposures(tonetool_v, two, count):
+    ran = tonetool_v(*two, f"--hdrflip:fail=0.9999:numExposures={count}", status=1)
     assert "numExposures" in ran.err and count in ran.err and "1 to 1024" in ran.err
     assert not passes(ran)
 
@@ -372,22 +372,22 @@ def test_one_end_given(tonetool_v, two, given, kept):
 
 @pytest.mark.parametrize("modifiers", ["startExposure=2:stopExposure=1", "startExposure=100",
                                        "stopExposure=-100", "maxluminance=1:medianluminance=2"])
-def test_exposures_out_of_order(tonetool, two, modifiers):
-    ran = tonetool(*two, f"--hdrflip:fail=0.9999:{modifiers}", status=1)
+def test_exposures_out_of_order(tonetool_v, two, modifiers):
+    ran = tonetool_v(*two, f"--hdrflip:fail=0.9999:{modifiers}", status=1)
     assert "above" in ran.err and not passes(ran)
 
 
 @pytest.mark.parametrize("name", ["startExposure", "stopExposure", "maxluminance",
                                   "medianluminance"])
 @pytest.mark.parametrize("value", ["nan", "inf", "-inf", "1e99", "0,5", "1e400", "''"])
-def test_exposures_that_are_not_numbers(tonetool, two, name, value):
-    ran = tonetool(*two, f"--hdrflip:fail=0.9999:{name}={value}", status=1)
+def test_exposures_that_are_not_numbers(tonetool_v, two, name, value):
+    ran = tonetool_v(*two, f"--hdrflip:fail=0.9999:{name}={value}", status=1)
     assert name in ran.err and not passes(ran)
 
 
 @pytest.mark.parametrize("value", ["-1000", "1000", "-127", "128"])
-def test_exposures_out_of_range(tonetool, two, value):
-    ran = tonetool(*two, f"--hdrflip:fail=0.9999:startExposure={value}:stopExposure={value}",
+def test_exposures_out_of_range(tonetool_v, two, value):
+    ran = tonetool_v(*two, f"--hdrflip:fail=0.9999:startExposure={value}:stopExposure={value}",
                    status=1)
     assert value in ran.err and "-126" in ran.err and "127" in ran.err and not passes(ran)
 
@@ -395,9 +395,9 @@ def test_exposures_out_of_range(tonetool, two, value):
 @pytest.mark.parametrize("coeffs", [
     "0,0,0.5,0,0,1", "0,-1,1,0,0,1", "0,1,0,0,-100,1", "0,1,0,0,0,0", "0,0,0,0,0,0",
     "nan,1,0,0,0,1", "0,1,0,0,0", "0,1,0,0,0,1,0", "0,1,0,0,0,", "1,-1,0,0,0,1"])
-def test_curves_that_hide_differences(tonetool, two, coeffs):
+def test_curves_that_hide_differences(tonetool_v, two, coeffs):
     for how in ("", ":startExposure=0:stopExposure=0"):
-        ran = tonetool(*two, f"--hdrflip:fail=0.9999:coeffs={coeffs}{how}", status=1)
+        ran = tonetool_v(*two, f"--hdrflip:fail=0.9999:coeffs={coeffs}{how}", status=1)
         assert "coeffs" in ran.err or "curve" in ran.err
         assert not passes(ran)
 
@@ -437,22 +437,22 @@ def test_one_pixel(tonetool_v, put, map_of, testimages, curve):
 
 @pytest.mark.parametrize("width, height", [(31, 24), (32, 23), (1, 1), (64, 48), (24, 32)])
 @pytest.mark.parametrize("command", COMMANDS)
-def test_display_windows_differ(tonetool, put, width, height, command):
+def test_display_windows_differ(tonetool_v, put, width, height, command):
     a = put("a.exr", picture())
     b = put("b.exr", picture(height=height, width=width))
     for pair in ((a, b), (b, a)):
-        ran = tonetool(*pair, f"--{command}:fail=0.9999", status=1)
+        ran = tonetool_v(*pair, f"--{command}:fail=0.9999", status=1)
         assert f"{width}x{height}" in ran.err and f"{WIDTH}x{HEIGHT}" in ran.err
         assert "resize=" in ran.err and "crop=" in ran.err and not passes(ran)
 
 
-def test_display_windows_at_different_places(tonetool, put):
+def test_display_windows_at_different_places(tonetool_v, put):
     a = put("a.exr", picture(), window=(0, 0, 0, 0, WIDTH, HEIGHT))
     b = put("b.exr", picture(), window=(5, 0, 5, 0, WIDTH, HEIGHT))
-    tonetool(a, b, "--hdrflip:fail=0.9999", status=1)
-    tonetool(a, b, "--hdrflip:fail=0.01:crop=1", status=3)
+    tonetool_v(a, b, "--hdrflip:fail=0.9999", status=1)
+    tonetool_v(a, b, "--hdrflip:fail=0.01:crop=1", status=3)
     far = put("c.exr", picture(), window=(WIDTH, 0, WIDTH, 0, WIDTH, HEIGHT))
-    ran = tonetool(a, far, "--hdrflip:fail=0.9999:crop=1", status=1)
+    ran = tonetool_v(a, far, "--hdrflip:fail=0.9999:crop=1", status=1)
     assert "nothing to compare" in ran.err
 
 
@@ -470,12 +470,12 @@ def test_crop_compares_the_intersection(tonetool_v, put, read):
     tonetool_v(bad, a, "--hdrflip:crop=1:fail=0", status=3)
 
 
-def test_crop_without_a_covered_pixel(tonetool, put):
+def test_crop_without_a_covered_pixel(tonetool_v, put):
     """The display windows meet, but one image has no pixel there."""
     a = put("a.exr", picture(), window=(100, 100, 0, 0, 200, 200))
     b = put("b.exr", picture(), window=(0, 0, 0, 0, 50, 50))
     for pair in ((a, b), (b, a)):
-        ran = tonetool(*pair, "--hdrflip:fail=0.9999:crop=1", status=1)
+        ran = tonetool_v(*pair, "--hdrflip:fail=0.9999:crop=1", status=1)
         assert "nothing to compare" in ran.err
 
 
@@ -516,29 +516,29 @@ def test_data_windows_that_do_not_meet(tonetool_v, put, read):
         assert read("x.exr")[0].max() > 0.1
 
 
-def test_data_windows_too_far_apart(tonetool, put):
+def test_data_windows_too_far_apart(tonetool_v, put):
     """A union that no memory holds is an error, not an overflow."""
     a = put("a.exr", picture(), window=(1000000000, 1000000000, 0, 0, 200, 100))
     b = put("b.exr", picture(), window=(-1000000000, -1000000000, 0, 0, 200, 100))
-    assert not passes(tonetool(a, b, "--hdrflip:fail=0.9999", status=1))
+    assert not passes(tonetool_v(a, b, "--hdrflip:fail=0.9999", status=1))
 
 
-def test_pixels_outside_the_display_window_count(tonetool, put, testimages):
+def test_pixels_outside_the_display_window_count(tonetool_v, put, testimages):
     image = picture(height=40, width=50)
     changed = image.copy()
     changed[0, 0] += 3
     window = (-8, -6, 0, 0, WIDTH, HEIGHT)
     a, b = put("a.exr", image, window=window), put("b.exr", changed, window=window)
-    tonetool(a, b, "--hdrflip:fail=0", status=3)
+    tonetool_v(a, b, "--hdrflip:fail=0", status=3)
     overscan = testimages / "overscan.exr"
-    tonetool(overscan, overscan, "--hdrflip:fail=0")
-    tonetool(testimages / "plain.exr", overscan, "--hdrflip:fail=0", status=3)
+    tonetool_v(overscan, overscan, "--hdrflip:fail=0")
+    tonetool_v(testimages / "plain.exr", overscan, "--hdrflip:fail=0", status=3)
 
 
 # ---- channels, alpha, layers
 
 
-def test_channels_beside_the_colour(tonetool, put, map_of):
+def test_channels_beside_the_colour(tonetool_v, put, map_of):
     want, _ = map_of(picture(1), picture(2))
     extra = picture(3)
     for names in ("RGBA", "RGBZ", "BGRA", "ZBGR"):
@@ -550,25 +550,25 @@ def test_channels_beside_the_colour(tonetool, put, map_of):
 
 
 @pytest.mark.parametrize("channels", ["Y", "R"])
-def test_one_channel_is_compared_with_one(tonetool, put, channels):
+def test_one_channel_is_compared_with_one(tonetool_v, put, channels):
     grey = picture()[:, :, :1]
     a, good = put("a.exr", grey, channels), put("b.exr", picture())
     for pair in ((a, good), (good, a)):
         for command in COMMANDS:
-            ran = tonetool(*pair, f"--{command}:fail=0.5", status=1)
+            ran = tonetool_v(*pair, f"--{command}:fail=0.5", status=1)
             assert "has one channel" in ran.err and not passes(ran)
     for command in COMMANDS:
-        tonetool(a, a, f"--{command}:fail=0")
-        tonetool(a, put("c.exr", grey * 4 + 0.5, channels), f"--{command}:fail=0.01", status=3)
+        tonetool_v(a, a, f"--{command}:fail=0")
+        tonetool_v(a, put("c.exr", grey * 4 + 0.5, channels), f"--{command}:fail=0.01", status=3)
 
 
 @pytest.mark.parametrize("channels", ["RG", "RGA", "XYZ"])
-def test_no_colour(tonetool, put, channels):
+def test_no_colour(tonetool_v, put, channels):
     a = put("a.exr", picture()[:, :, :len(channels)], tuple(channels))
     good = put("b.exr", picture())
     for pair in ((a, good), (good, a), (a, a)):
         for command in COMMANDS:
-            ran = tonetool(*pair, f"--{command}:fail=0.9999", status=1)
+            ran = tonetool_v(*pair, f"--{command}:fail=0.9999", status=1)
             assert "needs R,G,B" in ran.err and not passes(ran)
 
 
@@ -596,12 +596,12 @@ def layers_file(put, name, layers):
 @pytest.mark.parametrize("layers", [
     ("left.beauty", "right.beauty"), ("beauty", "rgba"), ("Combined", "combined"),
     ("diffuse", "specular")])
-def test_two_candidates_are_an_error(tonetool, put, layers):
+def test_two_candidates_are_an_error(tonetool_v, put, layers):
     a = layers_file(put, "a.exr", {layer: picture(i) for i, layer in enumerate(layers)})
-    ran = tonetool(a, a, "--hdrflip:fail=0.9999", status=1)
+    ran = tonetool_v(a, a, "--hdrflip:fail=0.9999", status=1)
     for layer in layers:
         assert layer in ran.err
-    tonetool(a, a, f"--hdrflip:fail=0:layer={layers[1]}")
+    tonetool_v(a, a, f"--hdrflip:fail=0:layer={layers[1]}")
 
 
 def test_plain_colour_wins_over_layers(tonetool_v, put):
@@ -611,32 +611,32 @@ def test_plain_colour_wins_over_layers(tonetool_v, put):
     tonetool_v(a, b, "--hdrflip:fail=0:layer=beauty", status=3)
 
 
-def test_layer_that_one_image_lacks(tonetool, put):
+def test_layer_that_one_image_lacks(tonetool_v, put):
     a = layers_file(put, "a.exr", {"beauty": picture(1), "key": picture(2)})
     b = layers_file(put, "b.exr", {"beauty": picture(1)})
     for pair in ((a, b), (b, a)):
-        ran = tonetool(*pair, "--hdrflip:fail=0.9999:layer=key", status=1)
+        ran = tonetool_v(*pair, "--hdrflip:fail=0.9999:layer=key", status=1)
         assert '"key"' in ran.err and "beauty" in ran.err
 
 
 @pytest.mark.parametrize("layer", ["_", "-", "' '"])
-def test_layer_name_of_separators(tonetool, two, layer):
-    tonetool(*two, f"--hdrflip:fail=0.9999:layer={layer}", status=1)
+def test_layer_name_of_separators(tonetool_v, two, layer):
+    tonetool_v(*two, f"--hdrflip:fail=0.9999:layer={layer}", status=1)
 
 
 @pytest.mark.parametrize("names", ["R,G,B,red,green,blue", "R,G,B,r,g,b"])
-def test_two_spellings_of_one_colour(tonetool, put, names):
+def test_two_spellings_of_one_colour(tonetool_v, put, names):
     channels = tuple(names.split(","))
     files = [put(f"{seed}.exr", np.dstack([picture(seed), picture(3)]), channels)
              for seed in (1, 2)]
-    assert tonetool("--warnings-exit", *files, "--hdrflip:fail=0.9999", status=1).err
+    assert tonetool_v("--warnings-exit", *files, "--hdrflip:fail=0.9999", status=1).err
 
 
 # ---- files and colour
 
 
 @pytest.mark.parametrize("command", COMMANDS)
-def test_uint_exr(tonetool, outcome, tmp_path, command):
+def test_uint_exr(tonetool_v, outcome, tmp_path, command):
     """The values of an unsigned channel are numbers, neither bits nor shares; or it is refused."""
     one = {c: np.full((4, 4), value, np.uint32) for c, value in zip("RGB", (1, 2, 3))}
     other = {c: np.full((4, 4), value, np.uint32) for c, value in zip("RGB", (30, 20, 10))}
@@ -651,17 +651,17 @@ def test_uint_exr(tonetool, outcome, tmp_path, command):
         brighter = dict(other, R=one["R"] * 0)
         b = write_exr(tmp_path / "b.exr", dict.fromkeys("RGB", "uint"), brighter)
         assert outcome(a, b, f"--{command}:fail=0.01").status in (1, 3)
-    tonetool(a, a, f"--{command}:fail=0", status=ran.status)
+    tonetool_v(a, a, f"--{command}:fail=0", status=ran.status)
 
 
-def test_exr_of_mixed_types(tonetool, tmp_path):
+def test_exr_of_mixed_types(tonetool_v, tmp_path):
     planes = rgb_planes(picture())
     a = write_exr(tmp_path / "a.exr", {"R": "half", "G": "float", "B": "half"}, planes)
     b = write_exr(tmp_path / "b.exr", dict.fromkeys("RGB", "float"), planes)
     c = write_exr(tmp_path / "c.exr", {"R": "half", "G": "float", "B": "half"},
                   dict(planes, B=planes["B"] * 0.5))
-    tonetool(a, b, "--hdrflip:fail=0.01")
-    tonetool(a, c, "--hdrflip:fail=0.05", status=3)
+    tonetool_v(a, b, "--hdrflip:fail=0.01")
+    tonetool_v(a, c, "--hdrflip:fail=0.05", status=3)
 
 
 BAD_WHITES = [(np.nan, 0.329), (np.inf, 0.329), (0.3127, np.nan), (0.3127, 0.0)]
@@ -699,91 +699,91 @@ def test_wide_colours_are_not_clipped_before_the_tone_map(tonetool_v, tmp_path):
 
 @pytest.mark.parametrize("kind", ["uint8", "uint16"])
 @pytest.mark.parametrize("png_first", [False, True])
-def test_exr_and_png(tonetool, put, kind, png_first):
+def test_exr_and_png(tonetool_v, put, kind, png_first):
     """The same picture both ways is nearly the same, because the PNG is decoded."""
     linear = picture(low=0.01, high=0.99)
     coded = np.where(linear <= 0.0031308, linear * 12.92, 1.055 * linear ** (1 / 2.4) - 0.055)
     exr, png = put("a.exr", linear), put("b.png", coded, kind=kind)
     pair = (png, exr) if png_first else (exr, png)
     for command in COMMANDS:
-        tonetool(*pair, f"--{command}:fail={0.03 if kind == 'uint8' else 0.002}")
+        tonetool_v(*pair, f"--{command}:fail={0.03 if kind == 'uint8' else 0.002}")
         undecoded = put("c.png", linear, kind=kind)
-        tonetool(exr, undecoded, f"--{command}:fail=0.1", status=3)
+        tonetool_v(exr, undecoded, f"--{command}:fail=0.1", status=3)
 
 
-def test_png_depths_agree(tonetool, testimages):
-    tonetool(testimages / "srgb8.png", testimages / "srgb16.png",
+def test_png_depths_agree(tonetool_v, testimages):
+    tonetool_v(testimages / "srgb8.png", testimages / "srgb16.png",
              "--hdrflip:fail=1e-4:quantity=max")
 
 
 @pytest.mark.parametrize("name", ["a.EXR", "a.Exr", "a.PNG", "a.TIF"])
-def test_upper_case_extension(tonetool, put, name, tmp_path):
+def test_upper_case_extension(tonetool_v, put, name, tmp_path):
     kind = "float" if name.lower().endswith("exr") else "uint16"
     lower = put(name.lower(), picture(1), kind=kind)
     other = put("b" + name.lower()[1:], picture(2), kind=kind)
     os.rename(tmp_path / other, tmp_path / "b.old")
     os.rename(tmp_path / lower, tmp_path / name)
     os.rename(tmp_path / "b.old", tmp_path / ("b" + name[1:]))
-    tonetool(name, name, "--hdrflip:fail=0")
-    tonetool(name, "b" + name[1:], "--hdrflip:fail=0.01", status=3)
+    tonetool_v(name, name, "--hdrflip:fail=0")
+    tonetool_v(name, "b" + name[1:], "--hdrflip:fail=0.01", status=3)
 
 
 @pytest.mark.parametrize("name", ["a.tif", "a.png", "a.jpg", "a.tga", "a.bmp", "a.sgi", "a.hdr",
                                   "a.webp", "a.rla", "a.iff"])
-def test_every_format_is_compared_and_its_torso_refused(tonetool, put, name, tmp_path):
+def test_every_format_is_compared_and_its_torso_refused(tonetool_v, put, name, tmp_path):
     kind = "float" if name.endswith("hdr") else "uint8"
     one, two_ = (put(prefix + name, picture(seed, 96, 128), kind=kind)
                  for seed, prefix in ((1, "x"), (2, "y")))
-    tonetool(one, one, "--ldrflip:fail=0")
-    tonetool(one, two_, "--ldrflip:fail=0.05", status=3)
+    tonetool_v(one, one, "--ldrflip:fail=0")
+    tonetool_v(one, two_, "--ldrflip:fail=0.05", status=3)
     for file in (one, two_):
         whole = (tmp_path / file).read_bytes()
         (tmp_path / file).write_bytes(whole[:len(whole) * 6 // 10])
     for pair in ((one, two_), (one, one)):
-        assert not passes(tonetool(*pair, "--ldrflip:fail=0.9999", status=1))
+        assert not passes(tonetool_v(*pair, "--ldrflip:fail=0.9999", status=1))
 
 
-def test_rec709_video_needs_a_word(tonetool, put):
+def test_rec709_video_needs_a_word(tonetool_v, put):
     """DPX and PPM readers tag the camera curve, which is neither linear nor sRGB."""
     a = put("a.ppm", picture(), kind="uint8")
-    ran = tonetool(a, a, "--hdrflip:fail=0.9999", status=1)
+    ran = tonetool_v(a, a, "--hdrflip:fail=0.9999", status=1)
     assert "Rec709" in ran.err and "from=" in ran.err
-    tonetool(a, a, "--hdrflip:fail=0:from=srgb")
+    tonetool_v(a, a, "--hdrflip:fail=0:from=srgb")
 
 
-def test_planar_tiled_and_compressed_tiffs(tonetool, put, tmp_path):
+def test_planar_tiled_and_compressed_tiffs(tonetool_v, put, tmp_path):
     image = picture()
     a = put("a.exr", image)
     for planar in ("contig", "separate"):
         for compression in ("none", "lzw", "zip"):
             attributes = {"planarconfig": planar, "compression": compression}
             same = put("b.tif", image, attributes=attributes)
-            tonetool(a, same, "--hdrflip:fail=0")
+            tonetool_v(a, same, "--hdrflip:fail=0")
             other = put("c.tif", with_pixel(image, 0.95), attributes=attributes)
-            tonetool(a, other, "--hdrflip:fail=0", status=3)
+            tonetool_v(a, other, "--hdrflip:fail=0", status=3)
     spec = oiio.ImageSpec(WIDTH, HEIGHT, 3, "float")
     spec.tile_width = spec.tile_height = 16
     tiled = oiio.ImageBuf(spec)
     tiled.set_pixels(oiio.ROI(), image)
     tiled.write(str(tmp_path / "t.exr"))
     assert oiio.ImageBufAlgo.make_texture(oiio.MakeTxTexture, tiled, str(tmp_path / "t.tx"))
-    tonetool(a, "t.exr", "--hdrflip:fail=0")
-    tonetool(a, "t.tx", "--hdrflip:fail=0")
-    tonetool(put("d.exr", with_pixel(image, 0.95, LAST)), "t.tx", "--hdrflip:fail=0", status=3)
+    tonetool_v(a, "t.exr", "--hdrflip:fail=0")
+    tonetool_v(a, "t.tx", "--hdrflip:fail=0")
+    tonetool_v(put("d.exr", with_pixel(image, 0.95, LAST)), "t.tx", "--hdrflip:fail=0", status=3)
 
 
-def test_other_subimages_are_not_passed_in_silence(tonetool, make_parts):
+def test_other_subimages_are_not_passed_in_silence(tonetool_v, make_parts):
     a, b = make_parts("a.exr", 0.5, 0.25), make_parts("b.exr", 0.5, 0.75)
-    ran = tonetool(a, b, "--hdrflip:fail=0", status=1)
+    ran = tonetool_v(a, b, "--hdrflip:fail=0", status=1)
     assert "beside one, pictures are not looked at: two" in ran.err and not passes(ran)
-    assert "two" in tonetool("--warnings-exit", a, b, "--hdrflip", status=2).err
-    tonetool(a, "--subimage", "1", b, "--subimage", "two", "--hdrflip:fail=0", status=3)
+    assert "two" in tonetool_v("--warnings-exit", a, b, "--hdrflip", status=2).err
+    tonetool_v(a, "--subimage", "1", b, "--subimage", "two", "--hdrflip:fail=0", status=3)
 
 
-def test_signed_integers(tonetool, put):
+def test_signed_integers(tonetool_v, put):
     a, b = (put(f"{seed}.tif", picture(seed), kind="int16") for seed in (1, 2))
-    tonetool(a, a, "--hdrflip:fail=0")
-    tonetool(a, b, "--hdrflip:fail=0.05", status=3)
+    tonetool_v(a, a, "--hdrflip:fail=0")
+    tonetool_v(a, b, "--hdrflip:fail=0.05", status=3)
 
 
 # ---- ppd and the map's range
@@ -791,28 +791,28 @@ def test_signed_integers(tonetool, put):
 
 @pytest.mark.parametrize("command", COMMANDS)
 @pytest.mark.parametrize("ppd", ["0", "0.1", "nan", "inf", "1e9", "-67", "1001", "67,02", "0x43"])
-def test_pixels_per_degree_out_of_range(tonetool, two, command, ppd):
-    ran = tonetool(*two, f"--{command}:fail=0.9999:ppd={ppd}", status=1)
+def test_pixels_per_degree_out_of_range(tonetool_v, two, command, ppd):
+    ran = tonetool_v(*two, f"--{command}:fail=0.9999:ppd={ppd}", status=1)
     assert "ppd" in ran.err and ppd in ran.err and "1 to 1000" in ran.err and not passes(ran)
 
 
 @pytest.mark.parametrize("screen", ["distance=1e-6", "width=1e6", "pixels=1e7", "distance=1e6"])
-def test_screens_out_of_range(tonetool, two, screen):
-    ran = tonetool(*two, f"--hdrflip:fail=0.9999:{screen}", status=1)
+def test_screens_out_of_range(tonetool_v, two, screen):
+    ran = tonetool_v(*two, f"--hdrflip:fail=0.9999:{screen}", status=1)
     assert "ppd" in ran.err and not passes(ran)
 
 
 @pytest.mark.parametrize("ppd", [1, 1000])
 @pytest.mark.parametrize("size", [(1, 1), (1, 9), (9, 1), (HEIGHT, WIDTH)])
-def test_smallest_and_largest_ppd(map_of, put, tonetool, ppd, size):
+def test_smallest_and_largest_ppd(map_of, put, tonetool_v, ppd, size):
     got, _ = map_of(picture(1, *size), picture(2, *size), f"ppd={ppd}")
     assert np.isfinite(got).all() and got.max() > 0.01 and got.max() <= 1.0001
     assert not map_of(picture(1, *size), picture(1, *size), f"ppd={ppd}:fail=0")[0].any()
-    tonetool(put("a.exr", picture(1, *size)), put("b.exr", picture(2, *size)),
+    tonetool_v(put("a.exr", picture(1, *size)), put("b.exr", picture(2, *size)),
              f"--hdrflip:fail=0.001:ppd={ppd}", status=3)
 
 
-def test_map_stays_within_0_and_1(map_of, tonetool, put, read):
+def test_map_stays_within_0_and_1(map_of, tonetool_v, put, read):
     checker = np.indices((HEIGHT, WIDTH)).sum(axis=0)[:, :, None] % 2
     green, blue = flat(0, 1, 0), flat(0, 0, 1)
     one = np.where(checker, green, blue).astype(np.float32)
@@ -820,7 +820,7 @@ def test_map_stays_within_0_and_1(map_of, tonetool, put, read):
         got, _ = map_of(one, (1 - one).astype(np.float32), "", command)
         assert got.min() >= 0 and got.max() <= 1.0001
     for value, name in ((1.0, "one"), (7.0, "seven")):  # colours are clamped, they do not wrap
-        tonetool(put("v.exr", flat(value, value, value)), "--colormap", "magma", "-o",
+        tonetool_v(put("v.exr", flat(value, value, value)), "--colormap", "magma", "-o",
                  f"{name}.png")
     assert np.array_equal(read("one.png")[0], read("seven.png")[0])
 
@@ -850,13 +850,13 @@ def test_known_values(map_of, testimages, ppd):
 
 @pytest.mark.parametrize("at", [FIRST, CENTRE, LAST], ids=["first", "centre", "last"])
 @pytest.mark.parametrize("channel", [0, 1, 2])
-def test_one_step_of_one_float_is_seen(tonetool, put, at, channel):
+def test_one_step_of_one_float_is_seen(tonetool_v, put, at, channel):
     image = flat(0.5, 0.5, 0.5)
     changed = image.copy()
     changed[at][channel] = np.float32(0.5001)
     a, b = put("a.exr", image), put("b.exr", changed)
     for command in COMMANDS:
-        tonetool(a, b, f"--{command}:fail=0", status=3)
+        tonetool_v(a, b, f"--{command}:fail=0", status=3)
 
 
 # ---- thresholds and statuses
@@ -864,8 +864,8 @@ def test_one_step_of_one_float_is_seen(tonetool, put, at, channel):
 
 @pytest.mark.parametrize("key", ["fail", "warn"])
 @pytest.mark.parametrize("value", ["nan", "-1", "2", "0,05", "inf", "", "''", "1e-400x", "5%", "."])
-def test_thresholds_that_are_none(tonetool, two, key, value):
-    ran = tonetool(*two, f"--hdrflip:{key}={value}", status=1)
+def test_thresholds_that_are_none(tonetool_v, two, key, value):
+    ran = tonetool_v(*two, f"--hdrflip:{key}={value}", status=1)
     assert f"{key}" in ran.err and not passes(ran)
 
 
@@ -878,25 +878,25 @@ def test_threshold_is_not_lost_in_rounding(tonetool_v, put):
         assert bool(passes(ran)) == (status == 0)
 
 
-def test_a_failure_is_not_forgotten(tonetool, two):
+def test_a_failure_is_not_forgotten(tonetool_v, two):
     a, b = two
     bad, good = [a, b, "--hdrflip:fail=0.001"], [a, a, "--hdrflip:fail=0"]
-    assert "FAIL" in tonetool(*bad, *good, status=3).out
-    tonetool(*good, *bad, status=3)
-    tonetool(*bad, *good, *good, "--pop", "--pop", "-o", "x.exr", status=3)
-    tonetool(a, a, b, "--hdrflip:tests=2:fail=0", status=3)
-    tonetool(a, b, a, "--hdrflip:tests=2:fail=0", status=3)
-    tonetool("--warnings-exit", a, b, "--hdrflip:fail=0.9:warn=0.1", *bad, status=3)
-    tonetool(*bad, "--help", status=3)
-    tonetool(*bad, "--version", status=3)
+    assert "FAIL" in tonetool_v(*bad, *good, status=3).out
+    tonetool_v(*good, *bad, status=3)
+    tonetool_v(*bad, *good, *good, "--pop", "--pop", "-o", "x.exr", status=3)
+    tonetool_v(a, a, b, "--hdrflip:tests=2:fail=0", status=3)
+    tonetool_v(a, b, a, "--hdrflip:tests=2:fail=0", status=3)
+    tonetool_v("--warnings-exit", a, b, "--hdrflip:fail=0.9:warn=0.1", *bad, status=3)
+    tonetool_v(*bad, "--help", status=3)
+    tonetool_v(*bad, "--version", status=3)
 
 
-def test_an_error_after_a_failure_is_an_error(tonetool, two, tmp_path):
+def test_an_error_after_a_failure_is_an_error(tonetool_v, two, tmp_path):
     a, b = two
-    tonetool(a, b, "--hdrflip:fail=0", "nosuch.exr", status=1)
-    tonetool(a, b, "--hdrflip:fail=0.9999", "nosuch.exr", status=1)
-    tonetool(a, b, "--hdrflip:fail=0.9999", a, "--hdrflip:tests=9:fail=0.9999", status=1)
-    tonetool("--warnings-exit", a, b, "--hdrflip:fail=0.9999:warn=0", "--bogus", status=1)
+    tonetool_v(a, b, "--hdrflip:fail=0", "nosuch.exr", status=1)
+    tonetool_v(a, b, "--hdrflip:fail=0.9999", "nosuch.exr", status=1)
+    tonetool_v(a, b, "--hdrflip:fail=0.9999", a, "--hdrflip:tests=9:fail=0.9999", status=1)
+    tonetool_v("--warnings-exit", a, b, "--hdrflip:fail=0.9999:warn=0", "--bogus", status=1)
     assert sorted(os.listdir(tmp_path)) == sorted(two)
 
 
@@ -908,16 +908,16 @@ def test_an_error_after_a_failure_is_an_error(tonetool, two, tmp_path):
     ["ref.exr", "test.exr", "--hdrflip:fail=0.9999", "--ldrflip:fail=0.9999"],
     ["ref.exr", "--label", "test.exr"], ["--", "ref.exr", "test.exr", "--hdrflip:fail=0.9999"],
     ["ref.exr,test.exr", "--hdrflip:fail=0.9999"], ["", "", "--hdrflip:fail=0.9999"]])
-def test_chains_that_measure_nothing(tonetool, two, words):
+def test_chains_that_measure_nothing(tonetool_v, two, words):
     assert two == ("ref.exr", "test.exr")
-    tonetool(*words, status=1)
+    tonetool_v(*words, status=1)
 
 
-def test_quiet_keeps_failures(tonetool, two):
+def test_quiet_keeps_failures(tonetool_v, two):
     a, b = two
-    assert "FAIL" in tonetool("-q", a, b, "--hdrflip:fail=0", status=3).out
-    assert tonetool("-q", a, a, "--hdrflip:fail=0").out == ""
-    ran = tonetool("-q", "--warnings-exit", a, b, "--hdrflip:warn=0", status=2)
+    assert "FAIL" in tonetool_v("-q", a, b, "--hdrflip:fail=0", status=3).out
+    assert tonetool_v("-q", a, a, "--hdrflip:fail=0").out == ""
+    ran = tonetool_v("-q", "--warnings-exit", a, b, "--hdrflip:warn=0", status=2)
     assert "WARNING" in ran.err
 
 
@@ -930,8 +930,8 @@ def test_quiet_keeps_failures(tonetool, two):
     ["--hdrflip:fail=0.9999:quantity=p101"], ["--hdrflip:fail=0.9999:quantity='max'x"],
     ["--hdrflip:fail:1"], ["--HDRFLIP:fail=0.9999"], ["\N{EN DASH}hdrflip:fail=0.9999"],
     ["\N{EM DASH}hdrflip:fail=0.9999"], ["--hdrflip:fail=\uff11"]])
-def test_misspelt_is_an_error(tonetool, two, words):
-    ran = tonetool(*two, *words, status=1)
+def test_misspelt_is_an_error(tonetool_v, two, words):
+    ran = tonetool_v(*two, *words, status=1)
     assert not passes(ran) and "ERROR" in ran.err
 
 
@@ -962,7 +962,7 @@ def test_labels_and_file_names(tonetool_v, two):
 # ---- several tests, saved exposures
 
 
-def test_several_tests_are_one_call_each(tonetool, put, read):
+def test_several_tests_are_one_call_each(tonetool_v, put, read):
     """Also where each of them has another data window or non-finite pixels."""
     window = (4, 3, 0, 0, WIDTH, HEIGHT)
     ref = put("a.exr", with_pixel(picture(1), np.nan, FIRST))
@@ -971,46 +971,46 @@ def test_several_tests_are_one_call_each(tonetool, put, read):
     words = []
     for i in (3, 2, 1):
         words += ["-o", f"t{i}.exr", "--pop"]
-    together = tonetool(ref, *tests, "--hdrflip:tests=3", *words[:-1])
+    together = tonetool_v(ref, *tests, "--hdrflip:tests=3", *words[:-1])
     out = ""
     for i, test in enumerate(tests):
-        out += tonetool(ref, test, "--hdrflip", "-o", "one.exr").out
+        out += tonetool_v(ref, test, "--hdrflip", "-o", "one.exr").out
         assert np.array_equal(read("one.exr")[0], read(f"t{i + 1}.exr")[0])
     assert together.out == out
 
 
-def test_one_bad_test_of_several(tonetool, two, testimages, tmp_path):
+def test_one_bad_test_of_several(tonetool_v, two, testimages, tmp_path):
     a, b = two
     for bad in ("y_only.exr", "plain.exr", "truncated.exr", "deep.exr"):
-        ran = tonetool(a, b, testimages / bad, "--hdrflip:tests=2:fail=0.9999:saveexposures=s",
+        ran = tonetool_v(a, b, testimages / bad, "--hdrflip:tests=2:fail=0.9999:saveexposures=s",
                        "-o", "x.exr", status=1)
         assert not passes(ran) and sorted(os.listdir(tmp_path)) == sorted(two)
 
 
-def test_saved_exposures_that_cannot_be_written(tonetool, two, tmp_path):
-    ran = tonetool(*two, "--hdrflip:fail=0.9999:numExposures=2:saveexposures=nosuch/s", status=1)
+def test_saved_exposures_that_cannot_be_written(tonetool_v, two, tmp_path):
+    ran = tonetool_v(*two, "--hdrflip:fail=0.9999:numExposures=2:saveexposures=nosuch/s", status=1)
     assert "nosuch/s.00.reference.exr" in ran.err
     (tmp_path / "s.01.flip.exr").symlink_to("/dev/full")
-    tonetool(*two, "--hdrflip:fail=0.9999:numExposures=2:saveexposures=s", status=1)
+    tonetool_v(*two, "--hdrflip:fail=0.9999:numExposures=2:saveexposures=s", status=1)
 
 
 # ---- outputs
 
 
 @pytest.mark.parametrize("name", ["x.exr", "x.png", "x.tif"])
-def test_full_disk_after_a_pass(tonetool, two, name, tmp_path):
+def test_full_disk_after_a_pass(tonetool_v, two, name, tmp_path):
     (tmp_path / name).symlink_to("/dev/full")
-    ran = tonetool(two[0], two[0], "--hdrflip:fail=0", "-o", name, status=1)
+    ran = tonetool_v(two[0], two[0], "--hdrflip:fail=0", "-o", name, status=1)
     assert name in ran.err
     assert "No space left" in ran.err or "cannot be written to a device" in ran.err  # TIFF seeks
-    tonetool(*two, "--hdrflip:fail=0", "-o", name, status=1)
+    tonetool_v(*two, "--hdrflip:fail=0", "-o", name, status=1)
 
 
-def test_old_output_survives_an_error(tonetool, two, testimages, tmp_path):
+def test_old_output_survives_an_error(tonetool_v, two, testimages, tmp_path):
     old = tmp_path / "x.exr"
     old.write_bytes(b"old")
     for bad in ("truncated.exr", "y_only.exr", "nosuch.exr", "not_an_image.exr"):
-        tonetool(two[0], testimages / bad, "--hdrflip:fail=0.9999", "-o", "x.exr", status=1)
+        tonetool_v(two[0], testimages / bad, "--hdrflip:fail=0.9999", "-o", "x.exr", status=1)
         assert old.read_bytes() == b"old"
 
 
@@ -1036,17 +1036,17 @@ def test_closed_error_output_changes_no_status(program, two, testimages, tmp_pat
 
 
 @pytest.mark.parametrize("written", ["b.exr", "./b.exr", "link.exr"])
-def test_output_over_an_image_of_the_stack(tonetool, put, tmp_path, written):
+def test_output_over_an_image_of_the_stack(tonetool_v, put, tmp_path, written):
     """The image on the stack is what its file held when it was named."""
     a, b = put("a.exr", picture(1)), put("b.exr", picture(2))
     (tmp_path / "link.exr").symlink_to("b.exr")
-    tonetool(a, b, a, "-o", written, "--pop", "--hdrflip:fail=0.01", status=3)
+    tonetool_v(a, b, a, "-o", written, "--pop", "--hdrflip:fail=0.01", status=3)
 
 
 @pytest.mark.parametrize("size", [(1, 1), (300, 400)])
-def test_output_of_another_size_over_an_image_of_the_stack(tonetool, put, size):
+def test_output_of_another_size_over_an_image_of_the_stack(tonetool_v, put, size):
     a, b, c = put("a.exr", picture(1)), put("b.exr", picture(1)), put("c.exr", picture(2, *size))
-    tonetool(a, b, c, "-o", b, "--pop", "--hdrflip:fail=0", status=0)
+    tonetool_v(a, b, c, "-o", b, "--pop", "--hdrflip:fail=0", status=0)
 
 
 @pytest.mark.parametrize("signal", ["TERM", "INT", "HUP"])
