@@ -20,9 +20,9 @@ def script(name, *words):
                           capture_output=True, text=True, timeout=240, cwd=ROOT)
 
 
-def test_the_table_of_the_readme_is_what_tmqi_prints(program, tonetool):
+def test_the_table_of_the_guide_is_what_tmqi_prints(program, tonetool):
     (line,) = re.findall(rf"^    src/scripts/tmo_table.py {PROGRAM} (.*)$",
-                         (ROOT / "README.md").read_text(), re.M)
+                         (ROOT / "src/doc/tonemap.md").read_text(), re.M)
     images = sorted(str(path.relative_to(ROOT)) for path in ROOT.glob(line))
     assert len(images) == 3
     done = script("tmo_table.py", program, *images)
