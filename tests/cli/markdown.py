@@ -113,7 +113,7 @@ def inline(page, root=ROOT):
     for number, line in enumerate((root / page).read_text(encoding="utf-8").split("\n"), 1):
         inside ^= line.startswith("```")
         if not inside and not line.startswith("    "):
-            for command in re.findall(r"`((?:tonetool|oiiotool|src/farm/tonetool-slurm|src/scripts/\S+) [^`]*)`", line):
+            for command in re.findall(r"`((?:tonetool|oiiotool|src/farm/tonetool-slurm|src/scripts/[^\s`]+) [^`\n]*)`", line):
                 found.append(Block(page, number, command.replace(r"\|", "|") + "\n"))
     return found
 
