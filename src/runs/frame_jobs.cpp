@@ -63,6 +63,7 @@ Session FrameContext::session(size_t index, std::ostream& out, std::ostream& err
     const FrameRun& run = plan.runs[index];
     Session session(out, err, full_command_line(plan.line, run.words, plan.line.compat));
     session.settings.compat = plan.line.compat;
+    session.settings.details = plan.verbose;
     session.frame = run.frame;
     session.in_all_frames = [this](size_t at) {
         Strings names;

@@ -46,6 +46,7 @@ int Loop::jobs() const {
 }
 
 int Loop::run() {
+    const ClearingStream out(m_out, m_progress), err(m_err, m_progress);
     if (m_place == Place::WorkerProcesses)
         run_in_workers();
     else if (jobs() > 1)

@@ -34,12 +34,24 @@ void Progress::done(const FrameRun& run, int status, const std::string& words, d
                                                printable(run.frame.view), words, seconds, left)
                  << std::endl;
     } else if (m_terminal) {
-        // Past the stream, which lets no name go back in its line, and nothing else either.
-        const std::string text =
-            OIIO::Strutil::fmt::format("\r{} of {} frames, {:.3g} a second, {:.0f} s left {}",
-                                       m_done, m_total, rate, left, m_done == m_total ? "\n" : "");
-        std::fputs(text.c_str(), stderr);
+        draw(OIIO::Strutil::fmt::format("{} of {} frames, {:.3g} a second, {:.0f} s left", m_done,
+                                        m_total, rate, left));
     }
+}
+
+// Past the stream, which lets no name go back in its line, and nothing else either.
+void Progress::clear() {
+    if (m_drawn)
+        std::fputs("\r\x1b[K", stderr);
+    m_drawn = false;
+}
+
+void Progress::draw(const std::string& text) {
+    std::cout.flush(); // what came before must not appear behind the line
+    clear();
+    m_drawn = m_done < m_total;
+    if (m_drawn)
+        std::fputs(text.c_str(), stderr);
 }
 
 } // namespace tonetool::runs

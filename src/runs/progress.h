@@ -3,7 +3,8 @@
 #pragma once
 
 #include <OpenImageIO/timer.h>
-#include <iosfwd>
+#include <ostream>
+#include <streambuf>
 #include <string>
 
 #include "runs/frames.h"
@@ -16,12 +17,48 @@ public:
     Progress(std::ostream& stream, const FramePlan& plan);
     /// With the status in words, for -v.
     void done(const FrameRun& run, int status, const std::string& words, double seconds);
+    /// There is a line on a terminal that is written over again and again.
+    bool on_terminal() const { return m_terminal; }
+    /// Takes that line off the screen, for what is printed next.
+    void clear();
 
 private:
+    void draw(const std::string& text);
+
     std::ostream& m_stream;
-    bool m_json, m_terminal, m_verbose;
+    bool m_json, m_terminal, m_verbose, m_drawn = false;
     size_t m_total, m_done = 0;
     OIIO::Timer m_time;
+};
+
+/// While this lives, the stream takes the progress line off the screen before it prints.
+class ClearingStream final : std::streambuf {
+public:
+    ClearingStream(std::ostream& stream, Progress& progress)
+        : m_stream(stream),
+          m_progress(progress),
+          m_to(stream.rdbuf()) {
+        if (progress.on_terminal())
+            stream.rdbuf(this);
+    }
+    ~ClearingStream() override { m_stream.rdbuf(m_to); }
+    ClearingStream(const ClearingStream&) = delete;
+    ClearingStream& operator=(const ClearingStream&) = delete;
+
+private:
+    int_type overflow(int_type c) override {
+        m_progress.clear();
+        return m_to->sputc(traits_type::to_char_type(c));
+    }
+    std::streamsize xsputn(const char* text, std::streamsize size) override {
+        m_progress.clear();
+        return m_to->sputn(text, size);
+    }
+    int sync() override { return m_to->pubsync(); }
+
+    std::ostream& m_stream;
+    Progress& m_progress;
+    std::streambuf* m_to;
 };
 
 } // namespace tonetool::runs

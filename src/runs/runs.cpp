@@ -40,7 +40,7 @@ bool reader_has_gone() {
 int run(const Strings& given, std::ostream& out, std::ostream& err, bool workers) {
     know_all_commands();
     if (given.empty()) {
-        err << chain::usage_text();
+        err << chain::short_help_text();
         return 1;
     }
     int status = 0;

@@ -7,12 +7,11 @@
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 
-database=build/release/compile_commands.json
-[[ -f $database ]] || { echo "lint.sh: no $database, run src/scripts/test.sh first" >&2; exit 1; }
-# clang cannot read what gcc has precompiled.
+[[ -d build/release ]] || { echo "lint.sh: no build/release, run src/scripts/test.sh first" >&2; exit 1; }
+# Each source by itself, and without what gcc has precompiled, which clang cannot read.
 plain=build/lint
-mkdir -p "$plain"
-sed -E 's/ -Winvalid-pch//; s/ -include [^ ]*cmake_pch\.hxx//' "$database" >"$plain/compile_commands.json"
+cmake --preset release -B "$plain" -DTONETOOL_UNITY_BUILD=OFF -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON \
+    >/dev/null
 
 if [[ $# -gt 0 ]]; then
     all=("$@")
@@ -41,7 +40,7 @@ printf '%s\0' "${sources[@]}" |
 
 cppcheck --quiet --library=googletest --std=c++17 --language=c++ --inline-suppr --error-exitcode=1 \
     --enable=warning,performance,portability --suppressions-list=src/scripts/cppcheck.supp \
-    -I src -I src/include -I build/release/src/include "${sources[@]}" || status=1
+    -I src -I src/include -I $plain/src/include "${sources[@]}" || status=1
 
 if [[ $# -eq 0 ]]; then
     cmake --preset odr >/dev/null

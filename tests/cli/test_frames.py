@@ -3,6 +3,7 @@
 
 import json
 import os
+import pty
 import shutil
 import subprocess
 import tempfile
@@ -105,6 +106,47 @@ def test_views(tonetool, make_image, read):
     assert np.array_equal(read("out_r.exr")[0], read("stereo_right.exr")[0])
 
 
+def shown_on_a_terminal(program, words, cwd):
+    """The lines that are left on the screen, and those that were there before they were erased."""
+    master, slave = pty.openpty()
+    with subprocess.Popen([program, *words], cwd=cwd, stdin=slave, stdout=slave,
+                          stderr=slave) as process:
+        os.close(slave)
+        text = b""
+        while True:
+            try:
+                piece = os.read(master, 65536)
+            except OSError: # the program has closed its side
+                break
+            text += piece
+        status = process.wait(timeout=60)
+    os.close(master)
+    shown, erased = [], []
+    for line in text.decode().replace("\r\n", "\n").split("\n"):
+        *before, rest = line.split("\r\x1b[K")
+        erased += before
+        shown.append(rest)
+    return status, shown, erased
+
+
+@pytest.mark.usefixtures("pair_of_shots")
+@pytest.mark.parametrize("jobs", [[], ["--jobs", "2"]])
+@pytest.mark.parametrize("check", [[], ["--json", "check.json"]])
+def test_progress_never_shares_a_line_with_results(program, tmp_path, jobs, check):
+    limit = ":fail=0.05" if check else ""
+    words = [*jobs, "r.#.exr", "t.#.exr", f"--hdrflip{limit}", *check]
+    status, shown, erased = shown_on_a_terminal(program, words, tmp_path)
+    assert status == (3 if check else 0)
+    assert [line for line in erased if line][0].startswith("1 of 3 frames")
+    assert all(" of 3 frames" in line or not line for line in erased)
+    results = [line for line in shown if line]
+    assert results and not any(" of 3 frames" in line for line in results)
+    if check:
+        assert [line.split(":")[0] for line in results] == ["hdrflip", "check"]
+    else:
+        assert [line.split(" ")[0] for line in results] == ["hdrflip:"] * 3
+
+
 def test_loops_conditions_and_variables(tonetool):
     ran = tonetool("--for", "i", "0,6,2", "--if", "{i==2}", "--echo", "two", "--else", "--echo",
                    "{i}", "--endif", "--endfor", "--set", "n", "0", "--while", "{n<2}", "--echo",
@@ -112,7 +154,7 @@ def test_loops_conditions_and_variables(tonetool):
     assert ran.out.split() == ["0", "two", "4", "n0", "n1"]
 
 
-@pytest.mark.parametrize("how", ["man", "bash", "zsh"])
+@pytest.mark.parametrize("how", ["man", "bash", "zsh", "fish"])
 def test_man_page_and_completion_have_every_command_and_modifier(tonetool, how):
     text = tonetool(f"--help={how}").out.replace("\\", "")
     for row in json.loads(tonetool("--help=json").out):

@@ -150,7 +150,7 @@ def test_installed_python_module(tree):
 def test_other_version_is_refused(tree, tmp_path):
     shutil.copytree(HERE / "example", tmp_path / "source")
     lists = tmp_path / "source" / "CMakeLists.txt"
-    lists.write_text(lists.read_text().replace("tonetool 0.1", "tonetool 0.9"))
+    lists.write_text(lists.read_text().replace("tonetool 0.2", "tonetool 0.9"))
     text = run(CMAKE, "-S", tmp_path / "source", "-B", tmp_path / "build",
                f"-DCMAKE_PREFIX_PATH={tree}", status=1)
     assert 'compatible with requested version "0.9"' in text

@@ -44,7 +44,7 @@ const Modifiers kLuma = {{"luma", "0|1", "on luminance instead of each channel"}
 const Modifiers kLimits = {{"min", "VALUES", "lowest value, one or one per channel"},
                            {"max", "VALUES", "highest value, one or one per channel"}};
 
-const Rows kRows = {
+const Rows kArithmeticRows = {
     on_pixels("addc|cadd VALUES", 1, "Add a constant (0.5) or one per channel (1,1.25,0.5)",
               of_constants<IBA::add, 0>)
         .keeps_header(),
@@ -160,7 +160,7 @@ Modifiers noise_modifiers() {
 }
 
 Rows arithmetic_commands() {
-    return kRows;
+    return kArithmeticRows;
 }
 
 } // namespace tonetool::chain

@@ -113,7 +113,7 @@ int count_of(const Call& call) {
 
 const Modifiers kCount = {{"n", "N", "number of images (2)"}};
 
-const Rows kRows = {
+const Rows kChannelsRows = {
     on_pixels("ch CHANLIST", 1,
               "Select or shuffle channels (\"R,G,B\", \"2,1,0\", \"R,G=0.5,B,A=1.0\")", ch,
               Scope::Levels)
@@ -163,7 +163,7 @@ const Rows kRows = {
 } // namespace
 
 Rows channel_commands() {
-    return kRows;
+    return kChannelsRows;
 }
 
 } // namespace tonetool::chain

@@ -16,6 +16,7 @@
 #include "sequence/results/measurement.h"
 #include "sequence/results/measuring.h"
 #include "text/error.h"
+#include "text/printable.h"
 
 namespace tonetool::chain {
 
@@ -87,15 +88,26 @@ Compared compare(Session& session, const Call& call, const Look& look, const Com
 }
 
 template <class Summary>
-void report(Session& session, const Call& call, const Summary& summary, size_t test = 0) {
-    const std::string label = call.row().label();
+void print(Session& session, const Call& call, const Summary& summary, const std::string& test,
+           bool judged) {
+    const std::string label = call.row().label(), reference = call.images.front()->name();
+    const Detail what = detail(session, call);
+    if (what == Detail::All)
+        session.print(summary_text(label, summary, reference, test));
+    else if (what == Detail::Brief)
+        session.print(brief_text(label, summary, reference, test));
+    else if (what == Detail::Line && !judged)
+        session.print(label + ": " + numbers_text(summary) + " (" + printable(test) + ")");
+}
+
+// `limits` are what judge() will say a line of.
+template <class Summary>
+void report(Session& session, const Call& call, const Summary& summary, const Limits& limits,
+            size_t test = 0) {
     for (const std::string& warning : summary.warnings)
-        session.warning(label, warning);
+        session.warning(call.row().label(), warning);
     record(session, call, sequence::measurement(summary), test);
-    if (call.flag("print", true)) {
-        session.report(summary_text(label, summary, call.images.front()->name(),
-                                    call.images.at(test + 1)->name()));
-    }
+    print(session, call, summary, call.images.at(test + 1)->name(), !limits.empty());
 }
 
 // The pair for the report; of maps without a bound there are no colours that mean the same in all
@@ -186,7 +198,7 @@ void run_hdrflip(Session& session, const Call& call) {
                 });
     for (size_t i = 0; i < maps.size(); ++i) {
         FlipResult& result = results[i];
-        report(session, call, result.summary, i);
+        report(session, call, result.summary, limits, i);
         judge_flip(session, call, limits, result.summary.pool, i);
         save_exposures(session, call, result, i);
         sequence::PictureRequest request = pair_request(views, i);
@@ -212,7 +224,7 @@ void run_ldrflip(Session& session, const Call& call) {
         compare(session, call, same_look(call), [&](Maps& to, auto& reference, auto& tests) {
             return ToneAlgo::ldr_flip(to[0], reference, *tests[0], options, &result);
         });
-    report(session, call, result.summary);
+    report(session, call, result.summary, limits);
     judge_flip(session, call, limits, result.summary.pool);
     sequence::PictureRequest request = pair_request(views);
     static_cast<FlipOptions&>(request.look) = options;
@@ -236,7 +248,7 @@ void run_flipdiff(Session& session, const Call& call) {
             return hdr ? ToneAlgo::hdr_flip(to[0], reference, *tests[0], options, &result)
                        : ToneAlgo::ldr_flip(to[0], reference, *tests[0], options, &result);
         });
-    report(session, call, result.summary);
+    report(session, call, result.summary, limits);
     if (judge_flip(session, call, limits, result.summary.pool))
         session.print("FAILURE");
     else if (!limits.empty())
@@ -262,7 +274,7 @@ void run_filmstrip(Session& session, const Call& call) {
         compare(session, call, same_look(call, true), [&](Maps& to, auto& reference, auto& tests) {
             return ToneAlgo::flip_filmstrip(to[0], reference, *tests[0], options, look, &result);
         });
-    report(session, call, result.summary);
+    report(session, call, result.summary, limits);
     judge_flip(session, call, limits, result.summary.pool);
     maps[0].specmod().attribute("oiio:ColorSpace", "sRGB");
     push_result(session, call, std::move(maps[0])); // upright already
@@ -293,7 +305,7 @@ void run_errormap(Session& session, const Call& call) {
         compare(session, call, same_look(call), [&](Maps& to, auto& reference, auto& tests) {
             return ToneAlgo::error_map(to[0], reference, *tests[0], options, &summary);
         });
-    report(session, call, summary);
+    report(session, call, summary, limits);
     const auto measured = [&](const std::string& quantity) {
         return ToneAlgo::flip_quantity(summary.pool, quantity).value_or(summary.value);
     };
@@ -322,7 +334,7 @@ void run_tmqi(Session& session, const Call& call) {
         compare(session, call, {options.hdr, options.ldr}, [&](Maps& to, auto& hdr, auto& tests) {
             return ToneAlgo::tmqi(to[0], hdr, *tests[0], options, &summary);
         });
-    report(session, call, summary);
+    report(session, call, summary, limits);
     const auto measured = [&](const std::string& quantity) {
         return ToneAlgo::tmqi_quantity(summary.score, quantity).value();
     };
@@ -347,6 +359,8 @@ Row hdrflip_row() {
                   "write PREFIX.NN.reference.exr, .test.exr and .flip.exr")
         .modifier("tests", "K", "compare K tests with the one reference below them")
         .modifiers(threshold_modifiers())
+        .frequent("fail,warn,layer,from,startExposure,stopExposure,numExposures,exposures,"
+                  "tonemapper,view,ppd")
         .makes_map();
 }
 
@@ -359,7 +373,8 @@ Row filmstrip_row() {
         .modifier("width", "PIXELS", "width of one picture (240)")
         .modifier("columns", "N", "at most this many exposures are shown (9)")
         .modifier("font", "FILE", "font of the labels (DejaVu Sans)")
-        .modifiers(threshold_modifiers());
+        .modifiers(threshold_modifiers())
+        .frequent("width,columns,layer,startExposure,stopExposure,numExposures,tonemapper");
 }
 
 Row tmqi_row() {
@@ -371,7 +386,8 @@ Row tmqi_row() {
         .modifier("ldrlayer", "NAME", "layer of the picture")
         .modifier("ldrfrom", "SPACE", "colour space of the picture (sRGB for integers)")
         .modifier("crop", "0|1", "compare only where the display windows meet")
-        .modifiers(threshold_modifiers(tmqi_measures(), "at least X (0 to 1; higher is better)"));
+        .modifiers(threshold_modifiers(tmqi_measures(), "at least X (0 to 1; higher is better)"))
+        .frequent("fail,warn,layer,ldrlayer");
 }
 
 } // namespace
@@ -381,16 +397,19 @@ Rows compare_commands() {
             command("ldrflip", "LDR-FLIP: reference, test -> error map", run_ldrflip)
                 .images(2, 1)
                 .modifiers(modifiers_of<FlipOptions>(), pair_modifiers(), threshold_modifiers())
+                .frequent("fail,warn,layer,from,ppd")
                 .makes_map(),
             command("flipdiff",
                     "FLIP with the option names and defaults of OpenImageIO 3.2's oiiotool",
                     run_flipdiff)
                 .images(2, 1)
-                .modifiers(flipdiff_modifiers()),
+                .modifiers(flipdiff_modifiers())
+                .frequent("fail,layer,hdr"),
             filmstrip_row(),
             command("errormap", "An error by pixel: reference, test -> error map", run_errormap)
                 .images(2, 1)
-                .modifiers(error_modifiers()),
+                .modifiers(error_modifiers())
+                .frequent("metric,fail,warn,layer,from"),
             tmqi_row()};
 }
 

@@ -74,7 +74,7 @@ void run_mosaic(Session& session, const Call& call) {
     session.stack.push(Image::created("mosaic", mosaic(sheet, flat_pixels_of(images))));
 }
 
-const Rows kRows = {
+const Rows kCompositeRows = {
     on_pixels("over", 2, "The first image over the second",
               [](Op& op) { return IBA::over(op.dst, op.a(), op.b()); }),
     on_pixels("zover", 2, "The nearer of two images with Z channels over the other",
@@ -112,7 +112,7 @@ const Rows kRows = {
 } // namespace
 
 Rows composite_commands() {
-    return kRows;
+    return kCompositeRows;
 }
 
 } // namespace tonetool::chain

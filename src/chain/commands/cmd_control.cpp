@@ -111,7 +111,7 @@ void run_set(Session& session, const Call& call) {
     }
 }
 
-const Rows kRows = {
+const Rows kControlRows = {
     command("set NAME VALUE", "Set a variable, the {NAME} of expressions", run_set)
         .modifier("type", "TYPE", "its data type: int, float, string, ... (as it looks)"),
     command("if VALUE", "Run what follows, to --else or --endif, if VALUE is not 0 or empty",
@@ -155,7 +155,7 @@ const Rows kRows = {
 } // namespace
 
 Rows control_commands() {
-    return kRows;
+    return kControlRows;
 }
 
 } // namespace tonetool::chain

@@ -220,7 +220,7 @@ const Modifiers kRamps = {{"top", "VALUES", "colour at the top, to bottom="},
                           {"bottomleft", "VALUES", "colour of a corner"},
                           {"bottomright", "VALUES", "colour of a corner"}};
 
-const Rows kRows = {
+const Rows kCreateRows = {
     command("create GEOM NCHANS", "A black image", run_create)
         .images(0, 1)
         .modifier("type", "TYPE", "data type (float)"),
@@ -263,7 +263,7 @@ const Rows kRows = {
 } // namespace
 
 Rows create_commands() {
-    return kRows;
+    return kCreateRows;
 }
 
 } // namespace tonetool::chain

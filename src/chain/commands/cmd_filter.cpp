@@ -56,7 +56,7 @@ bool fixnan(Op& op) {
     return IBA::fixNonFinite(op.dst, op.a(), mode);
 }
 
-const Rows kRows = {
+const Rows kFilterRows = {
     on_pixels("convolve", 2, "Convolve the first image with the second, a kernel",
               [](Op& op) { return IBA::convolve(op.dst, op.a(), op.b()); }),
     on_pixels("blur WxH", 1, "Blur", blur).modifier("kernel", "NAME", "kernel (gaussian)"),
@@ -86,7 +86,7 @@ const Rows kRows = {
 } // namespace
 
 Rows filter_commands() {
-    return kRows;
+    return kFilterRows;
 }
 
 } // namespace tonetool::chain

@@ -30,7 +30,7 @@ void set(Session& session, const Call&) {
 
 // Settings of the whole process, of messages and of the end of the command line, and of the
 // commands that follow.
-const Rows kRows = {
+const Rows kGeneralRows = {
     command("threads N", "Number of threads (0: one per core)",
             [](Session& session, const Call& call) {
                 const int threads = call.integer_argument(0, {0, 4096});
@@ -56,19 +56,21 @@ const Rows kRows = {
     command("oiioattrib NAME VALUE", "Set an attribute of OpenImageIO", run_oiioattrib)
         .modifier("type", "TYPE", "its data type (as it looks)")
         .of_process(),
-    command("version", "Print the version",
+    command("version", "Print the version, those of the libraries, and the instruction set in use",
             [](Session& session, const Call&) {
                 session.outcome.produced = true;
                 session.print(TONETOOL_VERSION);
+                if (!session.settings.compat)
+                    session.print(library_versions());
             }),
-    command("v", "Say what is read and written",
+    command("v|verbose", "Say what is read and written, and all that is measured",
             [](Session& session, const Call&) {
                 session.settings.verbose = true;
                 session.settings.quiet = false;
             })
         .manner()
         .keeps_header(),
-    command("q", "Quiet: measurements print only warnings, failures and errors",
+    command("q|quiet", "Quiet: measurements print only warnings, failures and errors",
             [](Session& session, const Call&) {
                 session.settings.quiet = true;
                 session.settings.verbose = false;
@@ -123,7 +125,7 @@ const Rows kRows = {
 } // namespace
 
 Rows general_commands() {
-    return kRows;
+    return kGeneralRows;
 }
 
 } // namespace tonetool::chain

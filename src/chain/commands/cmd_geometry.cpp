@@ -167,7 +167,7 @@ bool reorient(Op& op) {
     return op.unchanged || IBA::reorient(op.dst, op.a());
 }
 
-const Rows kRows = {
+const Rows kGeometryRows = {
     on_pixels("crop GEOM", 1,
               "Set the data window, cropping or padding (WxH+X+Y or XMIN,YMIN,XMAX,YMAX)", crop)
         .operation(""),
@@ -222,7 +222,7 @@ const Rows kRows = {
 } // namespace
 
 Rows geometry_commands() {
-    return kRows;
+    return kGeometryRows;
 }
 
 } // namespace tonetool::chain

@@ -98,7 +98,7 @@ void run_list_formats(Session& session, const Call&) {
 const Modifiers kFormat = {{"format", "text|xml", "how it is printed (text)"}};
 const Modifiers kAllSubimages = {{"allsubimages", "0|1", "of all subimages and MIP levels (-a)"}};
 
-const Rows kRows = {
+const Rows kInspectRows = {
     command("info", "Print size, channels and format of every image read after it", run_info)
         .modifier("verbose", "0|1", "with the metadata, as -v does")
         .modifiers(kFormat),
@@ -139,7 +139,7 @@ const Rows kRows = {
 } // namespace
 
 Rows inspect_commands() {
-    return kRows;
+    return kInspectRows;
 }
 
 } // namespace tonetool::chain

@@ -89,7 +89,7 @@ void chnames(ImageSpec& spec, const Call& call, Session& session) {
         throw CommandError("two channels would be called \"" + *twice + "\"");
 }
 
-const Rows kRows = {
+const Rows kMetadataRows = {
     on_headers("attrib NAME VALUE", "Set an attribute, or erase it with an empty value", attrib)
         .modifier("type", "TYPE", "its data type (what VALUE looks like)")
         .keeps_header(),
@@ -143,7 +143,7 @@ const Rows kRows = {
 } // namespace
 
 Rows metadata_commands() {
-    return kRows;
+    return kMetadataRows;
 }
 
 } // namespace tonetool::chain

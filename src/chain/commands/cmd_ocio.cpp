@@ -105,7 +105,7 @@ const Modifiers kContext = concatenated(
 const Modifiers kConversion =
     concatenated({kContext, {{"strict", "0|1", "0: a space that is not there is only a warning"}}});
 
-const Rows kRows = {
+const Rows kOcioRows = {
     on_pixels("tocolorspace COLORSPACE", 1, "Convert from the image's colour space to another",
               [](Op& op) { return convert(op, "", op.call.argument(0)); })
         .modifiers(kConversion)
@@ -151,7 +151,7 @@ const Rows kRows = {
 } // namespace
 
 Rows ocio_commands() {
-    return kRows;
+    return kOcioRows;
 }
 
 } // namespace tonetool::chain

@@ -181,12 +181,14 @@ Rows tone_commands() {
             .images(1, 1)
             .modifiers(display_modifiers(true), method_modifiers(), modifiers_of<TonemapOptions>(),
                        pixel_modifiers())
+            .frequent("curve,stops,method,display,view,encode,layer,from")
             .keeps_header(),
         command("exportlut FILE",
                 "Write a tone curve or a view as ." + join(ToneAlgo::lut_formats(), ", ."),
                 run_exportlut)
             .in(Group::Write)
-            .modifiers(display_modifiers(false), modifiers_of<LutOptions>()),
+            .modifiers(display_modifiers(false), modifiers_of<LutOptions>())
+            .frequent("curve,display,view,size"),
         command("tonecurves", "Print all tone curves: parameters, formulas, sources",
                 run_tonecurves)
             .in(Group::Print)

@@ -229,7 +229,7 @@ void run_compression(Session& session, const Call& call) {
 Rows write_commands() {
     const std::string types = join(data_type_names(), "|");
     return {
-        command("o FILENAME", "Write the current image", run_output)
+        command("o|output FILENAME", "Write the current image", run_output)
             .images(0, kAnyNumber)
             .modifiers(output_modifiers()),
         command("d TYPE",

@@ -177,6 +177,10 @@ private:
 
 } // namespace
 
+const Modifier kPrint = {"print", "0|1",
+                         "print nothing but failures (0) or every fact (1), also of frames (a few "
+                         "lines of a pair)"};
+
 Modifiers pixel_modifiers() {
     return {
         {"layer", "NAME", "layer whose R,G,B are used, \"ViewLayer.Combined\""},
@@ -214,7 +218,7 @@ Modifiers threshold_modifiers(const Measures& measures, const std::string& unles
                         "of the quantity above: the share of pixels whose error is "
                         "above E; also by name, fail=above0.2=0.01"});
     }
-    rows.push_back({"print", "0|1", "print the summary (1)"});
+    rows.push_back(kPrint);
     return rows;
 }
 
@@ -314,7 +318,7 @@ Modifiers flipdiff_modifiers() {
         {"colormap", "NAME", "push the map in these colours, as --colormap"},
         {"layer", "NAME", "layer whose R,G,B are used"},
         {"from", "SPACE", "colour space of the pixels"},
-        {"print", "0|1", "print the summary (1)"},
+        kPrint,
         {"fail", "X", "exit status 3 unless the largest error is at most X (0 to below 1)"}};
 }
 

@@ -149,6 +149,18 @@ std::string summary_text(const std::string& label, const TmqiSummary& summary,
     return lines.text;
 }
 
+Detail detail(const Session& session, const Call& call) {
+    if (session.settings.quiet)
+        return Detail::Nothing;
+    if (call.has("print"))
+        return call.flag("print", true) ? Detail::All : Detail::Nothing;
+    if (session.settings.details)
+        return session.frame.loops ? Detail::Line : Detail::All;
+    return session.check.result && session.frame.loops ? Detail::Nothing
+           : session.frame.loops                       ? Detail::Line
+                                                       : Detail::Brief;
+}
+
 void record(Session& session, const Call& call, sequence::Measurement measurement, size_t test) {
     if (session.check.result) {
         measurement.command = call.row().label();
@@ -184,7 +196,7 @@ bool judge(Session& session, const Call& call, const Limits& limits,
         session.print(label + ": FAIL " + join(said.failed, ", ") + where + file);
     } else if (!said.warned.empty()) {
         session.report(label + ": WARNING " + join(said.warned, ", ") + where + file);
-    } else {
+    } else if (detail(session, call) != Detail::Nothing || !session.frame.loops) {
         session.report(label + ": PASS " + join(said.passed, ", ") + file);
     }
     return !said.failed.empty();

@@ -30,6 +30,31 @@ std::string summary_text(const std::string& label, const ErrorSummary& summary,
 std::string summary_text(const std::string& label, const TmqiSummary& summary,
                          const std::string& first, const std::string& second);
 
+// The same in the few lines that a person reads: what was compared, how, the numbers that matter,
+// and what is unusual but no reason for a warning.
+std::string brief_text(const std::string& label, const FlipSummary& summary,
+                       const std::string& first, const std::string& second);
+std::string brief_text(const std::string& label, const ErrorSummary& summary,
+                       const std::string& first, const std::string& second);
+std::string brief_text(const std::string& label, const TmqiSummary& summary,
+                       const std::string& first, const std::string& second);
+
+// The numbers that matter alone: "mean 0.1, p99.9 0.4, max 0.7 at 12,30".
+std::string numbers_text(const FlipSummary& summary);
+std::string numbers_text(const ErrorSummary& summary);
+std::string numbers_text(const TmqiSummary& summary);
+
+/// How much of a comparison is printed.
+enum class Detail {
+    Nothing, ///< but what fails or warns
+    Line,    ///< of a frame: its verdict, or its numbers where nothing is judged
+    Brief,   ///< a few lines
+    All      ///< every fact, one a line
+};
+/// As print= and -v ask for it; of themselves a pair is Brief, a frame Line and a frame of a check
+/// Nothing.
+Detail detail(const Session& session, const Call& call);
+
 /// Part of the frame's result, where there is a check. judge() adds the threshold to it.
 void record(Session& session, const Call& call, sequence::Measurement measurement, size_t test = 0);
 

@@ -45,7 +45,8 @@ Modifiers curve_modifiers(bool measured, bool flip) {
         bool white = measured && p.name == "white";
         rows.push_back({p.name, white ? "X|max|pN" : "X",
                         p.help + (white ? ", or the image's maximum or percentile" : "") + " (" +
-                            join(p.curves, ", ") + ")"});
+                            join(p.curves, ", ") + ")",
+                        true});
     }
     rows.push_back(
         {"coeffs", "K0,K1,K2,K3,K4,K5", "curve (k0 x2 + k1 x + k2) / (k3 x2 + k4 x + k5)"});

@@ -20,23 +20,23 @@ std::deque<Command>& registry() {
 
 std::string group_title(Group group) {
     static const char* const titles[kGroupCount] = {
-        "General",
-        "Control flow and scripting",
+        "Comparing a test image with a reference",
+        "Checks of whole sequences",
+        "Measuring",
+        "Colour, tone mapping and exposure",
         "Commands that read images",
         "Commands that write images, and what they write",
         "Commands that print",
-        "Metadata, without touching pixels",
-        "Comparing a test image with a reference",
-        "Measuring",
-        "Checks of whole sequences",
-        "Creating and drawing",
-        "Arithmetic",
+        "Channels and subimages",
         "Geometry",
+        "Arithmetic",
         "Filters",
         "Compositing and deep images",
-        "Colour and exposure",
-        "Channels and subimages",
+        "Creating and drawing",
+        "Metadata, without touching pixels",
         "Image stack",
+        "Control flow and scripting",
+        "General",
     };
     return titles[static_cast<int>(group)];
 }

@@ -23,6 +23,7 @@ struct Modifier {
     /// written.
     std::string hint;
     std::string help;
+    bool of_curve = false; ///< a parameter of single tone curves
 
     bool writes() const { return hint == "PREFIX"; }
 };
@@ -30,25 +31,25 @@ using Modifiers = std::vector<Modifier>;
 /// One list of them all.
 Modifiers concatenated(const std::vector<Modifiers>& lists);
 
-/// In the order in which help lists them.
+/// In the order in which help lists them: what the program is for comes first.
 enum class Group {
-    General,
-    Control,
+    Compare,
+    Check,
+    Measure,
+    Color,
     Read,
     Write,
     Print,
-    Metadata,
-    Compare,
-    Measure,
-    Check,
-    Create,
-    Arithmetic,
+    Channels,
     Geometry,
+    Arithmetic,
     Filter,
     Composite,
-    Color,
-    Channels,
-    Stack
+    Create,
+    Metadata,
+    Stack,
+    Control,
+    General
 };
 inline constexpr int kGroupCount = 17;
 std::string group_title(Group group);
@@ -87,6 +88,7 @@ struct Command {
     bool keeps_header = false;
     /// It has subimages= and allsubimages=, behind its other modifiers.
     bool of_subimages = false;
+    Strings frequent = {}; ///< modifiers that help names first
     /// A reference and a test become a map of errors: one channel of floats.
     bool makes_map = false;
 
@@ -139,6 +141,8 @@ public:
     }
     Row& keeps_header() { return set(&Command::keeps_header, true); }
     Row& makes_map() { return set(&Command::makes_map, true); }
+    /// "fail,layer": the modifiers that are used most, in the order in which help names them.
+    Row& frequent(const std::string& keys) { return set(&Command::frequent, split(keys, ',')); }
     Row& of_subimages() { return set(&Command::of_subimages, true); }
 
     Command finished(Group group_of_family, bool own) const;

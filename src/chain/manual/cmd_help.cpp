@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// --help.
-#include <algorithm>
+// --help and -h.
 #include <ostream>
 
 #include "chain/manual/help.h"
 #include "chain/session/call.h"
 #include "chain/session/session.h"
-#include "text/error.h"
 
 namespace tonetool::chain {
 
@@ -14,31 +12,23 @@ namespace {
 
 void run_help(Session& session, const Call& call) {
     session.outcome.produced = true;
-    if (!call.has_argument(0)) {
-        session.out << help_text();
-        return;
-    }
-    if (is_registry_format(call.argument(0))) {
-        session.out << registry_text(call.argument(0));
-        return;
-    }
-    std::string name = call.argument(0);
-    name.erase(0, std::min(name.find_first_not_of('-'), size_t{2}));
-    const Command* row = find_command(name);
-    if (!row) {
-        throw CommandError("unknown command \"" + call.argument(0) + "\", " +
-                           suggest_command(name));
-    }
-    session.out << help_text(*row);
+    const std::string what = call.has_argument(0) ? call.argument(0) : "";
+    session.out << (what.empty()               ? help_text()
+                    : is_registry_format(what) ? registry_text(what)
+                                               : help_about(what));
 }
 
 } // namespace
 
 Rows help_commands() {
-    return {command(
-        "help [COMMAND]",
-        "List all commands, tell more about one, or all as man, bash, zsh (completion) or json",
-        run_help)};
+    return {command("help [COMMAND]",
+                    "List all commands, tell more about one or about a subject, or all as man, "
+                    "bash, zsh, fish (completion) or json",
+                    run_help),
+            command("h", "Print the first page of help", [](Session& session, const Call&) {
+                session.outcome.produced = true;
+                session.out << short_help_text();
+            })};
 }
 
 } // namespace tonetool::chain

@@ -1,20 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The registry of commands for other programs: the man page, shell completion, JSON.
-#include <nlohmann/json.hpp>
+// Completion for bash, zsh and fish: commands, behind a ':' their modifiers, behind a '=' the
+// values of a modifier that has a few.
+#include <algorithm>
+#include <cctype>
 
 #include "chain/manual/help.h"
-#include "text/error.h"
-#include "tonetool/export.h"
 
 namespace tonetool::chain {
 
 namespace {
 
-std::string dashed(const std::string& name) {
-    return (name.size() == 1 ? "-" : "--") + name;
-}
-
-std::string replaced(std::string text, const std::string& characters, const std::string& before) {
+std::string with_before(std::string text, const std::string& characters,
+                        const std::string& before) {
     for (size_t at = 0; (at = text.find_first_of(characters, at)) != std::string::npos;) {
         text.insert(at, before);
         at += before.size() + 1;
@@ -22,141 +19,188 @@ std::string replaced(std::string text, const std::string& characters, const std:
     return text;
 }
 
-std::string troff(const std::string& text) {
-    std::string safe = replaced(text, "\\-", "\\");
-    return !safe.empty() && (safe[0] == '.' || safe[0] == '\'') ? "\\&" + safe : safe;
+// A ' inside '...'.
+std::string quoted_inside(const std::string& text) {
+    return with_before(text, "'", "'\\'");
+}
+
+bool is_value(const std::string& word) {
+    return !word.empty() && std::all_of(word.begin(), word.end(), [](unsigned char c) {
+        return std::islower(c) || std::isdigit(c) || c == '-' || c == '.' || c == '_';
+    });
+}
+
+// Of "frame|shot|FILE" frame and shot; names of curves stand in the help, behind the last ": ".
+Strings values_of(const Modifier& modifier) {
+    Strings values;
+    Strings words = split(modifier.hint, '|');
+    const size_t list = modifier.help.rfind(": ");
+    if (modifier.hint == "NAME" && list != std::string::npos) {
+        words.clear();
+        for (const std::string& word : split(modifier.help.substr(list + 2), ','))
+            words.push_back(word.substr(word.find_first_not_of(' ')));
+    }
+    std::copy_if(words.begin(), words.end(), std::back_inserter(values), is_value);
+    return values;
+}
+
+// Visits each name of each command that has modifiers.
+template <class Visit>
+void with_modifiers(const Visit& visit) {
+    for (const Command& row : all_commands())
+        for (const std::string& name : row.names)
+            if (!row.modifiers.empty())
+                visit(dashed(name), sorted_modifiers(row));
 }
 
 template <class Visit>
-void for_each_group(const Visit& visit) {
-    for (int group = 0; group < kGroupCount; ++group) {
-        std::vector<const Command*> rows;
-        for (const Command& row : all_commands())
-            if (row.group == static_cast<Group>(group))
-                rows.push_back(&row);
-        if (!rows.empty())
-            visit(group_title(static_cast<Group>(group)), rows);
-    }
+void in_order(const SortedModifiers& modifiers, const Visit& visit) {
+    for (const Modifiers* list : {&modifiers.frequent, &modifiers.others, &modifiers.of_curves})
+        for (const Modifier& modifier : *list)
+            visit(modifier);
 }
 
-std::string man_page() {
-    std::string text = ".TH TONETOOL 1 \"\" \"tonetool " TONETOOL_VERSION "\"\n.SH NAME\n"
-                       "tonetool \\- compare and tone map HDR images\n.SH SYNOPSIS\n"
-                       ".B tonetool\n[filename|command]...\n.SH DESCRIPTION\n.nf\n" +
-                       troff(usage_text()) + ".fi\n";
-    for_each_group([&](const std::string& title, const std::vector<const Command*>& rows) {
-        text += ".SH " + troff(title) + "\n";
-        for (const Command* row : rows) {
-            Strings names;
-            for (const std::string& name : row->names) {
-                names.push_back("\\fB" + troff(dashed(name)) + "\\fR");
-            }
-            text += ".TP\n" + join(names, ", ") + " " + troff(join(row->args, " ")) + "\n" +
-                    troff(row->help) + "\n";
-            for (const Modifier& modifier : row->modifiers) {
-                text += ".br\n\\fI:" + troff(modifier.key + "=" + modifier.hint) + "\\fR  " +
-                        troff(modifier.help) + "\n";
-            }
-        }
+// A line of a shell's "case" for each modifier with values: "--hdrflip:alpha=) SET ;;".
+template <class Text>
+std::string value_cases(const Text& text) {
+    std::string cases;
+    with_modifiers([&](const std::string& name, const SortedModifiers& modifiers) {
+        in_order(modifiers, [&](const Modifier& modifier) {
+            const Strings values = values_of(modifier);
+            if (!values.empty())
+                cases += "        " + name + ":" + modifier.key + "=) " + text(join(values, " ")) +
+                         " ;;\n";
+        });
     });
-    return text;
+    return cases;
 }
 
-// Names first; behind a ':' the command's modifiers.
+} // namespace
+
 std::string bash_completion() {
     std::string names, cases;
-    for (const Command& row : all_commands()) {
-        Strings keys;
-        for (const Modifier& modifier : row.modifiers)
-            keys.push_back(modifier.key + "=");
-        for (const std::string& name : row.names) {
+    for (const Command& row : all_commands())
+        for (const std::string& name : row.names)
             names += " " + dashed(name);
-            cases += keys.empty()
-                         ? ""
-                         : "        " + dashed(name) + ") keys=\"" + join(keys, " ") + "\" ;;\n";
-        }
-    }
+    with_modifiers([&](const std::string& name, const SortedModifiers& modifiers) {
+        Strings keys;
+        in_order(modifiers, [&](const Modifier& one) { keys.push_back(one.key + "="); });
+        cases += "        " + name + ") found=\"" + join(keys, " ") + "\" ;;\n";
+    });
     return "_tonetool() {\n"
-           "    local word=\"${COMP_LINE:0:COMP_POINT}\" keys=\n"
-           "    word=\"${word##* }\"\n"
-           "    local prefix=\"${word%:*}:\"\n"
+           "    local line=\"${COMP_LINE:0:COMP_POINT}\" found=\n"
+           "    local word=\"${line##* }\"\n"
+           "    local last=\"${word##*:}\" command=\"${word%%:*}\"\n"
            "    if [[ $word != -* ]]; then\n"
            "        COMPREPLY=( $(compgen -f -- \"$word\") )\n        return\n    fi\n"
            "    if [[ $word != *:* ]]; then\n"
            "        COMPREPLY=( $(compgen -W \"" +
            names.substr(1) +
            "\" -- \"$word\") )\n        return\n    fi\n"
-           "    case \"${word%%:*}\" in\n" +
+           "    # What the shell takes for the begin of the word is not repeated.\n"
+           "    local before=\"${word%:*}:\"\n"
+           "    [[ $COMP_WORDBREAKS == *:* ]] && before=\n"
+           "    if [[ $last == *=* ]]; then\n"
+           "        case \"$command:${last%%=*}=\" in\n" +
+           value_cases([](const std::string& values) { return "found=\"" + values + "\""; }) +
+           "        esac\n"
+           "        before=\"$before${last%%=*}=\"\n"
+           "        [[ $COMP_WORDBREAKS == *=* ]] && before=\n"
+           "        last=\"${last#*=}\"\n"
+           "    else\n"
+           "        case \"$command\" in\n" +
            cases +
-           "    esac\n"
+           "        esac\n"
+           "    fi\n"
            "    compopt -o nospace\n"
-           "    [[ $COMP_WORDBREAKS == *:* ]] && prefix=\n"
-           "    COMPREPLY=( $(compgen -P \"$prefix\" -W \"$keys\" -- \"${word##*:}\") )\n"
+           "    COMPREPLY=( $(compgen -P \"$before\" -W \"$found\" -- \"$last\") )\n"
            "}\ncomplete -o filenames -F _tonetool tonetool\n";
 }
 
 std::string zsh_completion() {
-    std::string text = "#compdef tonetool\nlocal -a commands modifiers\n"
-                       "if [[ $words[CURRENT] == -*:* ]]; then\n"
-                       "    case ${words[CURRENT]%%:*} in\n";
-    std::string commands;
-    for (const Command& row : all_commands()) {
-        for (const std::string& name : row.names) {
-            commands += "    '" + dashed(name) + ":" + replaced(row.help, "'", "'\\'") + "'\n";
-            std::string keys;
-            for (const Modifier& modifier : row.modifiers)
-                keys += " '" + modifier.key + "=:" + replaced(modifier.help, "'", "'\\'") + "'";
-            text += keys.empty() ? "" : "    " + dashed(name) + ") modifiers=(" + keys + " ) ;;\n";
-        }
-    }
-    return text +
-           "    esac\n    compset -P '*:'\n    _describe -t modifiers modifier modifiers "
+    std::string commands, cases;
+    for (const Command& row : all_commands())
+        for (const std::string& name : row.names)
+            commands += "    '" + dashed(name) + ":" + quoted_inside(row.help) + "'\n";
+    with_modifiers([&](const std::string& name, const SortedModifiers& modifiers) {
+        std::string keys;
+        in_order(modifiers, [&](const Modifier& one) {
+            keys += " '" + one.key + "=:" + quoted_inside(one.help) + "'";
+        });
+        cases += "    " + name + ") modifiers=(" + keys + " ) ;;\n";
+    });
+    return "#compdef tonetool\n"
+           "local -a commands modifiers choices\nlocal word=$words[CURRENT]\n"
+           "if [[ $word == -*:*=* && ${word##*:} == *=* ]]; then\n"
+           "    local last=${word##*:}\n"
+           "    case ${word%%:*}:${last%%=*}= in\n" +
+           value_cases([](const std::string& values) { return "choices=(" + values + ")"; }) +
+           "    esac\n"
+           "    compset -P '*='\n    _describe -t values value choices -S ''\n    return\nfi\n"
+           "if [[ $word == -*:* ]]; then\n"
+           "    case ${word%%:*} in\n" +
+           cases +
+           "    esac\n"
+           "    compset -P '*:'\n    _describe -t modifiers modifier modifiers "
            "-S ''\n    return\nfi\ncommands=(\n" +
            commands +
-           ")\nif [[ $words[CURRENT] == -* ]]; then\n    _describe -t commands command commands\n"
+           ")\nif [[ $word == -* ]]; then\n    _describe -t commands command commands\n"
            "else\n    _files\nfi\n";
 }
 
-std::string json_text() {
-    nlohmann::ordered_json all = nlohmann::ordered_json::array();
-    for (const Command& row : all_commands()) {
-        nlohmann::ordered_json modifiers = nlohmann::ordered_json::array();
-        for (const Modifier& modifier : row.modifiers) {
-            modifiers.push_back(
-                {{"key", modifier.key}, {"hint", modifier.hint}, {"help", modifier.help}});
-        }
-        all.push_back({{"names", row.names},
-                       {"args", row.args},
-                       {"pops", row.pops},
-                       {"pushes", row.pushes},
-                       {"group", group_title(row.group)},
-                       {"help", row.help},
-                       {"modifiers", modifiers}});
-    }
-    return all.dump(1) + "\n";
-}
-
-struct Format {
-    const char* name;
-    std::string (*text)();
-};
-const Format kFormats[] = {
-    {"man", man_page}, {"bash", bash_completion}, {"zsh", zsh_completion}, {"json", json_text}};
-
-} // namespace
-
-bool is_registry_format(const std::string& format) {
-    for (const Format& known : kFormats)
-        if (format == known.name)
-            return true;
-    return false;
-}
-
-std::string registry_text(const std::string& format) {
-    for (const Format& known : kFormats)
-        if (format == known.name)
-            return known.text();
-    throw CommandError("unknown format \"" + format + "\" (valid: man, bash, zsh, json)");
+// fish takes "word<TAB>description" lines of a function.
+std::string fish_completion() {
+    const auto fish = [](const std::string& text) {
+        return "'" + with_before(text, "'\\", "\\") + "'";
+    };
+    std::string commands, keys;
+    for (const Command& row : all_commands())
+        for (const std::string& name : row.names)
+            commands += " \\\n                " + fish(dashed(name)) + " " + fish(row.help);
+    with_modifiers([&](const std::string& name, const SortedModifiers& modifiers) {
+        keys += "                    case " + fish(name) + "\n                        set found";
+        in_order(modifiers, [&](const Modifier& one) {
+            keys += " \\\n                            $before" + fish(one.key + "=") + " " +
+                    fish(one.help);
+        });
+        keys += "\n";
+    });
+    std::string values;
+    with_modifiers([&](const std::string& name, const SortedModifiers& modifiers) {
+        in_order(modifiers, [&](const Modifier& one) {
+            const Strings words = values_of(one);
+            if (!words.empty())
+                values += "                    case " + fish(name + ":" + one.key) +
+                          "\n                        set found $before" + one.key + "=" +
+                          join(words, " $before" + one.key + "=") + "\n";
+        });
+    });
+    return "function __tonetool_words\n"
+           "    set -l word (commandline -ct)\n"
+           "    switch $word\n"
+           "        case '-*:*'\n"
+           "            set -l command (string replace -r ':.*' '' -- $word)\n"
+           "            set -l before (string replace -r '[^:]*$' '' -- $word)\n"
+           "            set -l last (string replace -r '.*:' '' -- $word)\n"
+           "            set -l found\n"
+           "            if string match -q '*=*' -- $last\n"
+           "                switch $command:(string replace -r '=.*' '' -- $last)\n" +
+           values +
+           "                end\n"
+           "                printf '%s\\n' $found\n"
+           "            else\n"
+           "                switch $command\n" +
+           keys +
+           "                end\n"
+           "                printf '%s\\t%s\\n' $found\n"
+           "            end\n"
+           "        case '*'\n"
+           "            printf '%s\\t%s\\n'" +
+           commands +
+           "\n    end\nend\n"
+           "complete -c tonetool -f -n 'string match -q -- \"-*\" (commandline -ct)' "
+           "-a '(__tonetool_words)'\n"
+           "complete -c tonetool -F -n 'not string match -q -- \"-*\" (commandline -ct)'\n";
 }
 
 } // namespace tonetool::chain

@@ -26,8 +26,12 @@ std::string name_in_messages(const Call& call, bool compat) {
 
 void Runner::run_all() {
     Flow& flow = m_session.flow;
-    const bool stops = m_session.settings.compat || m_session.settings.error_exit;
-    while (flow.next < m_words.size() && !m_ended && !(m_session.outcome.aborted && stops)) {
+    // --no-error-exit is one of the words; oiiotool's own stops all the same.
+    const auto stops = [this] {
+        return m_session.outcome.aborted &&
+               (m_session.settings.compat || m_session.settings.error_exit);
+    };
+    while (flow.next < m_words.size() && !m_ended && !stops()) {
         m_where.clear();
         guarded(&Runner::run_word);
     }

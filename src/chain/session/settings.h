@@ -17,6 +17,7 @@ struct Settings {
     bool all_subimages = false; ///< -a: and all MIP levels
     bool dry_run = false, no_clobber = false, update = false, debug = false, runstats = false;
     bool verbose = false, quiet = false, warnings_exit = false, error_exit = true;
+    bool details = false; ///< -v anywhere in the line: measurements print all that they found
     bool evaluate = true; ///< {expressions} are replaced by their values
     bool autocc = false, autocc_unpremult = false, autoorient = false;
     bool complains_to_out = false; ///< errors and warnings go to the standard output

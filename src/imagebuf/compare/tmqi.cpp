@@ -36,7 +36,7 @@ void encoded_luminance_row(const float* r, const float* g, const float* b, float
                                 kernels::kLuminance[2] * encoded(b[i])));
 }
 
-struct Side {
+struct JudgedSide {
     const ImageBuf& image;
     const PixelOptions& pixels;
     const char* who;
@@ -92,8 +92,8 @@ void score(ImageBuf& dst, const ImageBuf& hdr, const ImageBuf& ldr, const TmqiOp
     check_orientation(hdr, ldr);
     const ROI region = summary.region = compared_region(hdr, ldr, size);
     check_region(region, options.memory, nthreads);
-    Side light{hdr, options.hdr, "HDR", metrics::luminance_row, {}, {}};
-    Side shown{ldr, options.ldr, "display", encoded_luminance_row, {}, {}};
+    JudgedSide light{hdr, options.hdr, "HDR", metrics::luminance_row, {}, {}};
+    JudgedSide shown{ldr, options.ldr, "display", encoded_luminance_row, {}, {}};
     light.read(region, options.memory, nthreads);
     shown.read(region, options.memory, nthreads);
     const auto parallel = make_parallel(nthreads);
@@ -113,12 +113,12 @@ void score(ImageBuf& dst, const ImageBuf& hdr, const ImageBuf& ldr, const TmqiOp
     deliver(dst, std::move(map), "TMQI:");
 }
 
-struct Quantity {
+struct TmqiQuantity {
     const char* name;
     double TmqiScore::*value;
 };
 
-constexpr Quantity kQuantities[] = {
+constexpr TmqiQuantity kTmqiQuantities[] = {
     {"Q", &TmqiScore::q}, {"S", &TmqiScore::s}, {"N", &TmqiScore::n}};
 
 } // namespace
@@ -143,7 +143,7 @@ ImageBuf tmqi(const ImageBuf& hdr, const ImageBuf& ldr, const TmqiOptions& optio
 }
 
 std::optional<double> tmqi_quantity(const TmqiScore& score, const std::string& name) {
-    for (const Quantity& q : kQuantities)
+    for (const TmqiQuantity& q : kTmqiQuantities)
         if (name == q.name)
             return score.*q.value;
     return std::nullopt;
@@ -151,7 +151,7 @@ std::optional<double> tmqi_quantity(const TmqiScore& score, const std::string& n
 
 std::vector<std::string> tmqi_quantities() {
     std::vector<std::string> names;
-    for (const Quantity& q : kQuantities)
+    for (const TmqiQuantity& q : kTmqiQuantities)
         names.emplace_back(q.name);
     return names;
 }

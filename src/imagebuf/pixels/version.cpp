@@ -1,10 +1,36 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <OpenColorIO/OpenColorIO.h>
+#include <OpenImageIO/imageio.h>
+#include <OpenImageIO/strutil.h>
+
+#include "kernels/curve_rows.h"
 #include "tonetool/export.h"
 
 namespace tonetool {
 
+namespace {
+
+// "openexr:OpenEXR 3.1.5;tiff:...": of what OpenImageIO's readers were built with.
+std::string openexr_version() {
+    // Asking for a format makes OpenImageIO list all of them.
+    (void)OIIO::ImageOutput::create("exr");
+    for (const std::string& one :
+         OIIO::Strutil::splits(OIIO::get_string_attribute("library_list"), ";"))
+        if (OIIO::Strutil::starts_with(one, "openexr:"))
+            return one.substr(std::string("openexr:").size());
+    return "OpenEXR unknown";
+}
+
+} // namespace
+
 const char* version() noexcept {
     return TONETOOL_VERSION;
+}
+
+std::string library_versions() {
+    return "OpenImageIO " + std::string(OIIO::get_string_attribute("version")) + "\nOpenColorIO " +
+           OCIO_NAMESPACE::GetVersion() + "\n" + openexr_version() + "\ninstruction set " +
+           kernels::curve_target();
 }
 
 } // namespace tonetool

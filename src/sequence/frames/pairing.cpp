@@ -44,7 +44,7 @@ std::vector<int> numbers_of(const std::vector<Item>& items) {
     return {numbers.begin(), numbers.end()};
 }
 
-std::string frames_text(const Side& side) {
+std::string side_text(const Side& side) {
     const std::vector<int> numbers = numbers_of(side.files.items);
     return "\"" + side.pattern + "\" has " + (numbers.size() == 1 ? "frame " : "frames ") +
            range_text(numbers);
@@ -120,7 +120,7 @@ void check_common_number(const std::vector<Side>& sides) {
         std::vector<int> common;
         std::set_intersection(a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(common));
         if (!a.empty() && !b.empty() && common.empty()) {
-            throw std::runtime_error(frames_text(first) + ", " + frames_text(side) +
+            throw std::runtime_error(side_text(first) + ", " + side_text(side) +
                                      ": none has the same number" + by_position_text(first, side));
         }
     }
@@ -160,7 +160,7 @@ void check_same_numbers(const std::vector<Side>& sides) {
         const Side& first = sides.front();
         const bool ranges = !side.files.from_disk && !first.files.from_disk;
         if (!ranges && !(side.files.items == first.files.items)) {
-            throw std::runtime_error(frames_text(first) + ", " + frames_text(side) +
+            throw std::runtime_error(side_text(first) + ", " + side_text(side) +
                                      by_position_text(first, side));
         }
     }

@@ -126,9 +126,9 @@ std::string pictures_text(const ShotResult& shot, const Kept& kept, const PageLi
                   limits.bytes >> 20);
 }
 
-using Rows = std::vector<std::array<std::string, 2>>;
+using AboutRows = std::vector<std::array<std::string, 2>>;
 
-Rows about(const ShotResult& shot, const Kept& kept, const PageLimits& limits) {
+AboutRows about(const ShotResult& shot, const Kept& kept, const PageLimits& limits) {
     std::string check = "tonetool";
     for (const std::string& word : shot.check)
         check += " " + word;

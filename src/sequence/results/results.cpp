@@ -93,7 +93,7 @@ bool has_problem(Status status) {
     return status > Status::Measured;
 }
 
-std::map<Status, size_t> counts_of(const ShotResult& shot) {
+std::map<Status, size_t> count_of_each(const ShotResult& shot) {
     std::map<Status, size_t> counts;
     for (const FrameResult& frame : shot.frames)
         ++counts[frame.status];
@@ -116,7 +116,7 @@ std::string measured_text(const FrameResult& frame) {
 
 std::string sentence_of(const ShotResult& shot) {
     std::vector<std::string> parts;
-    const std::map<Status, size_t> counts = counts_of(shot);
+    const std::map<Status, size_t> counts = count_of_each(shot);
     for (auto item = counts.rbegin(); item != counts.rend(); ++item)
         parts.push_back(format("{} {}", item->second, status_name(item->first)));
     std::string text =

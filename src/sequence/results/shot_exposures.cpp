@@ -29,7 +29,7 @@ bool lit(const ExposureSample& sample) {
     return sample.max_luminance > 0 && sample.median_luminance > 0;
 }
 
-ordered_json json_of(const ShotExposures& range) {
+ordered_json range_json(const ShotExposures& range) {
     return {{"max_luminance", range.max_luminance},
             {"median_luminance", range.median_luminance},
             {"frames", range.frames}};
@@ -103,7 +103,7 @@ ShotExposures shot_exposures(const ExposureSamples& samples) {
 }
 
 std::string exposures_text(const ShotExposures& range) {
-    ordered_json text = json_of(range);
+    ordered_json text = range_json(range);
     text["references"] = range.references;
     return one_line(text);
 }
@@ -122,7 +122,7 @@ std::string to_json(ExposureSamples samples) {
     sort_samples(samples);
     ordered_json to{{"format", kExposuresFormat}, {"version", kExposuresVersion}};
     if (std::any_of(samples.begin(), samples.end(), lit))
-        to["exposures"] = json_of(shot_exposures(samples));
+        to["exposures"] = range_json(shot_exposures(samples));
     to["samples"] = ordered_json::array();
     for (const ExposureSample& sample : samples) {
         ordered_json one{{"frame", sample.frame}};

@@ -111,6 +111,16 @@ TEST_F(Registry, WholeLinesAreSetByWhatMakesNoImage) {
     }
 }
 
+TEST_F(Registry, FrequentModifiersAreModifiersOfTheCommand) {
+    for (const Command& row : all_commands()) {
+        const chain::SortedModifiers sorted = chain::sorted_modifiers(row);
+        EXPECT_EQ(sorted.frequent.size(), row.frequent.size()) << row.names.front();
+        EXPECT_EQ(sorted.frequent.size() + sorted.others.size() + sorted.of_curves.size(),
+                  row.modifiers.size())
+            << row.names.front();
+    }
+}
+
 TEST_F(Registry, SuggestsNearNames) {
     EXPECT_NE(suggest_command("hdrflp").find("--hdrflip"), std::string::npos);
     EXPECT_EQ(suggest_command("qqqqqqqqqq").find("did you mean"), std::string::npos);

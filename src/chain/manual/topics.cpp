@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "chain/manual/topics.h"
+
+namespace tonetool::chain {
+
+const char* const kExitStatusText =
+    R"(0  everything passed
+1  an error: bad command line, unreadable file, nothing to compare, a result not written;
+   and a --diff or --pdiff that fails
+2  only warnings, and --warnings-exit was given
+3  a fail= threshold was exceeded, or --qc found a fault that is an error
+)";
+
+namespace {
+
+const char* const kCompare = R"(Comparing a test image with a reference
+
+  tonetool ref.exr test.exr --hdrflip
+  tonetool ref.exr test.exr --hdrflip:fail=p99.9=0.3 -o error.exr --colormap magma -o error.png
+
+The reference comes first. HDR-FLIP shows both at several exposures through a tone curve, compares
+what a viewer would see, and takes the largest error of each pixel: 0 no visible difference, 1 the
+largest. The result is an error map on the image stack, and numbers:
+
+  mean    of the map: how different the images are as a whole; noise raises it, a small fault hardly
+  p99.9   a thousandth of the pixels have a larger error: finds a missing object
+  max     the largest error, and where it is
+
+-v prints every fact, --json FILE writes them, the map has them as FLIP:* attributes.
+
+  layer=NAME        the layer to compare (the beauty, where only one can be it)
+  from=SPACE        its colour space (what the file says)
+  startExposure=, stopExposure=, numExposures=   in stops (from the reference's luminance)
+  ppd=X             pixels per degree of visual angle (67: a 4K screen, 0.7 m wide, at 0.7 m)
+
+Others: --ldrflip for display-referred images, --flipdiff with OpenImageIO's option names, --errormap
+for SMAPE, PSNR and the like, --filmstrip for a figure, --diff for the values themselves, --tmqi for
+a tone-mapped picture. See --help threshold, --help check, --help hdrflip.
+)";
+
+const char* const kCheck = R"(Checking a sequence
+
+  tonetool ref.#.exr test.#.exr --hdrflip:exposures=shot:fail=p99.9=0.3 --report check.html
+  tonetool test.#.exr --qc --json check.json
+
+# stands for the frame number; frames of both sequences are paired by number, and one that is missing
+# or cannot be read does not pass. The last line is the verdict and names the worst frame. Only frames
+that fail or warn print a line, with -v each does.
+
+  --report FILE.html   a page to look at: the curve of the error, the worst frames, their pictures
+  --json, --csv, --junit FILE   the results for other programs
+  --contactsheet FILE  all frames as thumbnails
+  --state DIR          a run that was killed goes on where it was
+  --jobs N             N frames at a time
+  --frames 1-100       the frames that must be there
+  --merge              joins the results of a farm's tasks; tonetool-slurm does it all on Slurm
+
+exposures=shot compares all frames at one range of exposures, so that their errors can be compared.
+--qc looks for faults that need no reference: black and constant frames, NaN, fireflies, flicker,
+missing layers; see --help qc and --help exit.
+)";
+
+const char* const kThreshold = R"(Thresholds: when a comparison fails
+
+  --hdrflip:fail=0.1                       the mean must be at most 0.1
+  --hdrflip:fail=p99.9=0.3,mean=0.1        each must hold
+  --hdrflip:warn=p99.9=0.2:fail=p99.9=0.4  a warning before it is a failure
+  --hdrflip:fail=above0.2=0.001            at most a thousandth of the pixels above 0.2
+
+A quantity is mean, weighted-median, weighted-q1, weighted-q3, min, max, a percentile (p50, p99.95)
+or the share of the pixels above an error (above0.2). Without a name it is the first one that the
+command has. Of psnr, mpsnr and --tmqi more is better, and a limit is what must be reached.
+
+How to find a limit: render a frame twice with different seeds and compare the two: what they differ
+by is noise. Set the limit of the mean a tenth above theirs, that of p99.9 a fifth.
+
+A limit that cannot fail (fail=1 of a map from 0 to 1) is an error; NaN exceeds any limit; where a
+limit could not be tested, the check has not passed. Status 3 says that fail= was exceeded.
+)";
+
+const char* const kTonemap = R"(Showing an HDR picture
+
+  tonetool picture.exr --tonemap:curve=agx -o picture.png
+  tonetool picture.exr --tonemap:curve=agx:method=mean -o picture.png
+  tonetool picture.exr --tonemap:curve=hable:stops=2 -o picture.png
+  tonetool picture.exr --cgtmo -o picture.png
+
+curve= is one of the tone curves that --tonecurves lists; stops= sets the exposure, method=mean
+measures it, method=auto its key, too. The result is sRGB-encoded (encode= takes others) and clamped
+to 0 to 1. --cgtmo is a local tone mapper for rendered images: position, normal and albedo guide it.
+A view of an OpenColorIO configuration instead of a curve: --help ocio. --tmqi scores the result.
+)";
+
+const char* const kHdr = R"(HDR values, and what becomes of them
+
+Colour        linear; what the file's chromaticities or colour space say, or from=, is converted to
+              linear Rec.709 by a matrix and never clipped before the tone curve.
+Integers      are decoded from sRGB, or by what the file says, before they are compared.
+Negative      values count as 0 and are counted.
+NaN, Inf      in one image only: error 1; in both and of the same kind: 0. Counted, with a warning.
+Alpha         is ignored, unless alpha=error; that it differs is a warning.
+Windows       the union of the data windows is compared; what one image lacks is black. Display
+              windows that differ are an error, unless resize=1 or crop=1.
+Exposures     the first shows the reference's maximum luminance at 0.85, the last its median.
+Stops         exposure by s stops multiplies linear values by 2^s.
+)";
+
+const char* const kOcio = R"(OpenColorIO
+
+  tonetool --colorconfig ocio/tonetool.ocio shot.exr --tonemap:display=sRGB:view='ACES SDR' -o shot.png
+  tonetool --colorconfig ocio/tonetool.ocio ref.exr test.exr --hdrflip:view='ACES SDR'
+  tonetool --exportlut:curve=agx agx.ctf
+
+The configuration is --colorconfig FILE, else $OCIO. --tonemap and --hdrflip take display=, view=,
+looks= and context= instead of a tone curve; peak= is the white of an HDR display in cd/m2. --hdrflip
+uses a table baked from the view, whose error it prints with -v; exact=1 uses none. The configuration
+that comes with tonetool has ACES views and each tone curve as a view, for Nuke, RV or oiiotool.
+--exportlut writes a curve or a view as .cube, .spi1d, .spi3d, .clf or .ctf. Conversions as in
+oiiotool: --colorconvert, --ociodisplay, --ociolook, --ociofiletransform.
+)";
+
+const char* const kRecipes = R"(Recipes: command lines as images
+
+A text file *.tone with the first line "tonetool 1", then a command line, is an image: the top of the
+stack when the line has run.
+
+  tonetool 1
+  # The error of a rendered pair, with its own name for the shot.
+  $shot = gallery
+  ${shot}_ref.exr ${shot}_test.exr --hdrflip
+
+  tonetool error.tone -o error.exr
+  tonetool 'error.tone?shot=cornell' -o error.exr
+
+With the plugin every program that reads images by OpenImageIO reads recipes: oiiotool, iinfo, maketx,
+RV, Blender. --doctor says whether it is found. A recipe only reads; relative names are relative to it.
+)";
+
+const char* const kExit = R"(Exit status
+
+%
+
+An error is never reported as a pass; of several statuses an error counts most, then 3, then 2. In a
+sequence the worst frame counts: one that is missing, unreadable, of another size or whose threshold
+could not be tested is an error. --compat: 1 for all failures, as oiiotool has it.
+)";
+
+} // namespace
+
+const std::vector<Topic>& topics() {
+    static const std::vector<Topic> all = {
+        {"compare", "a test image with a reference", kCompare},
+        {"check", "a sequence of frames, with or without a reference", kCheck},
+        {"threshold", "limits: what fails, and how to find a number", kThreshold},
+        {"tonemap", "show an HDR picture on a display", kTonemap},
+        {"hdr", "colour spaces, NaN, negative values, windows, alpha", kHdr},
+        {"ocio", "views, displays and LUTs", kOcio},
+        {"recipes", "command lines that other programs read as images", kRecipes},
+        {"exit", "what the exit status means", kExit},
+    };
+    return all;
+}
+
+const Topic* find_topic(const std::string& name) {
+    for (const Topic& topic : topics())
+        if (name == topic.name)
+            return &topic;
+    return nullptr;
+}
+
+} // namespace tonetool::chain
