@@ -171,13 +171,13 @@ def run(block, program, folder, timeout=180):
 
 def lacks(block, program):
     """Why a block cannot run here; empty where it can."""
+    plugin = Path(program).resolve().parents[1] / "tone.imageio" / "tone.imageio.so"
     for command in block.commands():
         word = command.split()[0]
         if word in HOSTS and not shutil.which(word, path="/usr/bin"):
             return f"no {word}"
-        if ".tone" in command or "--doctor" in command:
-            plugin = Path(program).resolve().parents[1] / "tone.imageio" / "tone.imageio.so"
-            if word in HOSTS and not plugin.exists() or not shutil.which("oiiotool"):
+        if "--doctor" in command or word in HOSTS and ".tone" in command:
+            if not plugin.exists() or not shutil.which("oiiotool", path="/usr/bin"):
                 return "no plugin, or no oiiotool"
     return ""
 
