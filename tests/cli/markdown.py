@@ -30,6 +30,7 @@ ABSOLUTE = 3e-5
 RELATIVE = 1e-3
 
 NUMBER = re.compile(r"(?<![\w.])-?\d+(?:\.\d+(?:e[-+]?\d+)?|e[-+]?\d+)(?!\w|\.\d)")
+INLINE = re.compile(r"`((?:tonetool|oiiotool|src/(?:farm|scripts)/[^\s`]+) [^`]*)`")
 DOTS = "..."
 HOSTS = ("oiiotool", "iinfo", "idiff", "maketx", "iconvert")
 
@@ -113,7 +114,7 @@ def inline(page, root=ROOT):
     for number, line in enumerate((root / page).read_text(encoding="utf-8").split("\n"), 1):
         inside ^= line.startswith("```")
         if not inside and not line.startswith("    "):
-            for command in re.findall(r"`((?:tonetool|oiiotool|src/farm/tonetool-slurm|src/scripts/[^\s`]+) [^`\n]*)`", line):
+            for command in INLINE.findall(line):
                 found.append(Block(page, number, command.replace(r"\|", "|") + "\n"))
     return found
 
