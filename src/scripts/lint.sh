@@ -23,7 +23,7 @@ status=0
 
 bash src/scripts/format.sh --check "${all[@]}" || status=1
 
-# The example of the README begins as it does there.
+# The example of src/doc/cpp.md begins as it does there.
 if grep -L 'SPDX-License-Identifier: BSD-3-Clause' "${all[@]}" | grep -v '^tests/package/example/'; then
     echo "lint.sh: these files lack the SPDX line" >&2
     status=1

@@ -26,7 +26,7 @@ def score(program, image, modifiers, folder):
     """Q, S and N of one picture."""
     picture = str(Path(folder) / "picture.png")
     run(program, "-q", image, f"--cgtmo:strict=1{modifiers}", "-d", "uint8", "-o", picture)
-    facts = dict(line.split()[1:3] for line in run(program, image, picture, "--tmqi").splitlines())
+    facts = dict(line.split()[1:3] for line in run(program, image, picture, "--tmqi:print=1").splitlines())
     return [float(facts[name]) for name in "QSN"]
 
 

@@ -126,9 +126,13 @@ def test_pkg_config(library, flags, mean, tmp_path):
     assert float(run(program, *PAIR)) == pytest.approx(mean, abs=1e-6)
 
 
-def test_readme_shows_the_example():
-    shown = re.search(r"```cpp\n(.*?)```", (ROOT / "README.md").read_text(encoding="utf-8"), re.S)
-    assert shown.group(1) == (HERE / "example" / "example.cpp").read_text()
+def test_guide_shows_the_example():
+    guide = (ROOT / "src" / "doc" / "cpp.md").read_text(encoding="utf-8")
+    (shown,) = re.findall(r"```cpp\n(.*?)```", guide, re.S)
+    assert shown == (HERE / "example" / "example.cpp").read_text()
+    (lists,) = re.findall(r"```cmake\n(.*?)```", guide, re.S)
+    for line in lists.splitlines():
+        assert line in (HERE / "example" / "CMakeLists.txt").read_text().splitlines()
 
 
 def test_installed_python_module(tree):
