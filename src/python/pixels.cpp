@@ -45,6 +45,8 @@ py::object color_layers(std::vector<py::object>& images) {
 py::object image(std::vector<py::object>& images, const ChannelOptions& options) {
     const InputImage pixels(images[0], "image: pixels",
                             options.channels.empty() ? Channels::Plain : Channels::Named);
+    if (!knows_imagebuf())
+        throw py::import_error("image: makes an OpenImageIO.ImageBuf: " + why_no_imagebuf());
     return py::cast(named_image(pixels, options.channels, "image: channels"));
 }
 
