@@ -55,7 +55,7 @@ def pybind11_folder():
 
 def compiled(folder, settings):
     """The folder that holds the package tonetool."""
-    ninja = ["-G", "Ninja"] if shutil.which("ninja") else []
+    ninja = ["-G", "Ninja"] if shutil.which("ninja") and "CMAKE_GENERATOR" not in os.environ else []
     subprocess.run(["cmake", "-S", SOURCE, "-B", folder, *ninja, "-DCMAKE_BUILD_TYPE=Release",
                     f"-DTONETOOL_PYTHON_EXECUTABLE={sys.executable}", *pybind11_folder(),
                     *shlex.split(settings.get("cmake-args", ""))], check=True)
@@ -64,12 +64,16 @@ def compiled(folder, settings):
     return Path(folder) / "tonetool"
 
 
+def information():
+    """The files of the folder dist-info but for the list of all."""
+    wheel = f"Wheel-Version: 1.0\nGenerator: tonetool\nRoot-Is-Purelib: false\nTag: {tag()}\n"
+    return {"METADATA": metadata().encode(), "WHEEL": wheel.encode(), "LICENSE": (ROOT / "LICENSE").read_bytes()}
+
+
 def pack(package, wheel):
     info = f"tonetool-{version()}.dist-info"
     files = {f"tonetool/{path.name}": path.read_bytes() for path in sorted(package.iterdir()) if path.is_file()}
-    files[f"{info}/METADATA"] = metadata().encode()
-    files[f"{info}/WHEEL"] = f"Wheel-Version: 1.0\nGenerator: tonetool\nRoot-Is-Purelib: false\nTag: {tag()}\n".encode()
-    files[f"{info}/LICENSE"] = (ROOT / "LICENSE").read_bytes()
+    files.update((f"{info}/{name}", data) for name, data in information().items())
     record = ""
     for name, data in files.items():
         digest = base64.urlsafe_b64encode(hashlib.sha256(data).digest()).rstrip(b"=").decode()
@@ -78,6 +82,16 @@ def pack(package, wheel):
     with zipfile.ZipFile(wheel, "w", zipfile.ZIP_DEFLATED) as out:
         for name, data in files.items():
             out.writestr(name, data)
+
+
+def prepare_metadata_for_build_wheel(metadata_directory, config_settings=None):
+    """Without it pip builds the wheel twice."""
+    name = f"tonetool-{version()}.dist-info"
+    folder = Path(metadata_directory) / name
+    folder.mkdir()
+    for file, data in information().items():
+        (folder / file).write_bytes(data)
+    return name
 
 
 def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
