@@ -2,6 +2,7 @@
 #include "python/function.h"
 
 #include <OpenImageIO/strutil.h>
+#include <pybind11/eval.h>
 
 #include "imagebuf/pixels/names.h"
 
@@ -107,7 +108,7 @@ std::vector<py::object> bound(const std::string& function, const std::vector<Par
             throw py::type_error(function + ": " + positional[i].name + " is missing");
         values.push_back(i < args.size() ? py::object(args[i])
                          : named         ? words.attr("pop")(name)
-                                         : py::object(py::none()));
+                                         : py::eval(positional[i].initial));
     }
     return values;
 }

@@ -25,12 +25,31 @@ std::string described(const py::array& array) {
            " array of shape " + std::string(py::str(array.attr("shape")));
 }
 
+std::string& reason() {
+    static std::string text;
+    return text;
+}
+
+// An ImageBuf of a module that is unknown here.
+[[noreturn]] void refuse_foreign(const std::string& where) {
+    throw py::type_error(where + " is an ImageBuf that tonetool does not know, for " + reason() +
+                         "; give its pixels as an array: image.get_pixels(\"float\")");
+}
+
+bool is_foreign_imagebuf(const py::object& object) {
+    const py::type type = py::type::of(object);
+    const std::string name = py::str(type.attr("__name__"));
+    const std::string module = py::str(type.attr("__module__"));
+    return name == "ImageBuf" && module.compare(0, 11, "OpenImageIO") == 0;
+}
+
 // What OpenImageIO calls the numbers of an array that has those of an image; unknown: it has not.
 OIIO::TypeDesc type_of(const py::array& array) {
     const py::dtype type = array.dtype();
     if (!type.attr("isnative").cast<bool>() || py::hasattr(array, "mask"))
         return OIIO::TypeUnknown;
-    const py::ssize_t bytes = type.itemsize();
+    // Of Python: pybind11 before 2.12 does not know where numpy 2 keeps it.
+    const auto bytes = type.attr("itemsize").cast<py::ssize_t>();
     switch (type.kind()) {
     case 'f':
         return bytes == 2   ? OIIO::TypeHalf
@@ -100,6 +119,8 @@ InputImage::InputImage(const py::object& object, const std::string& where, Chann
         m_image = object.cast<const OIIO::ImageBuf*>();
     else if (py::isinstance<py::array>(object))
         look_at(py::array(object), where, channels);
+    else if (!knows_imagebuf() && is_foreign_imagebuf(object))
+        refuse_foreign(where);
     else
         wrong_type(where, object, kWantedImage);
 }
@@ -124,8 +145,11 @@ void InputImage::look_at(const py::array& array, const std::string& where, Chann
 }
 
 py::object to_python(OIIO::ImageBuf&& image, OutputKind kind) {
-    if (!kind.array || image.deep())
+    if (knows_imagebuf() && (!kind.array || image.deep()))
         return py::cast(std::move(image));
+    if (image.deep())
+        throw Refused("a deep image is no array, and there is no ImageBuf to hand it back as: " +
+                      reason());
     const bool plain = image.localpixels() && image.spec().format == OIIO::TypeFloat;
     auto owned =
         std::make_unique<OIIO::ImageBuf>(plain ? std::move(image) : image.copy(OIIO::TypeFloat));
@@ -140,14 +164,16 @@ void check_read(const OIIO::ImageBuf& image, const std::string& function) {
     throw Refused(function + ": " + with_name(image, why.empty() ? "holds no pixels" : why));
 }
 
-namespace {
+std::string with_path(const std::string& path, const std::string& why) {
+    const std::string text = why.empty() ? "cannot be read" : why;
+    return text.find(path) != std::string::npos ? text : "\"" + path + "\": " + text;
+}
 
-// Of a file that was not read by a reader of its own: an ImageCache does not tell of pixels that
-// are missing.
-OIIO::ImageBuf copied(const OIIO::ImageBuf& image, const std::string& function) {
+OIIO::ImageBuf read_here(const OIIO::ImageBuf& image, const std::string& function) {
     check_read(image, function);
     if (!is_file_to_read(image))
         return image.copy(OIIO::TypeUnknown);
+    // An ImageCache does not tell of pixels that are missing.
     try {
         return read_whole(image, image.spec().format);
     } catch (const Refusal& refusal) {
@@ -155,11 +181,9 @@ OIIO::ImageBuf copied(const OIIO::ImageBuf& image, const std::string& function) 
     }
 }
 
-} // namespace
-
 OIIO::ImageBuf named_image(const InputImage& image, const std::vector<std::string>& channels,
                            const std::string& where) {
-    OIIO::ImageBuf copy = copied(image.buf(), "image");
+    OIIO::ImageBuf copy = read_here(image.buf(), "image");
     if (!channels.empty() && int(channels.size()) != copy.nchannels())
         throw py::value_error(OIIO::Strutil::fmt::format(
             "{} has {} names ({}): must be one for each of the {} channels", where, channels.size(),
@@ -173,16 +197,40 @@ OIIO::ImageBuf named_image(const InputImage& image, const std::vector<std::strin
     return copy;
 }
 
-void check_openimageio(const py::module_& module) {
+namespace {
+
+// Empty if the module's types are those of this one.
+std::string unfit(const py::module_& module) {
     const std::string version = py::str(module.attr("VERSION_STRING"));
     const std::string minor =
         OIIO::Strutil::fmt::format("{}.{}.", OIIO_VERSION_MAJOR, OIIO_VERSION_MINOR);
     if (version.compare(0, minor.size(), minor) != 0)
-        throw py::import_error("the OpenImageIO module is " + version +
-                               ", tonetool was built with " + OIIO_VERSION_STRING);
-    if (!py::detail::get_type_info(typeid(OIIO::ImageBuf), false))
-        throw py::import_error("the OpenImageIO module was built with another pybind11 or compiler "
-                               "than tonetool, which therefore does not know its ImageBuf");
+        return "the OpenImageIO module is " + version + ", tonetool was built with " +
+               OIIO_VERSION_STRING;
+    if (!knows_imagebuf())
+        return "the OpenImageIO module was built with another pybind11 or compiler than tonetool";
+    return "";
+}
+
+} // namespace
+
+void find_openimageio() {
+    try {
+        reason() = unfit(py::module_::import("OpenImageIO"));
+    } catch (const py::error_already_set& error) {
+        if (!error.matches(PyExc_Exception))
+            throw;
+        reason() = "the OpenImageIO module cannot be imported (" +
+                   valid_utf8(py::str(error.value())) + ")";
+    }
+}
+
+bool knows_imagebuf() {
+    return py::detail::get_type_info(typeid(OIIO::ImageBuf), false) != nullptr;
+}
+
+const std::string& why_no_imagebuf() {
+    return reason();
 }
 
 } // namespace tonetool::python

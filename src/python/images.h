@@ -41,8 +41,13 @@ private:
     int m_dimensions = 0;
 };
 
-/// Checks the version of the OpenImageIO module and that its types are those of this module.
-void check_openimageio(const py::module_& module);
+/// Looks for OpenImageIO's module. It may be missing, or be of another version, pybind11 or
+/// compiler than this one: then its ImageBuf is unknown here.
+void find_openimageio();
+/// Whether an ImageBuf can be taken and given.
+bool knows_imagebuf();
+/// Why it cannot.
+const std::string& why_no_imagebuf();
 
 /// How a result is handed back: as what was given.
 struct OutputKind {
@@ -57,11 +62,17 @@ struct OutputKind {
     }
 };
 
-/// The pixels change hands without a copy.
+/// The pixels change hands without a copy. Where ImageBuf is unknown, always an array.
 py::object to_python(OIIO::ImageBuf&& image, OutputKind kind);
 
 /// Refuses an image that could not be read, in its reader's words.
 void check_read(const OIIO::ImageBuf& image, const std::string& function);
+
+/// What a reader said of a file, which it names.
+std::string with_path(const std::string& path, const std::string& why);
+
+/// The pixels in memory: of an image that is still in its file those are read, else it is a copy.
+OIIO::ImageBuf read_here(const OIIO::ImageBuf& image, const std::string& function);
 
 /// A copy of an array (or of the ImageBuf's pixels) as an ImageBuf with names of channels.
 OIIO::ImageBuf named_image(const InputImage& image, const std::vector<std::string>& channels,

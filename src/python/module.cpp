@@ -28,6 +28,7 @@ void add_everything(Module& module) {
     add_pixels(module);
     add_compare(module);
     add_flip(module);
+    add_evaluate(module);
     add_errors(module);
     add_tmqi(module);
     add_tonemap(module);
@@ -45,7 +46,7 @@ void add_everything(Module& module) {
 } // namespace
 
 PYBIND11_MODULE(_tonetool, handle) {
-    check_openimageio(py::module_::import("OpenImageIO"));
+    find_openimageio();
     // Classes and functions belong to the package.
     handle.attr("__name__") = "tonetool";
     add_error(handle);

@@ -45,6 +45,8 @@ py::object color_layers(std::vector<py::object>& images) {
 py::object image(std::vector<py::object>& images, const ChannelOptions& options) {
     const InputImage pixels(images[0], "image: pixels",
                             options.channels.empty() ? Channels::Plain : Channels::Named);
+    if (!knows_imagebuf())
+        throw py::import_error("image: makes an OpenImageIO.ImageBuf: " + why_no_imagebuf());
     return py::cast(named_image(pixels, options.channels, "image: channels"));
 }
 
@@ -93,6 +95,10 @@ void add_pixels(Module& module) {
                        "An image that cannot be read.",
                        kSource},
            color_layers);
+    define_names(
+        module, "library_versions",
+        "Versions of OpenImageIO, OpenColorIO and OpenEXR, and the instruction set in use.",
+        kSource, library_versions);
     define_names(module, "color_spaces", "Names of the colour spaces that `from` takes.", kSource,
                  ToneAlgo::color_spaces);
     define(module,

@@ -89,6 +89,44 @@ std::vector<std::pair<std::string, py::object>> to_pairs(py::handle value, const
     return pairs;
 }
 
+namespace {
+
+struct RegionField {
+    const char* name;
+    int OIIO::ROI::*member;
+};
+const RegionField kRegionFields[] = {
+    {"xbegin", &OIIO::ROI::xbegin},   {"xend", &OIIO::ROI::xend},
+    {"ybegin", &OIIO::ROI::ybegin},   {"yend", &OIIO::ROI::yend},
+    {"zbegin", &OIIO::ROI::zbegin},   {"zend", &OIIO::ROI::zend},
+    {"chbegin", &OIIO::ROI::chbegin}, {"chend", &OIIO::ROI::chend}};
+
+} // namespace
+
+OIIO::ROI to_region(py::handle value, const std::string& where) {
+    if (py::isinstance<OIIO::ROI>(value))
+        return value.cast<OIIO::ROI>();
+    OIIO::ROI region;
+    for (const RegionField& one : kRegionFields) {
+        if (!py::hasattr(value, one.name))
+            wrong_type(where, value, "an OpenImageIO.ROI");
+        region.*one.member = Python<int>::from(value.attr(one.name), where + ": " + one.name);
+    }
+    return region;
+}
+
+py::object region_object(const OIIO::ROI& region) {
+    return py::detail::get_type_info(typeid(OIIO::ROI), false) ? py::cast(region)
+                                                               : region_tuple(region);
+}
+
+py::object region_tuple(const OIIO::ROI& region) {
+    py::dict fields;
+    for (const RegionField& one : kRegionFields)
+        fields[one.name] = region.*one.member;
+    return py::module_::import("tonetool").attr("_Region")(**fields);
+}
+
 size_t place_of(py::handle value, const std::string& where, const std::vector<std::string>& names) {
     const std::string name = to_text(value, where);
     const auto found = std::find(names.begin(), names.end(), name);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <OpenImageIO/imagebuf.h>
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <limits>
@@ -51,7 +52,13 @@ std::vector<std::pair<std::string, py::object>> to_pairs(py::handle value, const
 /// was added before.
 template <class T, class = void>
 struct Python {
+    static std::string wanted() { return given(); }
     static std::string given() { return py::str(py::type::of<T>().attr("__name__")); }
+    static T from(py::handle v, const std::string& where) {
+        if (!py::isinstance<T>(v))
+            wrong_type(where, v, "a " + given());
+        return v.cast<T>();
+    }
     static py::object to(const T& v) { return py::cast(v); }
 };
 
@@ -144,6 +151,15 @@ struct Python<std::vector<T>> {
 template <class T, size_t N>
 struct Python<std::array<T, N>> {
     static std::string given() { return "list[" + Python<T>::given() + "]"; }
+    static std::array<T, N> from(py::handle v, const std::string& where) {
+        const std::vector<T> items = Python<std::vector<T>>::from(v, where);
+        if (items.size() != N)
+            throw py::value_error(where + " has " + std::to_string(items.size()) +
+                                  " items: must be " + std::to_string(N));
+        std::array<T, N> array{};
+        std::copy(items.begin(), items.end(), array.begin());
+        return array;
+    }
     static py::object to(const std::array<T, N>& v) { return list_of(v); }
 };
 
@@ -188,6 +204,12 @@ struct Python<std::vector<std::pair<std::string, std::string>>> {
 template <>
 struct Python<std::map<std::string, std::string>> {
     static std::string given() { return "dict[str, str]"; }
+    static std::map<std::string, std::string> from(py::handle v, const std::string& where) {
+        std::map<std::string, std::string> map;
+        for (const auto& [key, value] : to_pairs(v, where, "Mapping[str, str]"))
+            map[key] = to_text(value, where + "[\"" + key + "\"]");
+        return map;
+    }
     static py::object to(const std::map<std::string, std::string>& v) {
         py::dict dict;
         for (const auto& [key, value] : v)
@@ -196,19 +218,22 @@ struct Python<std::map<std::string, std::string>> {
     }
 };
 
+/// Of an OpenImageIO.ROI, of another OpenImageIO's, or of anything that has its fields.
+OIIO::ROI to_region(py::handle value, const std::string& where);
+/// An OpenImageIO.ROI, or where that module is missing a tuple with its fields.
+py::object region_object(const OIIO::ROI& region);
+/// The tuple, which can be pickled.
+py::object region_tuple(const OIIO::ROI& region);
+
 template <>
 struct Python<OIIO::ROI> {
     static std::string wanted() { return "ROI | None"; }
     static std::string given() { return "ROI"; }
     static OIIO::ROI from(py::handle v, const std::string& where) {
-        if (v.is_none())
-            return {};
-        if (!py::isinstance<OIIO::ROI>(v))
-            wrong_type(where, v, "an OpenImageIO.ROI");
-        return v.cast<OIIO::ROI>();
+        return v.is_none() ? OIIO::ROI() : to_region(v, where);
     }
     static py::object to(const OIIO::ROI& v) {
-        return v.defined() ? py::cast(v) : py::object(py::none());
+        return v.defined() ? region_object(v) : py::object(py::none());
     }
 };
 

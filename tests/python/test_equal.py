@@ -18,7 +18,7 @@ def fact(text, name):
 def test_hdr_flip(pair, program, tmp_path):
     ref_file, test_file, ref, test = pair
     text = program(ref_file, test_file, "--hdrflip:exposuremap=stops", "-o", "map.exr", "--pop", "-o",
-                   "stops.exr")
+                   "stops.exr", "-v")
     found = tonetool.hdr_flip(ref, test, want_exposure_map=True)
     assert same(found.map, tmp_path / "map.exr")
     assert same(found.exposure_stops, tmp_path / "stops.exr")

@@ -61,7 +61,7 @@ const Rows kGeneralRows = {
                 session.outcome.produced = true;
                 session.print(TONETOOL_VERSION);
                 if (!session.settings.compat)
-                    session.print(library_versions());
+                    session.print(join(library_versions(), "\n"));
             }),
     command("v|verbose", "Say what is read and written, and all that is measured",
             [](Session& session, const Call&) {

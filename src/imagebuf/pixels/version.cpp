@@ -27,10 +27,10 @@ const char* version() noexcept {
     return TONETOOL_VERSION;
 }
 
-std::string library_versions() {
-    return "OpenImageIO " + std::string(OIIO::get_string_attribute("version")) + "\nOpenColorIO " +
-           OCIO_NAMESPACE::GetVersion() + "\n" + openexr_version() + "\ninstruction set " +
-           kernels::curve_target();
+std::vector<std::string> library_versions() {
+    return {"OpenImageIO " + std::string(OIIO::get_string_attribute("version")),
+            std::string("OpenColorIO ") + OCIO_NAMESPACE::GetVersion(), openexr_version(),
+            std::string("instruction set ") + kernels::curve_target()};
 }
 
 } // namespace tonetool

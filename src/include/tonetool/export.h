@@ -9,6 +9,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "tonetool/version.h" // TONETOOL_VERSION, "major.minor.patch"
 

@@ -28,7 +28,13 @@ run while a function computes.
     >>> found.summary.pool.mean, found.map
 """
 
-from . import _tonetool
+from collections import namedtuple
+
+# Stands for an OpenImageIO.ROI where that module is missing.
+_Region = namedtuple("_Region", "xbegin xend ybegin yend zbegin zend chbegin chend",
+                     defaults=(0, 1, 0, 10000))
+
+from . import _tonetool  # noqa: E402: it uses what is above
 from ._tonetool import *  # noqa: F401,F403: its __all__ is the list of what there is
 from ._tonetool import CheckFailed, Error, __version__
 

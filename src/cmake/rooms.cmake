@@ -1,0 +1,26 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# The rooms, from the ground up. A room links only the rooms above it in this list, so that the
+# link lines keep the order.
+function(tonetool_room name)
+  get_filename_component(tonetool_rooms ${CMAKE_CURRENT_FUNCTION_LIST_DIR} DIRECTORY)
+  cmake_parse_arguments(ROOM "" "" "SOURCES;ROOMS;LIBRARIES" ${ARGN})
+  add_library(tonetool_${name} STATIC ${ROOM_SOURCES})
+  target_include_directories(tonetool_${name} PUBLIC
+    ${tonetool_rooms} ${tonetool_rooms}/include)
+  target_link_libraries(tonetool_${name} PRIVATE tonetool_flags PUBLIC ${ROOM_LIBRARIES})
+  foreach(room IN LISTS ROOM_ROOMS)
+    target_link_libraries(tonetool_${name} PUBLIC tonetool_${room})
+  endforeach()
+  # Half of what it takes to compile a file of these are the headers that all of them include.
+  if(TONETOOL_UNITY_BUILD AND name MATCHES "^(imagebuf|sequence|chain|runs|recipe|text)$")
+    set_target_properties(tonetool_${name} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 8)
+  endif()
+  # Of the rooms above libtonetool the first one precompiles headers for all; imagebuf, compiled with
+  # what Highway defines, its own.
+  if(TARGET tonetool_text AND NOT name STREQUAL text)
+    target_precompile_headers(tonetool_${name} REUSE_FROM tonetool_text)
+  endif()
+endfunction()
+
+set(tonetool_precompiled
+  <OpenImageIO/imagebufalgo.h> <algorithm> <functional> <map> <string> <vector>)
