@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
 # Builds the Debian package and tries it in a new system without compilers, as root:
-#   package.sh bookworm|trixie
+#   package.sh bookworm|trixie [--chroot]
 # The package is left in build/package-SUITE. It is built on this system where that is of the suite,
-# else in the suite's build system of matrix.sh (see chroots.sh).
+# else, and with --chroot, in the suite's build system of matrix.sh (see chroots.sh).
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/chroots.sh"
 
@@ -21,7 +21,8 @@ build='
 '
 rm -rf "$out"
 mkdir -p "$out"
-if [[ $suite == "$(sed -n 's/^VERSION_CODENAME=//p' /etc/os-release)" && -z ${TONETOOL_CHROOTS:-} ]]; then
+here=$(sed -n 's/^VERSION_CODENAME=//p' /etc/os-release)
+if [[ $suite == "$here" && ${2:-} != --chroot ]]; then
     bash -euo pipefail -c "$build" bash "$tree"
     cp "$tree"/build/package/deb/*.deb "$out"
 else

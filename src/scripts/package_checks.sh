@@ -70,7 +70,7 @@ manual() {
 in_bash() {
     bash --norc -c '
         source /usr/share/bash-completion/bash_completion
-        for load in _comp_load __load_completion; do
+        for load in _comp_load _completion_loader; do
             ! declare -F "$load" >/dev/null || "$load" tonetool || true
         done
         f=$(complete -p tonetool | sed "s/.*-F \([^ ]*\) .*/\1/")
