@@ -1,9 +1,10 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
 # Builds the Debian package and tries it in a new system without compilers, as root:
-#   package.sh bookworm|trixie [--chroot]
+#   package.sh bookworm|trixie [--chroot | FILE.deb]
 # The package is left in build/package-SUITE. It is built on this system where that is of the suite,
-# else, and with --chroot, in the suite's build system of matrix.sh (see chroots.sh).
+# else, and with --chroot, in the suite's build system of matrix.sh (see chroots.sh). FILE.deb is a
+# package to try that is built already.
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/chroots.sh"
 
@@ -19,17 +20,26 @@ build='
     rm -rf build/package/deb
     cpack --config build/package/CPackConfig.cmake -G DEB -B build/package/deb
 '
-rm -rf "$out"
-mkdir -p "$out"
+given=
+if [[ ${2:-} == *.deb ]]; then
+    given=$(realpath "$2")
+    [[ -f $given ]] || die "no file $2"
+fi
+rm -rf "$out.new"
+mkdir -p "$out.new"
 here=$(sed -n 's/^VERSION_CODENAME=//p' /etc/os-release)
-if [[ $suite == "$here" && ${2:-} != --chroot ]]; then
+if [[ -n $given ]]; then
+    cp "$given" "$out.new"
+elif [[ $suite == "$here" && ${2:-} != --chroot ]]; then
     bash -euo pipefail -c "$build" bash "$tree"
-    cp "$tree"/build/package/deb/*.deb "$out"
+    cp "$tree"/build/package/deb/*.deb "$out.new"
 else
     root=$(build_chroot "$suite")
     in_chroot "$root" bash -euo pipefail -c "$build" bash /tonetool
-    cp "$root"/build/package/deb/*.deb "$out"
+    cp "$root"/build/package/deb/*.deb "$out.new"
 fi
+rm -rf "$out"
+mv "$out.new" "$out"
 package=$(ls "$out"/*.deb)
 
 # A system that has never seen the sources. What is tried there, beside the package itself:
