@@ -9,11 +9,12 @@ set(CPACK_PACKAGE_NAME tonetool)
 set(CPACK_PACKAGE_VENDOR "The tonetool authors")
 set(CPACK_PACKAGE_CONTACT "${TONETOOL_PACKAGER}")
 set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "${PROJECT_DESCRIPTION}")
-set(CPACK_PACKAGE_DESCRIPTION "HDR-FLIP compares a render with a reference: one error map, one number and an exit
-status, for any exposure that a viewer may pick. Tone curves and OpenColorIO
-views show HDR pictures on a display. The command line is oiiotool's.
-The package holds the program, the library with its headers, the Python module,
-the OpenImageIO plugin that reads recipes, and tonetool-slurm.")
+set(CPACK_PACKAGE_DESCRIPTION "HDR-FLIP compares a render with a reference: one error map, one number and
+an exit status, for any exposure that a viewer may pick. Tone curves and
+OpenColorIO views show HDR pictures on a display. The command line is
+that of oiiotool. The package holds the program, the library with its
+headers, the Python module, the OpenImageIO plugin that reads recipes, and
+tonetool-slurm.")
 set(CPACK_RESOURCE_FILE_LICENSE ${PROJECT_SOURCE_DIR}/LICENSE)
 set(CPACK_PACKAGING_INSTALL_PREFIX ${CMAKE_INSTALL_PREFIX})
 set(CPACK_STRIP_FILES ON)
@@ -38,7 +39,6 @@ set(CPACK_DEBIAN_PACKAGE_RELEASE 1${suite})
 set(CPACK_DEBIAN_PACKAGE_SECTION graphics)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS ${PROJECT_BINARY_DIR}/src)
-set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS ON)
 set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
 set(CPACK_DEBIAN_PACKAGE_DEPENDS python3)
 if(TONETOOL_BUILD_PYTHON)
@@ -60,8 +60,10 @@ foreach(script IN ITEMS postinst prerm)
     OWNER_READ OWNER_WRITE OWNER_EXECUTE GROUP_READ GROUP_EXECUTE WORLD_READ WORLD_EXECUTE)
 endforeach()
 file(WRITE ${debian_dir}/triggers "activate-noawait ldconfig\n")
+set(so_version ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
+file(WRITE ${debian_dir}/shlibs "libtonetool ${so_version} tonetool (>= ${PROJECT_VERSION})\n")
 set(CPACK_DEBIAN_PACKAGE_CONTROL_EXTRA
-  ${debian_dir}/postinst ${debian_dir}/prerm ${debian_dir}/triggers)
+  ${debian_dir}/postinst ${debian_dir}/prerm ${debian_dir}/triggers ${debian_dir}/shlibs)
 if(TONETOOL_DEBIAN)
   file(READ ${PROJECT_SOURCE_DIR}/LICENSE licence)
   file(READ ${PROJECT_SOURCE_DIR}/src/THIRD_PARTY.md third_party)

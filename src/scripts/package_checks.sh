@@ -26,8 +26,7 @@ check() {
     fi
 }
 
-# A line of the README. A verdict (3) is no fault of the package; an error (1) is. Programs that read
-# recipes get the folder of the plugin as --doctor says it.
+# A line of the README. A verdict (3) is no fault of the package; an error (1) is.
 readme_line() {
     local status=0
     bash -c "$1" || status=$?
@@ -38,10 +37,14 @@ readme_lines() {
     sed -n '/^```sh$/,/^```$/{/^```/d; /^\(tonetool\|oiiotool\|iinfo\|maketx\) /p}' "$here/README.md"
 }
 
-# The line that mends it, typed as it is printed.
+# The line that mends it, to be typed as it is printed.
+doctors_line() {
+    tonetool --doctor 2>&1 | grep '^ *export OIIO_LIBRARY_PATH='
+}
+
 stock_reads_recipe() {
     local line
-    line=$(tonetool --doctor 2>&1 | grep '^export OIIO_LIBRARY_PATH=')
+    line=$(doctors_line)
     if [[ -n $line ]]; then
         echo "$line"
         eval "$line"
@@ -136,7 +139,7 @@ check "tonetool --version" tonetool --version
 count=0
 while IFS= read -r line; do
     if [[ $line != tonetool* ]]; then
-        eval "$(tonetool --doctor 2>&1 | grep '^export OIIO_LIBRARY_PATH=')"
+        eval "$(doctors_line)"
     fi
     # --doctor is for whoever has not set the variable: its status says that.
     [[ $line != "tonetool --doctor" ]] || continue

@@ -57,7 +57,7 @@ def flags(library):
 def mean(tree):
     """The mean error of the pair by the installed program."""
     text = run(tree / "bin" / "tonetool", *PAIR, "--hdrflip")
-    return float(re.search(r"^hdrflip: mean (\S+)$", text, re.M).group(1))
+    return float(re.search(r"^hdrflip: mean ([^\s,]+)", text, re.M).group(1))
 
 
 def declared_functions():
