@@ -2,6 +2,7 @@
 """The installed tree is all that a C++ project needs."""
 
 import gzip
+import json
 import os
 import re
 import shutil
@@ -172,6 +173,20 @@ def test_pages_ask_for_this_version():
     asked = {(path.name, number) for path in pages for number in
              re.findall(r"find_package\(tonetool ([\d.]+)", path.read_text(encoding="utf-8"))}
     assert asked and {number for _, number in asked} == {version}, asked
+
+
+def test_every_option_is_documented():
+    files = [ROOT / "CMakeLists.txt", *(ROOT / "src").rglob("*.cmake"), *(
+        path for part in ("src", "plugins", "tests") for path in (ROOT / part).rglob("CMakeLists.txt"))]
+    text = "\n".join(path.read_text() for path in files)
+    options = set(re.findall(r"option\((TONETOOL_\w+)", text))
+    options |= set(re.findall(r"set\((TONETOOL_\w+)[^)]*?\sCACHE\s", text))
+    options |= set(re.findall(r"find_(?:file|path|program)\((TONETOOL_\w+)", text))
+    presets = json.loads((ROOT / "CMakePresets.json").read_text())["configurePresets"]
+    page = (ROOT / "src" / "doc" / "building.md").read_text(encoding="utf-8")
+    documented = set(re.findall(r"^\| `(TONETOOL_\w+)`", page, re.M))
+    assert len(options) > 15 and documented == options, documented ^ options
+    assert not [preset["name"] for preset in presets if f"`{preset['name']}`" not in page]
 
 
 def test_find_package(tree, mean, tmp_path):
