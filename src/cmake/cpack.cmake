@@ -66,7 +66,10 @@ set(CPACK_DEBIAN_PACKAGE_CONTROL_EXTRA
   ${debian_dir}/postinst ${debian_dir}/prerm ${debian_dir}/triggers ${debian_dir}/shlibs)
 if(TONETOOL_DEBIAN)
   file(READ ${PROJECT_SOURCE_DIR}/LICENSE licence)
+  # Debian has the text of the Apache License itself, which is the last on the page.
   file(READ ${PROJECT_SOURCE_DIR}/src/THIRD_PARTY.md third_party)
+  string(REGEX REPLACE "```text\n +Apache License\n.*" "/usr/share/common-licenses/Apache-2.0\n"
+    third_party "${third_party}")
   configure_file(cmake/debian/copyright.in ${debian_dir}/copyright @ONLY)
   configure_file(cmake/debian/changelog.in ${debian_dir}/changelog.Debian @ONLY)
   configure_file(${PROJECT_SOURCE_DIR}/src/CHANGELOG.md ${debian_dir}/changelog COPYONLY)

@@ -104,7 +104,7 @@ def test_everything_is_installed(tree):
 
 
 def test_manual_is_what_the_program_prints(tree):
-    (page,) = (tree / "share" / "man" / "man1").iterdir()
+    (page,) = (tree / "share" / "man" / "man1").glob("tonetool.1*")
     text = gzip.decompress(page.read_bytes()) if page.suffix == ".gz" else page.read_bytes()
     assert text.decode() == run(tree / "bin" / "tonetool", "--help=man")
     share = tree / "share"
@@ -112,6 +112,15 @@ def test_manual_is_what_the_program_prints(tree):
                         ("zsh", "zsh/site-functions/_tonetool"),
                         ("fish", "fish/vendor_completions.d/tonetool.fish")):
         assert (share / name).read_text() == run(tree / "bin" / "tonetool", f"--help={shell}")
+
+
+def test_options_of_slurm_are_in_its_manual(tree):
+    (page,) = (tree / "share" / "man" / "man1").glob("tonetool-slurm.1*")
+    text = gzip.decompress(page.read_bytes()) if page.suffix == ".gz" else page.read_bytes()
+    told = run("/usr/bin/python3", tree / "bin" / "tonetool-slurm", "--help")
+    options = set(re.findall(r"^ +(--\w[\w-]*)", told, re.M))
+    assert len(options) > 5
+    assert set(re.findall(r"^\\fB(--\S*?)\\fR", text.decode().replace("\\-", "-"), re.M)) == options
 
 
 def test_links_between_installed_pages_lead_there(tree):
