@@ -9,6 +9,7 @@
 
 #include "chain/commands/commands.h"
 #include "chain/manual/help.h"
+#include "chain/manual/licenses.h"
 #include "chain/session/runner.h"
 #include "runs/check_run.h"
 #include "runs/frames.h"
@@ -24,6 +25,7 @@ void know_all_commands() {
         chain::add_commands(chain::Group::Check, check_commands());
         chain::add_measuring_commands();
         chain::add_commands(chain::Group::General, chain::help_commands());
+        chain::add_commands(chain::Group::General, chain::licence_commands(), true);
     });
 }
 

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The installed tree is all that a C++ project needs."""
 
+import gzip
+import json
 import os
 import re
 import shutil
@@ -55,8 +57,8 @@ def flags(library):
 @pytest.fixture(scope="session")
 def mean(tree):
     """The mean error of the pair by the installed program."""
-    text = run(tree / "bin" / "tonetool", *PAIR, "--hdrflip")
-    return float(re.search(r"^hdrflip: mean (\S+)$", text, re.M).group(1))
+    text = run(tree / "bin" / "tonetool", *PAIR, "--hdrflip", "-v")
+    return float(re.search(r"^hdrflip: mean ([^\s,]+)", text, re.M).group(1))
 
 
 def declared_functions():
@@ -84,6 +86,73 @@ def test_library_is_versioned(library):
     assert (library.parent / name).resolve() == library.resolve()
 
 
+def test_everything_is_installed(tree):
+    """What a package of a distribution would have."""
+    names = {str(path.relative_to(tree)) for path in tree.rglob("*") if path.is_file()}
+    share = "share/"
+    wanted = {"bin/tonetool", "bin/tonetool-slurm",
+              share + "tonetool/check.schema.json", share + "tonetool/ocio/tonetool.ocio",
+              share + "bash-completion/completions/tonetool",
+              share + "zsh/site-functions/_tonetool",
+              share + "fish/vendor_completions.d/tonetool.fish",
+              *(f"{share}doc/tonetool/{name}" for name in (
+                  "README.md", "CHANGELOG.md", "LICENSE", "THIRD_PARTY.md", "doc/building.md"))}
+    assert not wanted - names
+    pages = {path.relative_to(ROOT / "src") for path in (ROOT / "src" / "doc").rglob("*.md")}
+    assert not {page for page in pages if f"{share}doc/tonetool/{page}" not in names}
+    assert [name for name in names if re.match(r"lib.*/tone\.imageio\.so$", name)]
+
+
+def test_manual_is_what_the_program_prints(tree):
+    (page,) = (tree / "share" / "man" / "man1").glob("tonetool.1*")
+    text = gzip.decompress(page.read_bytes()) if page.suffix == ".gz" else page.read_bytes()
+    assert text.decode() == run(tree / "bin" / "tonetool", "--help=man")
+    share = tree / "share"
+    for shell, name in (("bash", "bash-completion/completions/tonetool"),
+                        ("zsh", "zsh/site-functions/_tonetool"),
+                        ("fish", "fish/vendor_completions.d/tonetool.fish")):
+        assert (share / name).read_text() == run(tree / "bin" / "tonetool", f"--help={shell}")
+
+
+def test_options_of_slurm_are_in_its_manual(tree):
+    (page,) = (tree / "share" / "man" / "man1").glob("tonetool-slurm.1*")
+    text = gzip.decompress(page.read_bytes()) if page.suffix == ".gz" else page.read_bytes()
+    told = run("/usr/bin/python3", tree / "bin" / "tonetool-slurm", "--help")
+    options = set(re.findall(r"^ +(--\w[\w-]*)", told, re.M))
+    assert len(options) > 5
+    assert set(re.findall(r"^\\fB(--\S*?)\\fR", text.decode().replace("\\-", "-"), re.M)) == options
+
+
+def test_links_between_installed_pages_lead_there(tree):
+    """A link to a page that is installed too; pictures and sources are not."""
+    top = tree / "share" / "doc" / "tonetool"
+    source_of = {page: ROOT / ("src" if page.parent != top or page.name != "README.md" else "")
+                 / page.relative_to(top) for page in top.rglob("*.md")}
+    followed = 0
+    for page, source in source_of.items():
+        links = [re.findall(r"\]\(([^)#:\s]+\.md)", path.read_text(encoding="utf-8"))
+                 for path in (page, source)]
+        for installed, link in zip(*links):
+            if (source.parent / link).resolve() in source_of.values():
+                assert (page.parent / installed).exists(), (page.name, installed)
+                followed += 1
+    assert followed or not any("](src/doc/" in path.read_text() for path in source_of.values())
+
+
+def test_slurm_takes_the_program_beside_it(tree, tmp_path):
+    """Whatever is on the path, and by a link from elsewhere."""
+    link = tmp_path / "tonetool-slurm"
+    link.symlink_to(tree / "bin" / "tonetool-slurm")
+    anim = ROOT / "testimages" / "anim"
+    words = ["--frames", "1-4", anim / "ref.#.exr", anim / "test.#.exr", "--hdrflip", "--json",
+             tmp_path / "check.json"]
+    for script in (tree / "bin" / "tonetool-slurm", link):
+        text = run("/usr/bin/python3", script, "--dry-run", "--", *words,
+                   env={"PATH": str(tmp_path / "nothing")})
+        lines = [line for line in text.splitlines() if " --frames " in line or "--merge" in line]
+        assert lines and all(line.startswith(f"{tree}/bin/tonetool ") for line in lines), text
+
+
 def test_only_the_headers_are_installed(tree):
     """Those of the sources, and the one that the build makes of the project's version."""
     installed = {path.relative_to(tree / "include") for path in (tree / "include").rglob("*.*")}
@@ -103,6 +172,30 @@ def test_header_compiles_alone(header, flags, tmp_path):
     source.write_text(f"#include <tonetool/{header}>\n#include <tonetool/{header}>\n")
     run(CXX, "-std=c++17", "-fsyntax-only", "-Wall", "-Wextra", "-Werror", *flags("--cflags"),
         source)
+
+
+def test_pages_ask_for_this_version():
+    version = re.search(r"project\(tonetool VERSION (\d+\.\d+)",
+                        (ROOT / "CMakeLists.txt").read_text()).group(1)
+    pages = [ROOT / "README.md", *(ROOT / "src" / "doc").rglob("*.md"),
+             HERE / "example" / "CMakeLists.txt"]
+    asked = {(path.name, number) for path in pages for number in
+             re.findall(r"find_package\(tonetool ([\d.]+)", path.read_text(encoding="utf-8"))}
+    assert asked and {number for _, number in asked} == {version}, asked
+
+
+def test_every_option_is_documented():
+    files = [ROOT / "CMakeLists.txt", *(ROOT / "src").rglob("*.cmake"), *(
+        path for part in ("src", "plugins", "tests") for path in (ROOT / part).rglob("CMakeLists.txt"))]
+    text = "\n".join(path.read_text() for path in files)
+    options = set(re.findall(r"option\((TONETOOL_\w+)", text))
+    options |= set(re.findall(r"set\((TONETOOL_\w+)[^)]*?\sCACHE\s", text))
+    options |= set(re.findall(r"find_(?:file|path|program)\((TONETOOL_\w+)", text))
+    presets = json.loads((ROOT / "CMakePresets.json").read_text())["configurePresets"]
+    page = (ROOT / "src" / "doc" / "building.md").read_text(encoding="utf-8")
+    documented = set(re.findall(r"^\| `(TONETOOL_\w+)`", page, re.M))
+    assert len(options) > 15 and documented == options, documented ^ options
+    assert not [preset["name"] for preset in presets if f"`{preset['name']}`" not in page]
 
 
 def test_find_package(tree, mean, tmp_path):
@@ -150,7 +243,7 @@ def test_installed_python_module(tree):
 def test_other_version_is_refused(tree, tmp_path):
     shutil.copytree(HERE / "example", tmp_path / "source")
     lists = tmp_path / "source" / "CMakeLists.txt"
-    lists.write_text(lists.read_text().replace("tonetool 0.2", "tonetool 0.9"))
+    lists.write_text(re.sub(r"tonetool \d+\.\d+", "tonetool 99.0", lists.read_text()))
     text = run(CMAKE, "-S", tmp_path / "source", "-B", tmp_path / "build",
                f"-DCMAKE_PREFIX_PATH={tree}", status=1)
-    assert 'compatible with requested version "0.9"' in text
+    assert 'compatible with requested version "99.0"' in text

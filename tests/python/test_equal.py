@@ -133,7 +133,7 @@ def test_tmqi(pair, program, tmp_path):
     picture = tonetool.tonemap(ref).image
     tonetool.write_image(picture, tmp_path / "picture.exr")
     # An EXR file does not keep the mark of sRGB.
-    text = program(ref_file, "picture.exr", "--tmqi:ldrfrom=srgb", "-o", "map.exr")
+    text = program(ref_file, "picture.exr", "--tmqi:ldrfrom=srgb", "-o", "map.exr", "-v")
     found = tonetool.tmqi(ref, picture, ldr_pixels={"from": "srgb"})
     assert same(found.map, tmp_path / "map.exr")
     assert f"{tonetool.tmqi_quantity(found.summary.score, 'Q'):.6g}" == fact(text, "Q")

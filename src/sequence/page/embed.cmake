@@ -1,21 +1,15 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # Writes OUT: the parts of the page (FOLDER, CHART) as C++ strings, each with its SHA-256, by which
-# the page's Content-Security-Policy lets them, and nothing else, run.
+# the page's Content-Security-Policy lets them, and nothing else, run; and what THIRD_PARTY says of
+# Chart.js, as HTML.
 cmake_minimum_required(VERSION 3.25)
 set(scripts model.js curve.js viewer.js facts.js lists.js page.js)
 
+include(${CMAKE_CURRENT_LIST_DIR}/../../cmake/embed_text.cmake)
+
 function(add_text name text)
+  embed_text(${name} "${text}")
   string(SHA256 hash "${text}")
-  # Compilers have a limit for one literal.
-  string(LENGTH "${text}" length)
-  set(at 0)
-  set(pieces "")
-  while(at LESS length)
-    string(SUBSTRING "${text}" ${at} 12000 piece)
-    string(APPEND pieces "\n    R\"~page~(${piece})~page~\"")
-    math(EXPR at "${at} + 12000")
-  endwhile()
-  string(APPEND code "const char* const ${name} =${pieces};\n")
   string(APPEND code "const char* const ${name}_hash = \"${hash}\";\n")
   set(code "${code}" PARENT_SCOPE)
 endfunction()
@@ -35,11 +29,26 @@ foreach(part IN ITEMS style chart script)
   endif()
 endforeach()
 
+# From the heading of Chart.js to that of the first one that is not a part of it.
+file(READ "${THIRD_PARTY}" licences)
+string(FIND "${licences}" "\n## Chart.js\n" begin)
+string(FIND "${licences}" "\n## nlohmann/json\n" end)
+if(begin LESS 0 OR end LESS begin)
+  message(FATAL_ERROR "${THIRD_PARTY} does not have the licences of Chart.js before nlohmann/json's")
+endif()
+math(EXPR length "${end} - ${begin}")
+string(SUBSTRING "${licences}" ${begin} ${length} licences)
+string(REGEX REPLACE "\n(## |```text|```)" "\n" licences "${licences}")
+string(REPLACE "&" "&amp;" licences "${licences}")
+string(REPLACE "<" "&lt;" licences "${licences}")
+string(REPLACE ">" "&gt;" licences "${licences}")
+
 set(code "// Made by embed.cmake.\n#include \"sequence/page/files.h\"\n\n")
 string(APPEND code "namespace tonetool::sequence::page {\n\n")
 add_text(html "${html}")
 add_text(style "${style}")
 add_text(script "${script}")
 add_text(chart "${chart}")
+embed_text(licences "${licences}")
 string(APPEND code "\n} // namespace tonetool::sequence::page\n")
 file(WRITE "${OUT}" "${code}")

@@ -230,6 +230,7 @@ std::string report_page(const ShotResult& shot, const PictureStore& pictures,
                                {"shot", escaped(shot_name(shot))},
                                {"counts", counts_html(shot)},
                                {"plain_list", list_html(shot)},
+                               {"licences", page::licences},
                                {"data", data + found.blocks},
                                {"chart", page::chart},
                                {"script", page::script}});
