@@ -144,7 +144,8 @@ def test_images_keep_pixels_and_header():
 def test_any_image_of_chain(tmp_path):
     """Half floats, names of channels and a data window come back."""
     path = tmp_path / "half.exr"
-    (image,) = tonetool.chain(["--pattern", "noise", "40x30+5+6", "4", "--fullsize", "60x50+0+0", "-d", "half", "-o", path]).images
+    (image,) = tonetool.chain(["--pattern", "noise", "40x30+5+6", "4", "--fullsize", "60x50+0+0",
+                               "-d", "half", "-o", path]).images
     (left,) = tonetool.chain([path]).images
     found = tonetool.chain("--dup", [left, oiio.ImageBuf(str(path))])
     again = pickle.loads(pickle.dumps(found))
