@@ -2,6 +2,8 @@
 // Which pixels of an image a function looks at.
 #include "tonetool/pixels.h"
 
+#include "tonetool/libraries.h"
+
 #include "python/families.h"
 #include "python/results.h"
 

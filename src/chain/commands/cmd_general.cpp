@@ -5,7 +5,7 @@
 
 #include "chain/commands/commands.h"
 #include "chain/session/ops.h"
-#include "tonetool/export.h"
+#include "tonetool/libraries.h"
 
 namespace tonetool::chain {
 

@@ -4,7 +4,7 @@
 #include <OpenImageIO/strutil.h>
 
 #include "kernels/curve_rows.h"
-#include "tonetool/export.h"
+#include "tonetool/libraries.h"
 
 namespace tonetool {
 

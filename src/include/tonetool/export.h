@@ -8,9 +8,6 @@
 // hold to that.
 #pragma once
 
-#include <string>
-#include <vector>
-
 #include "tonetool/version.h" // TONETOOL_VERSION, "major.minor.patch"
 
 #if defined(__GNUC__) || defined(__clang__)
@@ -23,9 +20,5 @@ namespace tonetool {
 
 /// Version of the library that is running, "major.minor.patch".
 TONETOOL_API const char* version() noexcept;
-
-/// What the library runs with, one "name version" a line: OpenImageIO, OpenColorIO, OpenEXR, and
-/// the instruction set that its kernels use on this machine ("AVX2").
-TONETOOL_API std::string library_versions();
 
 } // namespace tonetool

@@ -9,6 +9,7 @@
 #include "tonetool/errors.h"
 #include "tonetool/export.h"
 #include "tonetool/flip.h"
+#include "tonetool/libraries.h"
 #include "tonetool/lights.h"
 #include "tonetool/luminance.h"
 #include "tonetool/lut.h"
