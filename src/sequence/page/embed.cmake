@@ -39,6 +39,8 @@ endif()
 math(EXPR length "${end} - ${begin}")
 string(SUBSTRING "${licences}" ${begin} ${length} licences)
 string(REGEX REPLACE "\n(## |```text|```)" "\n" licences "${licences}")
+# The page names no other place, not even in a text.
+string(REGEX REPLACE "https?://" "" licences "${licences}")
 string(REPLACE "&" "&amp;" licences "${licences}")
 string(REPLACE "<" "&lt;" licences "${licences}")
 string(REPLACE ">" "&gt;" licences "${licences}")
