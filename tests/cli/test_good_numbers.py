@@ -28,7 +28,7 @@ def rows(text):
     found = {}
     for line in text.splitlines():
         cells = [cell.strip() for cell in line.strip("|").split("|")]
-        if line.startswith("|") and "," in cells[0] and not cells[0].startswith("scene"):
+        if line.startswith("|") and "," in cells[0] and not cells[0].startswith(("scene, s", "scene, c")):
             found[cells[0]] = cells[1:]
     return found
 
