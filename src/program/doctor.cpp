@@ -58,8 +58,9 @@ Strings searched_folders() {
     for (const std::string& option : folders_of("OPENIMAGEIO_OPTIONS"))
         if (OIIO::Strutil::starts_with(option, "plugin_searchpath="))
             more.push_back(option.substr(option.find('=') + 1));
-    const Strings other =
-        folders_of(OIIO_VERSION < 20600 ? "LD_LIBRARY_PATH" : "OPENIMAGEIO_PLUGIN_PATH");
+    const Strings other = OIIO_VERSION < 20500   ? folders_of("LD_LIBRARY_PATH")
+                          : OIIO_VERSION < 20600 ? Strings()
+                                                 : folders_of("OPENIMAGEIO_PLUGIN_PATH");
     all.insert(all.end(), more.begin(), more.end());
     all.insert(all.end(), other.begin(), other.end());
     return all;
