@@ -125,8 +125,8 @@ Noise find_noise(Pixels& pixels, Sums& sums, const ParallelFor& parallel, BiasRe
     Noise noise;
     noise.unlike = out.unlike;
     if (out.unlike) {
-        sum_moments(pixels, sums, parallel);
-        out.rare = noise.rare = firefly_shares(pixels, sums, out.unlike, parallel);
+        sum_tails(pixels, out.unlike, sums, parallel);
+        out.rare = noise.rare = firefly_shares(sums, out.unlike);
     }
     if (out.correlated) { // of a first-order autoregression along both axes
         const double ratio = (1 + out.correlation) / std::max(1 - out.correlation, 0.02);

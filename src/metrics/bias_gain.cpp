@@ -31,6 +31,7 @@ struct Weighted {
 std::vector<Weighted> weighted_colours(const Sums& sums, int channel) {
     const Grid& grid = sums.cells.scale[0].grid;
     std::vector<Weighted> out;
+    out.reserve(2 * grid.count());
     for (int row = 0; row < grid.rows(); ++row)
         for (int column = 0; column < grid.columns(); ++column) {
             const ChannelSums block = block_sums(sums, channel, 0, column, row);

@@ -7,9 +7,6 @@
 namespace tonetool::metrics::bias {
 namespace {
 
-// A pixel whose difference is above this many times the level of its 16-block is a firefly.
-constexpr double kOutlier = 10;
-
 double median(std::vector<double> values) {
     if (values.empty())
         return 0;
@@ -18,62 +15,6 @@ double median(std::vector<double> values) {
     if (values.size() % 2)
         return *middle;
     return 0.5 * (*std::max_element(values.begin(), middle) + *middle);
-}
-
-struct Seen {
-    double light = 0;
-    int64_t count = 0;
-};
-
-Seen seen_in(const double* d, int count, int unlike, double threshold) {
-    Seen out;
-    for (int i = 0; i < count; ++i)
-        if (d[i] * unlike > threshold) {
-            out.light += d[i] * unlike;
-            ++out.count;
-        }
-    return out;
-}
-
-// Of the cleaner side. T is R + d.
-double clean_sum(const ChannelSums& sums, int unlike) {
-    return unlike > 0 ? sums.sum_r() : sums.sum_r() + sums.sum_d();
-}
-
-// What they bring, times an upper limit (99 %) of how many were to be expected, over how many were
-// seen: k + 2.33 sqrt(k + 1) + 2.7 is above the limit of a Poisson distribution's mean.
-double share(const Seen& seen, double clean) {
-    if (seen.count == 0 || clean <= 0)
-        return 0;
-    const auto k = double(seen.count);
-    return seen.light / clean * (k + 2.33 * std::sqrt(k + 1) + 2.7) / k;
-}
-
-using Fireflies = std::array<Seen, kBiasChannels>;
-
-// Of one row of 16-blocks.
-Fireflies fireflies_in_row(const Pixels& pixels, const Sums& sums, int unlike, int row) {
-    Fireflies out;
-    const Cells::Scale& blocks = sums.cells.scale[0];
-    Tile tile;
-    for (int column = 0; column < blocks.grid.columns(); ++column) {
-        double threshold[kBiasChannels];
-        for (int c = 0; c < kBiasChannels; ++c) {
-            const ChannelSums block = block_sums(sums, c, 0, column, row);
-            threshold[c] = kOutlier * std::max(clean_sum(block, unlike) / block.pixels(), 0.0);
-        }
-        for (int y = blocks.y[size_t(row)]; y < blocks.y[size_t(row) + 1]; ++y)
-            for (int x = blocks.x[size_t(column)]; x < blocks.x[size_t(column) + 1]; ++x) {
-                pixels.tile(cell_window(sums.cells.grid, x, y), tile);
-                for (size_t c = 0; c < kBiasChannels; ++c) {
-                    const Seen seen =
-                        seen_in(tile.d[c], tile.width * tile.height, unlike, threshold[c]);
-                    out[c].light += seen.light;
-                    out[c].count += seen.count;
-                }
-            }
-    }
-    return out;
 }
 
 // Luminance of d without the means of its 32-blocks, a row at a time.
@@ -139,25 +80,20 @@ double asymmetry(const Sums& sums) {
 }
 
 // Energy that rare paths have not brought yet is missing in most blocks of the noisier side:
-// against a converged reference most of the image is darker.
-std::array<double, kBiasChannels> firefly_shares(const Pixels& pixels, const Sums& sums, int unlike,
-                                                 const kernels::ParallelFor& parallel) {
-    const int rows = sums.cells.scale[0].grid.rows();
-    std::vector<Fireflies> found(static_cast<size_t>(rows));
-    parallel(rows, [&](int64_t row) {
-        found[size_t(row)] = fireflies_in_row(pixels, sums, unlike, int(row));
-    });
+// against a converged reference most of the image is darker. What those that were seen bring, times
+// an upper limit (99 %) of how many were to be expected over how many were seen: k + 2.33 sqrt(k +
+// 1) + 2.7 is about that of a Poisson distribution's mean.
+std::array<double, kBiasChannels> firefly_shares(const Sums& sums, int unlike) {
     std::array<double, kBiasChannels> out{};
     for (size_t c = 0; c < kBiasChannels; ++c) {
-        Seen all;
-        for (const Fireflies& row : found) {
-            all.light += row[c].light;
-            all.count += row[c].count;
-        }
-        double clean = 0;
-        for (const ChannelSums& cell : sums.channel[c])
+        double light = 0, clean = 0, k = 0;
+        for (const ChannelSums& cell : sums.channel[c]) {
+            light += cell.outlier_light;
+            k += double(cell.outliers);
             clean += clean_sum(cell, unlike);
-        out[c] = share(all, clean);
+        }
+        if (k > 0 && clean > 0)
+            out[c] = light / clean * (k + 2.33 * std::sqrt(k + 1) + 2.7) / k;
     }
     return out;
 }

@@ -10,9 +10,8 @@ namespace tonetool::metrics::bias {
 double asymmetry(const Sums& sums);
 
 /// Part of the light of the cleaner side that fireflies of the noisier one may carry and which none
-/// of this image's brought, an upper limit. `unlike`: 1 where the test is noisier, else -1.
-std::array<double, kBiasChannels> firefly_shares(const Pixels& pixels, const Sums& sums, int unlike,
-                                                 const kernels::ParallelFor& parallel);
+/// of this image's brought, an upper limit. After sum_tails(), with the same `unlike`.
+std::array<double, kBiasChannels> firefly_shares(const Sums& sums, int unlike);
 
 /// Median over 32-blocks of the correlation of neighbours in d of Y.
 double neighbour_correlation(Pixels& pixels, const Sums& sums,

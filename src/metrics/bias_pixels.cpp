@@ -83,19 +83,18 @@ void Pixels::row(int y, int x, int count, double* const r[3], double* const t[3]
                 r[c][i] = t[c][i] = 0;
 }
 
-void Pixels::tile(const kernels::Window& cell, Tile& out) const {
-    out.width = cell.width;
-    out.height = cell.height;
-    alignas(32) double t[kBiasChannels][Tile::kEdge];
+void Pixels::strip(const kernels::Window& window, Strip& out) const {
+    out.window = window;
+    double t[kBiasChannels][Strip::kWidth];
     double* const test[3] = {t[1], t[2], t[3]};
-    for (int y = 0; y < cell.height; ++y) {
-        const int at = y * cell.width;
+    for (int y = 0; y < window.height; ++y) {
+        const ptrdiff_t at = ptrdiff_t(y) * Strip::kWidth;
         double* const r[3] = {out.r[1] + at, out.r[2] + at, out.r[3] + at};
-        row(cell.y0 + y, cell.x0, cell.width, r, test);
-        luminance_row(r, cell.width, out.r[0] + at);
-        luminance_row(test, cell.width, t[0]);
+        row(window.y0 + y, window.x0, window.width, r, test);
+        luminance_row(r, window.width, out.r[0] + at);
+        luminance_row(test, window.width, t[0]);
         for (int c = 0; c < kBiasChannels; ++c)
-            for (int x = 0; x < cell.width; ++x)
+            for (int x = 0; x < window.width; ++x)
                 out.d[c][at + x] = t[c][x] - out.r[c][at + x];
     }
 }

@@ -9,12 +9,15 @@
 
 namespace tonetool::metrics::bias {
 
-/// The pixels of a cell, row by row: r of the reference, d = test - reference, of Y, R, G, B.
-struct Tile {
-    static constexpr int kEdge = 24; ///< cells have fewer columns and rows than this
-    int width = 0, height = 0;
-    alignas(32) double r[kBiasChannels][kEdge * kEdge];
-    alignas(32) double d[kBiasChannels][kEdge * kEdge];
+/// Pixels of some cells beside each other: r of the reference, d = test - reference, of Y, R, G, B.
+/// As many as stay in the cache, in rows that are long enough for vectors.
+struct Strip {
+    static constexpr int kWidth = 64; ///< from row to row
+    static constexpr int kRows = 24;  ///< cells have fewer columns and rows than this
+
+    kernels::Window window;
+    double r[kBiasChannels][kRows * kWidth];
+    double d[kBiasChannels][kRows * kWidth];
 };
 
 class Pixels {
@@ -31,9 +34,10 @@ public:
     /// Pixels that are not finite, of the rows seen.
     int64_t nonfinite() const;
 
-    void tile(const kernels::Window& cell, Tile& out) const;
+    /// Of a window that fits.
+    void strip(const kernels::Window& window, Strip& out) const;
 
-    /// R, G, B of a row of the reference and of the test, as tile() has them.
+    /// R, G, B of a row of the reference and of the test, as strip() has them.
     void row(int y, int x, int count, double* const r[3], double* const t[3]) const;
 
     /// Both sides have independent halves; the products of their differences in luminance.

@@ -3,9 +3,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 
 namespace tonetool::metrics::bias {
 namespace {
+
+// A pixel whose difference is above this many times the level of its 16-block is a firefly.
+constexpr double kOutlier = 10;
 
 // Four sums by turns, so that an addition need not wait for the one before; a compiler turns them
 // into vectors. Of rows that begin with the same colour, lanes 0 and 2 have this colour.
@@ -28,58 +32,94 @@ struct Lanes {
     }
 };
 
-// Rows first, first + 2, ... of a tile.
-Lanes sums_of_rows(const double* d, const double* r, int width, int height, int first) {
+// A cell of a strip.
+struct Cell {
+    int x0, y0, width, height;
+    const double* d[kBiasChannels];
+    const double* r[kBiasChannels];
+};
+
+// Calls visit(cell, index of the cell) for a row of cells, from left to right.
+template <class Visit>
+void visit_cells(const Pixels& pixels, const Grid& grid, int row, const Visit& visit) {
+    const auto strip = std::make_unique<Strip>();
+    const int y0 = grid.y[size_t(row)], height = grid.y[size_t(row) + 1] - y0;
+    for (int column = 0; column < grid.columns();) {
+        const int x0 = grid.x[size_t(column)];
+        int end = column + 1;
+        while (end < grid.columns() && grid.x[size_t(end) + 1] - x0 <= Strip::kWidth)
+            ++end;
+        pixels.strip({x0, y0, grid.x[size_t(end)] - x0, height}, *strip);
+        for (; column < end; ++column) {
+            const int x = grid.x[size_t(column)];
+            Cell cell{x, y0, grid.x[size_t(column) + 1] - x, height, {}, {}};
+            for (int c = 0; c < kBiasChannels; ++c) {
+                cell.d[c] = strip->d[c] + (x - x0);
+                cell.r[c] = strip->r[c] + (x - x0);
+            }
+            visit(cell, column);
+        }
+    }
+}
+
+// Rows first, first + 2, ... of a cell.
+Lanes sums_of_rows(const Cell& cell, int channel, int first) {
     Lanes lanes;
-    for (int y = first; y < height; y += 2) {
-        const double* a = d + y * width;
-        const double* b = r + y * width;
+    for (int y = first; y < cell.height; y += 2) {
+        const double* a = cell.d[channel] + ptrdiff_t(y) * Strip::kWidth;
+        const double* b = cell.r[channel] + ptrdiff_t(y) * Strip::kWidth;
         int x = 0;
-        for (; x + 3 < width; x += 4)
+        for (; x + 3 < cell.width; x += 4)
             for (int i = 0; i < 4; ++i)
                 lanes.add(i, a[x + i], b[x + i]);
-        for (int i = 0; x < width; ++x, ++i)
+        for (int i = 0; x < cell.width; ++x, ++i)
             lanes.add(i, a[x], b[x]);
     }
     return lanes;
+}
+
+// Calls add(lane, value) for all values of a cell.
+template <class Add>
+void by_lanes(const Cell& cell, const double* values, const Add& add) {
+    for (int y = 0; y < cell.height; ++y, values += Strip::kWidth) {
+        int x = 0;
+        for (; x + 3 < cell.width; x += 4)
+            for (int i = 0; i < 4; ++i)
+                add(i, values[x + i]);
+        for (; x < cell.width; ++x)
+            add(0, values[x]);
+    }
 }
 
 double all_lanes(const double* lane) {
     return (lane[0] + lane[1]) + (lane[2] + lane[3]);
 }
 
-void second_moment(const double* d, int count, ChannelSums& out) {
+void second_moment(const Cell& cell, const double* d, ChannelSums& out) {
+    const double mean = out.mean;
     double squares[4] = {}, absolute[4] = {};
-    const auto add = [&](int lane, double value) {
-        const double e = value - out.mean;
+    by_lanes(cell, d, [&](int lane, double value) {
+        const double e = value - mean;
         squares[lane] += e * e;
         absolute[lane] += std::abs(value);
-    };
-    int x = 0;
-    for (; x + 3 < count; x += 4)
-        for (int i = 0; i < 4; ++i)
-            add(i, d[x + i]);
-    for (; x < count; ++x)
-        add(0, d[x]);
+    });
     out.m2 = all_lanes(squares);
     out.absolute = all_lanes(absolute);
 }
 
-ChannelSums sums_of_tile(const Tile& tile, int channel, const kernels::Window& cell) {
+ChannelSums sums_of_cell(const Cell& cell, int channel) {
     ChannelSums out;
-    const double* d = tile.d[channel];
     for (int first = 0; first < 2; ++first) {
-        const Lanes lanes = sums_of_rows(d, tile.r[channel], tile.width, tile.height, first);
+        const Lanes lanes = sums_of_rows(cell, channel, first);
         const int colour = (cell.x0 + cell.y0 + first) & 1; // of lanes 0 and 2
-        const int rows = (tile.height + 1 - first) / 2;
+        const int rows = (cell.height + 1 - first) / 2;
         lanes.add_to(out.colour[colour], 0);
         lanes.add_to(out.colour[1 - colour], 1);
-        out.colour[colour].pixels += rows * ((tile.width + 1) / 2);
-        out.colour[1 - colour].pixels += rows * (tile.width / 2);
+        out.colour[colour].pixels += rows * ((cell.width + 1) / 2);
+        out.colour[1 - colour].pixels += rows * (cell.width / 2);
     }
-    const int count = tile.width * tile.height;
-    out.mean = out.sum_d() / count;
-    second_moment(d, count, out);
+    out.mean = out.sum_d() / out.pixels();
+    second_moment(cell, cell.d[channel], out);
     return out;
 }
 
@@ -159,22 +199,42 @@ void join_pairs(const std::vector<PairSums>& rows, const Cells& cells, Sums& out
             }
 }
 
-// Of all d in the cell; m2 is known. Both sums are as exact as their values are large.
-void higher_moments(const double* d, int count, ChannelSums& sums) {
+void higher_moments(const Cell& cell, const double* d, ChannelSums& out) {
+    const double mean = out.mean;
     double cubes[4] = {}, fourths[4] = {};
-    const auto add = [&](int lane, double value) {
-        const double e = value - sums.mean, square = e * e;
+    by_lanes(cell, d, [&](int lane, double value) {
+        const double e = value - mean, square = e * e;
         cubes[lane] += square * e;
         fourths[lane] += square * square;
-    };
-    int x = 0;
-    for (; x + 3 < count; x += 4)
-        for (int i = 0; i < 4; ++i)
-            add(i, d[x + i]);
-    for (; x < count; ++x)
-        add(0, d[x]);
-    sums.m3 = all_lanes(cubes);
-    sums.m4 = all_lanes(fourths);
+    });
+    out.m3 = all_lanes(cubes);
+    out.m4 = all_lanes(fourths);
+}
+
+void add_outliers(const Cell& cell, const double* d, int unlike, double threshold,
+                  ChannelSums& out) {
+    double light[4] = {};
+    int64_t count[4] = {};
+    by_lanes(cell, d, [&](int lane, double value) {
+        const double x = value * unlike;
+        const bool seen = x > threshold;
+        light[lane] += seen ? x : 0;
+        count[lane] += seen;
+    });
+    out.outlier_light = all_lanes(light);
+    out.outliers = (count[0] + count[1]) + (count[2] + count[3]);
+}
+
+// What is a firefly in the blocks of a row, by channel and column.
+std::vector<double> thresholds(const Sums& sums, int unlike, int row) {
+    std::vector<double> out;
+    const Grid& blocks = sums.cells.scale[0].grid;
+    for (int c = 0; c < kBiasChannels; ++c)
+        for (int column = 0; column < blocks.columns(); ++column) {
+            const ChannelSums block = block_sums(sums, c, 0, column, row);
+            out.push_back(kOutlier * std::max(clean_sum(block, unlike) / block.pixels(), 0.0));
+        }
+    return out;
 }
 
 } // namespace
@@ -197,11 +257,6 @@ Sums::Sums(int width, int height)
         one.resize(cells.grid.count());
 }
 
-kernels::Window cell_window(const Grid& grid, int column, int row) {
-    const auto x = size_t(column), y = size_t(row);
-    return {grid.x[x], grid.y[y], grid.x[x + 1] - grid.x[x], grid.y[y + 1] - grid.y[y]};
-}
-
 Sums sum_pixels(Pixels& pixels, const kernels::ParallelFor& parallel) {
     Sums out(pixels.width(), pixels.height());
     const Grid& grid = out.cells.grid;
@@ -212,29 +267,39 @@ Sums sum_pixels(Pixels& pixels, const kernels::ParallelFor& parallel) {
         for (int y = grid.y[size_t(row)]; y < grid.y[size_t(row) + 1]; ++y)
             rows.add(y, out, pair_rows.data() + size_t(row) * pair_columns,
                      out.products.data() + grid.at(0, int(row)));
-        Tile tile;
-        for (int column = 0; column < grid.columns(); ++column) {
-            const kernels::Window cell = cell_window(grid, column, int(row));
-            pixels.tile(cell, tile);
+        visit_cells(pixels, grid, int(row), [&](const Cell& cell, int column) {
             for (int c = 0; c < kBiasChannels; ++c)
-                out.channel[c][grid.at(column, int(row))] = sums_of_tile(tile, c, cell);
-        }
+                out.channel[c][grid.at(column, int(row))] = sums_of_cell(cell, c);
+        });
     });
     join_pairs(pair_rows, out.cells, out);
     return out;
 }
 
-void sum_moments(const Pixels& pixels, Sums& sums, const kernels::ParallelFor& parallel) {
+void sum_tails(const Pixels& pixels, int unlike, Sums& sums, const kernels::ParallelFor& parallel) {
     const Grid& grid = sums.cells.grid;
-    parallel(grid.rows(), [&](int64_t row) {
-        Tile tile;
-        for (int column = 0; column < grid.columns(); ++column) {
-            pixels.tile(cell_window(grid, column, int(row)), tile);
-            for (int c = 0; c < kBiasChannels; ++c)
-                higher_moments(tile.d[c], tile.width * tile.height,
-                               sums.channel[c][grid.at(column, int(row))]);
+    const Cells::Scale& blocks = sums.cells.scale[0];
+    const auto block_columns = size_t(blocks.grid.columns());
+    parallel(blocks.grid.rows(), [&](int64_t block_row) {
+        const std::vector<double> threshold = thresholds(sums, unlike, int(block_row));
+        for (int row = blocks.y[size_t(block_row)]; row < blocks.y[size_t(block_row) + 1]; ++row) {
+            size_t block = 0;
+            visit_cells(pixels, grid, row, [&](const Cell& cell, int column) {
+                block += column == blocks.x[block + 1];
+                for (size_t c = 0; c < kBiasChannels; ++c) {
+                    ChannelSums& out = sums.channel[c][grid.at(column, row)];
+                    higher_moments(cell, cell.d[c], out);
+                    add_outliers(cell, cell.d[c], unlike, threshold[c * block_columns + block],
+                                 out);
+                }
+            });
         }
     });
+}
+
+// T is R + d.
+double clean_sum(const ChannelSums& sums, int unlike) {
+    return unlike > 0 ? sums.sum_r() : sums.sum_r() + sums.sum_d();
 }
 
 // Moments about the block's mean m from those about the means of cells, delta away from it: the

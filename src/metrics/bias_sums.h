@@ -25,6 +25,8 @@ struct ChannelSums {
     double mean = 0;               ///< of d
     double m2 = 0, m3 = 0, m4 = 0; ///< sums of powers of d - mean
     double absolute = 0;           ///< sum of |d|
+    double outlier_light = 0;      ///< sum of d, without its sign, of fireflies of the noisier side
+    int64_t outliers = 0;          ///< their number
 
     double pixels() const { return colour[0].pixels + colour[1].pixels; }
     double sum_d() const { return colour[0].d + colour[1].d; }
@@ -52,16 +54,18 @@ struct Sums {
     std::vector<PairSums> pairs;                     ///< of the blocks of pair_grid
 };
 
-/// All but the third and fourth moments.
+/// All but what sum_tails() adds.
 Sums sum_pixels(Pixels& pixels, const kernels::ParallelFor& parallel);
 
-/// The third and fourth moments, which only sides of unlike noise need.
-void sum_moments(const Pixels& pixels, Sums& sums, const kernels::ParallelFor& parallel);
+/// The third and fourth moments, and fireflies of the noisier side, the test where unlike = 1 and
+/// the reference where it is -1: what only sides of unlike noise need.
+void sum_tails(const Pixels& pixels, int unlike, Sums& sums, const kernels::ParallelFor& parallel);
+
+/// Sum of the cleaner side.
+double clean_sum(const ChannelSums& sums, int unlike);
 
 /// The sums of a block.
 ChannelSums block_sums(const Sums& sums, int channel, int scale, int column, int row);
 ProductSums block_products(const Sums& sums, int scale, int column, int row);
-
-kernels::Window cell_window(const Grid& grid, int column, int row);
 
 } // namespace tonetool::metrics::bias
