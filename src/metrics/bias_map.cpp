@@ -3,10 +3,12 @@
 #include <cmath>
 #include <limits>
 
-#include "metrics/bias.h"
+#include "metrics/bias_grid.h"
 
 namespace tonetool::metrics {
 namespace {
+
+using namespace bias;
 
 constexpr double kLeastLog = -300;
 
@@ -82,14 +84,6 @@ Values without_tests(const BiasResult& result, BiasMap map) {
     return {-1, -1, 0};
 }
 
-// The block of a column or row of pixels.
-std::vector<size_t> blocks_of(const std::vector<int>& edges) {
-    std::vector<size_t> out(size_t(edges.back()));
-    for (size_t block = 0; block + 1 < edges.size(); ++block)
-        std::fill(out.begin() + edges[block], out.begin() + edges[block + 1], block);
-    return out;
-}
-
 Values at(const BiasResult& result, BiasMap map, const Place& place) {
     switch (map) {
     case BiasMap::Signed:
@@ -102,27 +96,49 @@ Values at(const BiasResult& result, BiasMap map, const Place& place) {
     return rejected_at(result, place);
 }
 
-void map_row(const BiasResult& result, BiasMap map, size_t y, Planes& out) {
-    std::array<std::vector<size_t>, kBiasScales> blocks;
-    Place first{}, last{};
-    for (size_t s = 0; s < kBiasScales; ++s) {
-        const BiasScale& scale = result.scales[s];
-        const auto row = std::upper_bound(scale.y.begin(), scale.y.end(), int(y)) - 1;
-        first[s] = size_t(row - scale.y.begin()) * size_t(scale.columns());
-        blocks[s] = blocks_of(scale.x);
-    }
-    Values values{};
-    for (size_t x = 0; x < size_t(result.width); ++x) {
-        Place place{};
-        for (size_t s = 0; s < kBiasScales; ++s)
-            place[s] = first[s] + blocks[s][x];
-        if (x == 0 || place != last)
-            values = at(result, map, place);
-        last = place;
-        for (size_t c = 0; c < 3; ++c)
-            out[c][y * size_t(result.width) + x] = float(values[c]);
-    }
+// For every place among the cells, the block that it is in.
+std::vector<size_t> block_of_cells(const std::vector<int>& first) {
+    std::vector<size_t> out;
+    for (size_t block = 0; block + 1 < first.size(); ++block)
+        out.resize(size_t(first[block + 1]), block);
+    return out;
 }
+
+// Every value is constant over a cell.
+class CellMap {
+public:
+    CellMap(const BiasResult& result, BiasMap map)
+        : m_result(result),
+          m_map(map),
+          m_cells(result.width, result.height) {
+        for (size_t s = 0; s < kBiasScales; ++s) {
+            m_columns[s] = block_of_cells(m_cells.scale[s].x);
+            m_rows[s] = block_of_cells(m_cells.scale[s].y);
+        }
+    }
+    int rows() const { return m_cells.grid.rows(); }
+
+    void row(size_t row, Planes& out) const {
+        const Grid& grid = m_cells.grid;
+        const auto width = ptrdiff_t(m_result.width);
+        for (size_t column = 0; column < size_t(grid.columns()); ++column) {
+            Place place{};
+            for (size_t s = 0; s < kBiasScales; ++s)
+                place[s] = m_cells.scale[s].grid.at(int(m_columns[s][column]), int(m_rows[s][row]));
+            const Values values = at(m_result, m_map, place);
+            for (ptrdiff_t y = grid.y[row]; y < grid.y[row + 1]; ++y)
+                for (size_t c = 0; c < 3; ++c)
+                    std::fill(out[c].begin() + y * width + grid.x[column],
+                              out[c].begin() + y * width + grid.x[column + 1], float(values[c]));
+        }
+    }
+
+private:
+    const BiasResult& m_result;
+    const BiasMap m_map;
+    const Cells m_cells;
+    std::array<std::vector<size_t>, kBiasScales> m_columns, m_rows;
+};
 
 } // namespace
 
@@ -131,8 +147,10 @@ Planes bias_map(const BiasResult& result, BiasMap map, const kernels::ParallelFo
     const Values none = without_tests(result, map);
     for (size_t c = 0; c < 3; ++c)
         out[c].assign(size_t(result.width) * size_t(result.height), float(none[c]));
-    if (result.judged)
-        parallel(result.height, [&](int64_t y) { map_row(result, map, size_t(y), out); });
+    if (!result.judged)
+        return out;
+    const CellMap cells(result, map);
+    parallel(cells.rows(), [&](int64_t row) { cells.row(size_t(row), out); });
     return out;
 }
 

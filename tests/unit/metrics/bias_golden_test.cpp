@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // bias_check() and noise_floor() against the results of the method's reference implementation
-// (numpy, double precision) on renders.
+// (numpy, double precision): on renders below SHARED_DIR, and on the synthetic ones of
+// bias_pictures.h, made by make_bias_goldens.py.
 #include <OpenImageIO/imagebuf.h>
 #include <gtest/gtest.h>
 
@@ -10,10 +11,9 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
-#include "metrics/bias.h"
+#include "bias_pictures.h"
 #include "metrics/noise_floor.h"
 #include "metrics/refusal.h"
-#include "schedules.h"
 
 namespace tonetool::metrics {
 namespace {
@@ -26,9 +26,13 @@ std::string shared_dir() {
     return dir ? std::string(dir) + "/" : "";
 }
 
-json goldens() {
-    std::ifstream in(shared_dir() + "golden/noise/goldens.json");
+json read_json(const std::string& path) {
+    std::ifstream in(path);
     return in ? json::parse(in) : json();
+}
+
+json goldens() {
+    return read_json(shared_dir() + "golden/noise/goldens.json");
 }
 
 // The beauty of a render of the scenes.
@@ -155,16 +159,35 @@ void expect_statistics(const BiasResult& got, const json& want) {
         expect_number(got.rare[c], want["rare"][c], "rare");
         expect_gain(got.gain[c], want["gain"][kBiasChannelNames[c]], kBiasChannelNames[c]);
     }
-    for (const BiasScale& scale : got.scales) {
-        const std::string block = std::to_string(scale.block);
-        expect_scale(scale, want["maps"][block], block);
-    }
     EXPECT_EQ(got.untested, want["untested"].get<int64_t>());
     EXPECT_EQ(got.tested, want["tests"].get<int64_t>());
     expect_number(got.absolute, want["absolute"], "absolute");
     ASSERT_EQ(got.more.has_value(), !want["more"].is_null());
     if (got.more)
         expect_number(*got.more, want["more"], "more");
+}
+
+void expect_result(const BiasResult& got, const json& want) {
+    EXPECT_EQ(name_of(got.verdict), want["verdict"].get<std::string>());
+    EXPECT_EQ(got.width, want["width"].get<int>());
+    EXPECT_EQ(got.height, want["height"].get<int>());
+    EXPECT_EQ((std::vector<int>{got.references, got.tests}), want["seeds"].get<std::vector<int>>());
+    ASSERT_EQ(got.judged, want.contains("asymmetry"));
+    if (want.contains("bound")) {
+        EXPECT_EQ(bias_evidence(got), want["evidence"].get<std::vector<std::string>>());
+        expect_number(got.bound, want["bound"], "bound");
+        expect_number(got.shown, want["shown"], "shown");
+    }
+    if (got.judged)
+        expect_statistics(got, want);
+}
+
+BiasOptions options_of(const json& one) {
+    BiasOptions options;
+    options.within = one.value("within", options.within);
+    options.alpha = one.value("alpha", options.alpha);
+    options.power = one.value("power", options.power);
+    return options;
 }
 
 TEST(BiasGoldens, RendersOfTheScenes) {
@@ -175,22 +198,75 @@ TEST(BiasGoldens, RendersOfTheScenes) {
     ASSERT_EQ(all["cases"].size(), 12u);
     for (const json& one : all["cases"]) {
         SCOPED_TRACE(one["name"].get<std::string>());
-        BiasOptions options;
-        options.within = one["options"].value("within", options.within);
-        const BiasResult got =
-            bias_check(side_of(one["ref"]), side_of(one["test"]), options, in_order());
+        const BiasResult got = bias_check(side_of(one["ref"]), side_of(one["test"]),
+                                          options_of(one["options"]), in_order());
         const json& want = one["result"];
-        EXPECT_EQ(name_of(got.verdict), want["verdict"].get<std::string>());
-        EXPECT_EQ(bias_evidence(got), want["evidence"].get<std::vector<std::string>>());
-        EXPECT_EQ(got.width, want["width"].get<int>());
-        EXPECT_EQ(got.height, want["height"].get<int>());
-        EXPECT_EQ((std::vector<int>{got.references, got.tests}),
-                  want["seeds"].get<std::vector<int>>());
-        expect_number(got.bound, want["bound"], "bound");
-        expect_number(got.shown, want["shown"], "shown");
-        ASSERT_EQ(got.judged, want.contains("asymmetry"));
-        if (got.judged)
-            expect_statistics(got, want);
+        expect_result(got, want);
+        for (size_t s = 0; got.judged && s < kBiasScales; ++s) {
+            const std::string block = std::to_string(kBiasBlocks[s]);
+            expect_scale(got.scales[s], want["maps"][block], block);
+        }
+    }
+}
+
+template <class Values>
+double sum_of(const Values& values) {
+    double sum = 0;
+    for (const auto value : values)
+        sum += std::isfinite(double(value)) ? std::abs(double(value)) : 0;
+    return sum;
+}
+
+void expect_digest(const BiasScale& got, const json& want) {
+    const BiasScale::Channel& y = got.channel[0];
+    expect_number(sum_of(y.mean), want["mean"], "mean");
+    expect_number(sum_of(y.se), want["se"], "se");
+    expect_number(sum_of(y.t), want["t"], "t");
+    expect_number(sum_of(y.level), want["level"], "level");
+    for (size_t c = 0; c < kBiasChannels; ++c) {
+        const BiasScale::Channel& channel = got.channel[c];
+        expect_number(sum_of(channel.p), want["p"][c], "p");
+        expect_number(sum_of(channel.rejected), want["rejected"][c], "rejected");
+        expect_number(double(channel.tested.size()) - sum_of(channel.tested), want["untested"][c],
+                      "untested");
+    }
+    ASSERT_EQ(got.structure_p.empty(), !want.contains("structure_p"));
+    if (got.structure_p.empty())
+        return;
+    expect_number(sum_of(got.structure_p), want["structure_p"], "structure_p");
+    EXPECT_EQ(got.structures, want["structures"].get<int64_t>());
+}
+
+std::vector<Render> renders_of(const json& one, int width, int height) {
+    RenderOptions o;
+    o.noise = one.value("noise", o.noise);
+    o.power = one.value("power", o.power);
+    o.fireflies = one.value("fireflies", o.fireflies);
+    o.gain = one.value("gain", o.gain);
+    o.corner = one.value("corner", o.corner);
+    o.smooth = one.value("smooth", o.smooth);
+    o.level = one.value("level", o.level);
+    o.shift = one.value("shift", o.shift);
+    o.black_half = one.value("black_half", o.black_half);
+    o.wave = one.value("wave", o.wave);
+    std::vector<Render> out;
+    for (const json& seed : one["seeds"])
+        out.emplace_back(width, height, seed.get<uint64_t>(), o);
+    return out;
+}
+
+TEST(BiasGoldens, SyntheticRenders) {
+    const json all = read_json(UNIT_METRICS_DIR "/bias_goldens.json");
+    ASSERT_EQ(all.size(), 24u);
+    for (const json& one : all) {
+        SCOPED_TRACE(one["name"].get<std::string>());
+        const int width = one["width"], height = one["height"];
+        const BiasSide reference = side_of(renders_of(one["reference"], width, height));
+        const BiasSide test = side_of(renders_of(one["test"], width, height));
+        const BiasResult got = bias_check(reference, test, options_of(one["options"]), in_order());
+        expect_result(got, one["result"]);
+        for (size_t s = 0; got.judged && s < kBiasScales; ++s)
+            expect_digest(got.scales[s], one["result"]["scales"][s]);
     }
 }
 
