@@ -23,7 +23,7 @@ struct RenderOptions {
     double level = 0;  ///< added light without noise
     int shift = 0;     ///< of the edges, to the right
     bool black_half = false;
-    double wave = 0;      ///< amplitude of added light, up and down over 64 columns
+    double wave = 0; ///< amplitude of added light, up and down over 64 columns
 };
 
 struct Render {
