@@ -75,7 +75,7 @@ private:
     // Levels are multiples of 1/1024; stripes are texture.
     double value(int x, int y, int c, uint64_t seed, const RenderOptions& o) const {
         if (o.black_half && 2 * x < width)
-            return 0;
+            return o.level;
         const double base = (double(32 + 8 * (x / 8 % 8) * (c + 1)) + double(y / 16 % 4)) / 1024;
         const double edge = (x + 8 - o.shift) / 4 % 4 == 0 ? 2 : 1;
         double n = noise(x, y, c, seed, o);

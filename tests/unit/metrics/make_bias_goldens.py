@@ -52,7 +52,7 @@ def render(width, height, seed, options):
         phase = x % 64
         v = base * edge * n * gain + o["level"] + o["wave"] * np.where(phase < 32, 15.5 - phase, phase - 47.5) / 16
         if o["black_half"]:
-            v = np.where(2 * x < width, 0.0, v)
+            v = np.where(2 * x < width, o["level"], v)
         planes.append(v.astype(np.float32))
     return np.stack(planes, -1)
 
@@ -63,6 +63,7 @@ CLEAN = dict(noise=0.0)
 CASES = [  # name, width, height, seeds of the reference, its options, seeds of the test, its options
     ("noise", 128, 96, [1], SKEW, [2], SKEW, {}),
     ("little_noise", 192, 128, [1], dict(noise=0.2), [2], dict(noise=0.2), {}),
+    ("barely_found", 128, 96, [1], {}, [2], dict(gain=1.015), {}),
     ("gain", 128, 96, [1], {}, [2], dict(gain=1.03), {}),
     ("real_within", 192, 128, [1], dict(noise=0.2), [2], dict(noise=0.2, gain=1.01), {}),
     ("corner", 128, 96, [1], SKEW, [2], dict(SKEW, corner=4.0), {}),
