@@ -15,7 +15,7 @@ from stock_surface import (EXPRESSIONS, HIDDEN, SHARED, all_commands, all_modifi
 # Only tonetool has these; tests/cli/test_*.py run them.
 OWN_COMMANDS = set("""hdrflip ldrflip flipdiff exposure calibrate tonemap cgtmo lightindex errormap
     tmqi luminancestats qc exportlut report json csv junit contactsheet pictures state statistics
-    merge doctor licenses compat progress parallel-frames memory warnings-exit filmstrip tonecurves""".split())
+    merge doctor licenses h compat progress parallel-frames memory warnings-exit filmstrip tonecurves""".split())
 
 OWN_TEXT = {"help"}     # each program's help is its own
 
