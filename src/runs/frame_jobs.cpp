@@ -64,6 +64,7 @@ Session FrameContext::session(size_t index, std::ostream& out, std::ostream& err
     Session session(out, err, full_command_line(plan.line, run.words, plan.line.compat));
     session.settings.compat = plan.line.compat;
     session.settings.details = plan.verbose;
+    session.settings.quiet = plan.quiet;
     session.frame = run.frame;
     session.in_all_frames = [this](size_t at) {
         Strings names;

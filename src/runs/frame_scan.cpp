@@ -35,6 +35,7 @@ bool take_setting(Scan& scan, const Word& word) {
     plan.skip_bad |= word.is("skip-bad-frames");
     plan.warnings_exit |= word.is("warnings-exit");
     plan.verbose = (word.is("v") || plan.verbose) && !word.is("q");
+    plan.quiet = (word.is("q") || plan.quiet) && !word.is("v");
     if (word.is("progress") && word.token.value == Strings{"json"})
         plan.progress = "json";
     if (word.is("parallel-frames"))

@@ -28,7 +28,7 @@ struct FramePlan {
     chain::ParsedLine line;
     std::vector<FrameRun> runs; ///< one, where there is nothing to loop over
     bool loops = false;
-    bool skip_bad = false, verbose = false, warnings_exit = false;
+    bool skip_bad = false, verbose = false, quiet = false, warnings_exit = false;
     int parallel = 1;
     std::string progress; ///< "json", or "" for a terminal
     CheckPlan check;

@@ -105,3 +105,28 @@ def test_frames_without_a_limit_print_their_numbers_with_v(tonetool):
     for frame, line in enumerate(lines[:3], 1):
         assert re.fullmatch(rf"hdrflip: mean {NUMBER}, p99\.9 {NUMBER}, max {NUMBER} at \d+,\d+ "
                             rf"\(\./t\.000{frame}\.exr\)", line)
+
+
+@pytest.mark.parametrize("quiet", ["-q", "--quiet"])
+def test_quiet_holds_wherever_it_stands(tonetool, pair, quiet):
+    assert tonetool(*pair, "--hdrflip", quiet).out == tonetool(quiet, *pair, "--hdrflip").out == ""
+    assert "FAIL" in tonetool(*pair, "--hdrflip:fail=0.01", quiet, status=3).out
+
+
+def test_decibels_are_not_mixed_with_errors(tonetool, pair):
+    assert re.search(rf"psnr {NUMBER} dB; in its map p99\.9 {NUMBER}, max",
+                     tonetool(*pair, "--errormap:metric=psnr").out)
+
+
+@pytest.mark.parametrize("limit", ["p99,9=0.7", "p99.9"])
+def test_a_limit_that_was_not_understood_is_explained(tonetool, pair, limit):
+    assert tonetool(*pair, f"--hdrflip:fail={limit}", status=1).err.count("p99.9=0.7") >= 1
+
+
+def test_the_table_names_each_test(tonetool, make_image, tmp_path):
+    for seed, name in enumerate(("ref.exr", "a.exr", "b.exr")):
+        make_image(name, seed=seed)
+    tonetool("ref.exr", "a.exr", "b.exr", "--hdrflip:tests=2", "--csv", "t.csv")
+    names, values = [line.split(",") for line in (tmp_path / "t.csv").read_text().splitlines()]
+    found = dict(zip(names, values))
+    assert found["test"] == "a.exr" and found["hdrflip#2.test"] == "b.exr"

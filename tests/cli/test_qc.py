@@ -119,3 +119,12 @@ def test_the_light_group_that_goes_black(tonetool, tmp_path, folder):
     for text in (ran.out, *files):
         assert "neonC is black in frame 5" in text
     tonetool("--frames", "1-8", folder / "ref.#.exr", "--qc", "--warnings-exit")
+
+
+@pytest.mark.parametrize("more", [[], ["--colormap", "magma"], ["--ch", "Y", "--chnames", "R"]])
+def test_an_error_map_is_no_render(tonetool, make_image, more):
+    make_image("a.exr")
+    make_image("b.exr", seed=2)
+    ran = tonetool("a.exr", "b.exr", "--hdrflip", *more, "--qc", status=1)
+    assert "--qc before the comparison" in ran.err
+    tonetool("a.exr", "b.exr", "--qc", "--hdrflip")

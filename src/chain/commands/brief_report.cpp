@@ -93,8 +93,9 @@ std::string numbers_text(const FlipSummary& summary) {
 
 std::string numbers_text(const ErrorSummary& summary) {
     const FlipPool& pool = summary.pool;
-    const std::string value = summary.metric + " " + format_number(summary.value);
-    return value + format(", p99.9 {}, max {} at {},{}", format_number(pool.p999),
+    const std::string value = summary.metric + " " + format_number(summary.value) +
+                              (summary.decibels ? " dB; in its map" : ",");
+    return value + format(" p99.9 {}, max {} at {},{}", format_number(pool.p999),
                           format_number(pool.max), pool.max_x, pool.max_y);
 }
 

@@ -70,6 +70,11 @@ void show_faults(Session& session, const Call& call, const sequence::QcRecord& r
 
 void run_qc(Session& session, const Call& call) {
     const Image& image = *call.images[0];
+    if (image.is_result) {
+        throw CommandError("\"" + image.name() +
+                           "\" is what a comparison has made, no render (valid: "
+                           "--qc before the comparison)");
+    }
     sequence::QcRecord record{{}, limits_of(call)};
     session.stack.push(call.images[0]);
     session.outcome.produced = true;

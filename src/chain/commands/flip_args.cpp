@@ -76,6 +76,11 @@ private:
         for (const std::string& word : split(*m_call.text(key), ',')) {
             const size_t equals = word.find('=');
             const bool named = equals != std::string::npos;
+            if (!named && !parse_number(word)) {
+                throw CommandError(key + " \"" + word + "\" is not a number (valid: " + key +
+                                   "=0.3, or QUANTITY=LIMIT as in " + key +
+                                   "=p99.9=0.7, with a decimal point)");
+            }
             m_used_default = m_used_default || !named;
             Limit& limit = limit_of(named ? resolved(word.substr(0, equals)) : m_default);
             if (limit.*member) {

@@ -18,7 +18,7 @@ void run_licenses(Session& session, const Call&) {
 } // namespace
 
 Rows licence_commands() {
-    return {command("licenses", "Print the licences of tonetool and of the software in it",
+    return {command("licenses|licences", "Print the licences of tonetool and of the software in it",
                     run_licenses)};
 }
 

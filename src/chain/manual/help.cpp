@@ -29,7 +29,8 @@ std::string signature(const Command& row) {
 
 std::string images_text(const Command& row) {
     auto count = [](bool varies, int images) {
-        return varies ? std::string("as many as asked for") : std::to_string(images);
+        return varies ? (images > 0 ? std::to_string(images) + " or more" : "as many as asked for")
+                      : std::to_string(images);
     };
     return "    images popped: " + count(row.pops_of != nullptr, row.pops) +
            ", pushed: " + count(row.pushes_of != nullptr || row.pushes < 0, row.pushes) + "\n";
@@ -79,14 +80,14 @@ std::string usage_text() {
     return "Usage: tonetool [filename|command]...\n"
            "  A file name reads an image and pushes it on the stack; commands work on the stack,\n"
            "  from left to right. One or two dashes are the same. Modifiers follow a command's\n"
-           "  name: --hdrflip:tonemapper=hable:fail=p99.9=0.3\n";
+           "  name: --hdrflip:tonemapper=hable:fail=p99.9=0.7\n";
 }
 
 std::string short_help_text() {
     std::string text = "tonetool " TONETOOL_VERSION " compares HDR images and shows them\n\n" +
                        usage_text() +
                        "\nExamples:\n"
-                       "  tonetool ref.exr test.exr --hdrflip:fail=p99.9=0.3 -o error.exr\n"
+                       "  tonetool ref.exr test.exr --hdrflip:fail=p99.9=0.7 -o error.exr\n"
                        "  tonetool ref.#.exr test.#.exr --hdrflip:exposures=shot --report "
                        "check.html\n"
                        "  tonetool picture.exr --tonemap:curve=agx -o picture.png\n"

@@ -56,10 +56,10 @@ const Entry kFiles[] = {
     {"share/tonetool/check.schema.json", "The schema of what --json writes."}};
 
 const Entry kExamples[] = {
-    {"tonetool ref.exr test.exr --hdrflip:fail=p99.9=0.3 -o error.exr",
+    {"tonetool ref.exr test.exr --hdrflip:fail=p99.9=0.7 -o error.exr",
      "Compare two renders, write the error map, and fail with status 3 where a thousandth of the "
-     "pixels has an error above 0.3."},
-    {"tonetool --frames 1-100 ref.#.exr test.#.exr --hdrflip:exposures=shot:fail=p99.9=0.3 "
+     "pixels has an error above 0.7."},
+    {"tonetool --frames 1-100 ref.#.exr test.#.exr --hdrflip:exposures=shot:fail=p99.9=0.7 "
      "--report "
      "check.html --junit check.xml",
      "The same for a sequence, with a page to look at and a file for a CI system."},

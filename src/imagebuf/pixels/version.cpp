@@ -21,6 +21,12 @@ std::string openexr_version() {
     return "OpenEXR unknown";
 }
 
+// In the words of processors: Highway says AVX3 for AVX-512, and adds what more there is.
+std::string instruction_set() {
+    const std::string name = kernels::curve_target();
+    return OIIO::Strutil::starts_with(name, "AVX3") ? "AVX-512" + name.substr(4) : name;
+}
+
 } // namespace
 
 const char* version() noexcept {
@@ -30,7 +36,7 @@ const char* version() noexcept {
 std::vector<std::string> library_versions() {
     return {"OpenImageIO " + std::string(OIIO::get_string_attribute("version")),
             std::string("OpenColorIO ") + OCIO_NAMESPACE::GetVersion(), openexr_version(),
-            std::string("instruction set ") + kernels::curve_target()};
+            "instruction set " + instruction_set()};
 }
 
 } // namespace tonetool

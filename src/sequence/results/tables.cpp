@@ -50,6 +50,8 @@ void add_measurements(Columns& columns, Row& row, const FrameResult& frame) {
         const int number = ++seen[measured.command];
         const std::string start =
             measured.command + (number > 1 ? "#" + std::to_string(number) : "") + ".";
+        if (number > 1) // "test" is that of the first
+            columns.put(row, start + "test", cell(measured.test));
         for (const Threshold& threshold : measured.thresholds) {
             const auto& limit = threshold.fail ? threshold.fail : threshold.warn;
             const bool first = &threshold == &measured.thresholds.front();
