@@ -182,17 +182,19 @@ def completed_by_zsh(script, line):
     code = f"""
 zmodload zsh/zpty
 zpty shell zsh -f -i
+# What it prints, until that fits a pattern and nothing follows for a second; 30 s at most.
 drain() {{
-    local text silent=0
-    while (( silent < 10 )); do
-        if zpty -r -t shell text; then print -rn -- $text; silent=0; else sleep 0.1; (( ++silent )); fi
+    local text all silent=0 waited=0
+    while (( waited < 300 )) && {{ [[ $all != ${{~1}} ]] || (( silent < 10 )) }}; do
+        if zpty -r -t shell text; then all+=$text; silent=0; else sleep 0.1; (( ++silent, ++waited )); fi
     done
+    print -rn -- $all
 }}
 zpty -w shell 'PROMPT=; autoload -U compinit; compinit -D -u; LISTMAX=10000; stty columns 300 rows 2000
-fpath=({script.parent} $fpath); autoload -U _tonetool; compdef _tonetool tonetool; print ready'
-drain >/dev/null
+fpath=({script.parent} $fpath); autoload -U _tonetool; compdef _tonetool tonetool; print re""ady'
+drain "*ready*" >/dev/null
 zpty -w -n shell {shlex.quote(line)}$'\t\t'
-drain
+drain $'*\\n*'
 zpty -d shell"""
     done = subprocess.run(["zsh", "-f", "-c", code], capture_output=True, text=True, check=True)
     plain = re.sub(r"\x1b\[[0-9;?]*[A-Za-z]", "", done.stdout)

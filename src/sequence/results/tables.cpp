@@ -50,7 +50,7 @@ void add_measurements(Columns& columns, Row& row, const FrameResult& frame) {
         const int number = ++seen[measured.command];
         const std::string start =
             measured.command + (number > 1 ? "#" + std::to_string(number) : "") + ".";
-        if (number > 1) // "test" is that of the first
+        if (number > 1 && measured.test != frame.measurements.front().test)
             columns.put(row, start + "test", cell(measured.test));
         for (const Threshold& threshold : measured.thresholds) {
             const auto& limit = threshold.fail ? threshold.fail : threshold.warn;
