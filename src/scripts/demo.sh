@@ -7,7 +7,7 @@ cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 
 tonetool=build/release/src/program/tonetool
 if [[ ! -x $tonetool ]]; then
-    echo "The first run installs the packages that are missing and compiles for 10 to 15 minutes on"
+    echo "The first run installs the packages that are missing and compiles for about five minutes on"
     echo "two cores; later runs take seconds. The pictures come at the end."
     echo
 fi
