@@ -42,7 +42,7 @@ std::string keyword_text(const Option<Owner, T>& row) {
     text += ".";
     if (!row.otherwise.empty())
         text +=
-            std::string(Option<Owner, T>::optional ? " None: " : " \"\": ") + row.otherwise + ".";
+            std::string(Option<Owner, T>::kOptional ? " None: " : " \"\": ") + row.otherwise + ".";
     return text;
 }
 

@@ -37,7 +37,7 @@ struct ValueOf<std::optional<T>> {
 template <class Owner, class T>
 struct Option {
     using Value = typename ValueOf<T>::Type;
-    static constexpr bool optional = !std::is_same_v<T, Value>;
+    static constexpr bool kOptional = !std::is_same_v<T, Value>;
 
     const char* key;                    ///< on the command line and in errors: "maxpercentile"
     const char* keyword;                ///< in Python: the member's name, "max_percentile"
@@ -107,7 +107,7 @@ struct Option {
             if (!range)
                 return "";
             Value value;
-            if constexpr (optional) {
+            if constexpr (kOptional) {
                 if (!(options.*member))
                     return "";
                 value = *(options.*member);
@@ -117,7 +117,7 @@ struct Option {
             const bool inside = double(value) >= range->low && double(value) <= range->high;
             const bool zero = or_zero && value == 0;
             bool unset = false;
-            if constexpr (!optional)
+            if constexpr (!kOptional)
                 unset = !otherwise.empty() && value == Owner().*member;
             return inside || zero || unset
                        ? ""
