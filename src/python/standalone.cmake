@@ -1,15 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # The module alone, against an installed libtonetool of this version (pip install ./src/python). The
 # rooms above the library are compiled here: chain() runs them.
-if(NOT CMAKE_BUILD_TYPE AND NOT CMAKE_CONFIGURATION_TYPES)
-  set(CMAKE_BUILD_TYPE Release CACHE STRING "" FORCE)
-endif()
-set(CMAKE_CXX_STANDARD 17)
-set(CMAKE_CXX_STANDARD_REQUIRED ON)
-set(CMAKE_CXX_EXTENSIONS OFF)
-set(CMAKE_POSITION_INDEPENDENT_CODE ON)
-set(CMAKE_CXX_VISIBILITY_PRESET hidden)
-set(CMAKE_VISIBILITY_INLINES_HIDDEN ON)
+include(../cmake/language.cmake)
 
 include(GNUInstallDirs)
 # Structs of options are shared with the library: only the same version has the same.

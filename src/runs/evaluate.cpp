@@ -94,9 +94,7 @@ void evaluate_one(Session& session, std::vector<OIIO::ImageBuf>& images, const F
     }
     for (size_t i = 0; i < images.size(); ++i)
         push_given(session, images[i], i);
-    session.judges = plan.check.judges();
-    session.settings.details = plan.verbose;
-    session.settings.quiet = plan.quiet;
+    set_for_line(session, plan);
     session.frame = plan.runs[0].frame;
     session.in_all_frames = [&plan](size_t at) { return Strings{plan.runs[0].words.at(at)}; };
     Runner(session, plan.runs[0].words).run_all();

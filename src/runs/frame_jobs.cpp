@@ -62,9 +62,7 @@ sequence::Item FrameContext::item(size_t index) const {
 Session FrameContext::session(size_t index, std::ostream& out, std::ostream& err) const {
     const FrameRun& run = plan.runs[index];
     Session session(out, err, full_command_line(plan.line, run.words, plan.line.compat));
-    session.settings.compat = plan.line.compat;
-    session.settings.details = plan.verbose;
-    session.settings.quiet = plan.quiet;
+    set_for_line(session, plan);
     session.frame = run.frame;
     session.in_all_frames = [this](size_t at) {
         Strings names;
@@ -72,7 +70,6 @@ Session FrameContext::session(size_t index, std::ostream& out, std::ostream& err
             names.push_back(other.words.at(at));
         return names;
     };
-    session.judges = plan.check.judges();
     session.check.shot = shot ? &*shot : nullptr;
     session.written = written;
     session.settings.parallel = plan.parallel;

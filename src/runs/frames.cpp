@@ -151,6 +151,13 @@ void check_outputs_differ(const FramePlan& plan) {
 
 } // namespace
 
+void set_for_line(chain::Session& session, const FramePlan& plan) {
+    session.settings.compat = plan.line.compat;
+    session.settings.details = plan.verbose;
+    session.settings.quiet = plan.quiet;
+    session.judges = plan.check.judges();
+}
+
 FramePlan plan_frames(chain::ParsedLine line, const std::string& directory, bool for_images) {
     Scan scan = scan_line(std::move(line));
     scan.directory = directory;

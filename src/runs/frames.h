@@ -35,6 +35,9 @@ struct FramePlan {
     std::vector<size_t> sequences; ///< of a check: indices of the input words with wildcards
 };
 
+/// What holds for the whole line, also before its word is reached.
+void set_for_line(chain::Session& session, const FramePlan& plan);
+
 /// A CommandError where sequences do not fit together or match no file.
 /// `directory` is that of relative file names; empty: the current one. `for_images`: the line is
 /// run for one frame's images, and judges nothing.

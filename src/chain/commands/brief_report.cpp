@@ -3,7 +3,7 @@
 #include <OpenImageIO/strutil.h>
 
 #include "chain/commands/flip_report.h"
-#include "metrics/errors.h"
+#include "imagebuf/pixels/layer_name.h"
 #include "text/printable.h"
 
 namespace tonetool::chain {
@@ -12,15 +12,11 @@ namespace {
 
 using OIIO::Strutil::fmt::format;
 
-std::string layer_of(const FlipSide& side) {
-    return side.layer.empty() ? "R,G,B" : side.layer;
-}
-
 // Nothing of a plain R, G, B, the usual case.
 std::string layers_text(const FlipSide& first, const FlipSide& second) {
     if (first.layer == second.layer)
         return first.layer.empty() ? "" : ", layer " + first.layer;
-    return ", layer " + layer_of(second) + " against " + layer_of(first);
+    return ", layer " + shown_layer(second.layer) + " against " + shown_layer(first.layer);
 }
 
 // Nothing of what needed no conversion.

@@ -9,6 +9,7 @@
 #include "chain/commands/options.h"
 #include "imagebuf/options/cgtmo_options.h"
 #include "imagebuf/options/tone_options.h"
+#include "imagebuf/pixels/layer_name.h"
 #include "text/error.h"
 
 namespace tonetool::chain {
@@ -28,7 +29,7 @@ void report_summary(Session& session, const std::string& label, const CgTmoSumma
     auto line = [&](const char* name, const std::string& value) {
         session.report(label + ": " + name + " " + value);
     };
-    line("layer", found.layer.empty() ? "R,G,B" : found.layer);
+    line("layer", shown_layer(found.layer));
     line("position", found.position.empty() ? "none" : found.position);
     line("normal", found.normal.empty() ? "none" : found.normal);
     line("albedo", found.albedo.empty() ? "none" : found.albedo);

@@ -280,22 +280,6 @@ void run_filmstrip(Session& session, const Call& call) {
     push_result(session, call, std::move(maps[0])); // upright already
 }
 
-// Errors that have no bound may have any limit.
-Measures error_measures(const metrics::ErrorMetric& metric) {
-    constexpr double unbounded = 1e30;
-    Measures measures;
-    measures.names.insert(measures.names.begin(), metric.name);
-    measures.scale = [&metric](const std::string& quantity) {
-        const bool bounded = metric.has(metrics::kBounded);
-        if (quantity == metric.name && metric.has(metrics::kDecibels)) {
-            constexpr double least = -300; // of an error of 1e30
-            return Scale{bounded ? 0 : least, unbounded};
-        }
-        return Scale{0, bounded ? 1 : unbounded};
-    };
-    return measures;
-}
-
 void run_errormap(Session& session, const Call& call) {
     ErrorOptions options = error_options(session, call);
     const metrics::ErrorMetric& metric = *metrics::find_error_metric(options.metric);

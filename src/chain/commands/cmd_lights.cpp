@@ -6,6 +6,7 @@
 #include "chain/commands/light_args.h"
 #include "chain/commands/options.h"
 #include "imagebuf/options/tone_options.h"
+#include "imagebuf/pixels/layer_name.h"
 #include "text/error.h"
 
 namespace tonetool::chain {
@@ -21,7 +22,7 @@ void run_lightindex(Session& session, const Call& call) {
     if (!ToneAlgo::light_index(result, source, light_options(call), pixels, &found))
         throw CommandError(result.geterror());
     Lines lines(call.row().label());
-    lines.add("layer", found.layer.empty() ? "R,G,B" : found.layer);
+    lines.add("layer", shown_layer(found.layer));
     for (size_t g = 0; g < found.groups.size(); ++g) {
         const LightGroupSummary& group = found.groups[g];
         std::string text = group.name + ": pixels " + std::to_string(group.pixels) + " maximum " +

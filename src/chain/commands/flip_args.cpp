@@ -8,7 +8,6 @@
 #include "chain/commands/options.h"
 #include "chain/commands/tone_args.h"
 #include "imagebuf/options/flip_options.h"
-#include "metrics/errors.h"
 #include "sequence/results/measuring.h"
 #include "text/error.h"
 
@@ -279,6 +278,21 @@ Modifiers error_modifiers() {
     return concatenated(
         {modifiers_of<ErrorOptions>(), pair_modifiers(),
          threshold_modifiers(measures, "at most X (" + in_decibels + ": at least X dB)")});
+}
+
+Measures error_measures(const metrics::ErrorMetric& metric) {
+    constexpr double unbounded = 1e30;
+    Measures measures;
+    measures.names.insert(measures.names.begin(), metric.name);
+    measures.scale = [&metric](const std::string& quantity) {
+        const bool bounded = metric.has(metrics::kBounded);
+        if (quantity == metric.name && metric.has(metrics::kDecibels)) {
+            constexpr double least = -300; // of an error of 1e30
+            return Scale{bounded ? 0 : least, unbounded};
+        }
+        return Scale{0, bounded ? 1 : unbounded};
+    };
+    return measures;
 }
 
 ErrorOptions error_options(const Session& session, const Call& call) {

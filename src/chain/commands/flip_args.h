@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "chain/commands/commands.h"
+#include "metrics/errors.h"
 #include "tonetool/tonetool.h"
 
 namespace tonetool::chain {
@@ -55,6 +56,8 @@ void read_hdr_options(const Session& session, const Call& call, HdrFlipOptions& 
 /// for them is added to `pooled`.
 Limits limits_of(const Call& call, const Measures& measures, Strings& pooled);
 Modifiers error_modifiers();
+/// Errors that have no bound may have any limit.
+Measures error_measures(const metrics::ErrorMetric& metric);
 ErrorOptions error_options(const Session& session, const Call& call);
 
 /// OpenImageIO 3.2's names and defaults.

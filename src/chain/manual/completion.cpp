@@ -44,33 +44,41 @@ Strings values_of(const Modifier& modifier) {
     return values;
 }
 
-// Visits each name of each command that has modifiers.
+// Visits each name of each command, as it is typed.
 template <class Visit>
-void with_modifiers(const Visit& visit) {
+void for_each_name(const Visit& visit) {
     for (const Command& row : all_commands())
         for (const std::string& name : row.names)
-            if (!row.modifiers.empty())
-                visit(dashed(name), sorted_modifiers(row));
+            visit(dashed(name), row);
 }
 
+// Visits each name of each command that has modifiers, with all of them in the order of help.
 template <class Visit>
-void in_order(const SortedModifiers& modifiers, const Visit& visit) {
-    for (const Modifiers* list : {&modifiers.frequent, &modifiers.others, &modifiers.of_curves})
-        for (const Modifier& modifier : *list)
-            visit(modifier);
+void with_modifiers(const Visit& visit) {
+    for_each_name([&](const std::string& name, const Command& row) {
+        const SortedModifiers sorted = sorted_modifiers(row);
+        if (!row.modifiers.empty())
+            visit(name, concatenated({sorted.frequent, sorted.others, sorted.of_curves}));
+    });
 }
 
-// A line of a shell's "case" for each modifier with values: "--hdrflip:alpha=) SET ;;".
-template <class Text>
-std::string value_cases(const Text& text) {
-    std::string cases;
-    with_modifiers([&](const std::string& name, const SortedModifiers& modifiers) {
-        in_order(modifiers, [&](const Modifier& modifier) {
+// Visits each modifier that has values to choose from: "--hdrflip", "alpha", its values.
+template <class Visit>
+void with_values(const Visit& visit) {
+    with_modifiers([&](const std::string& name, const Modifiers& modifiers) {
+        for (const Modifier& modifier : modifiers) {
             const Strings values = values_of(modifier);
             if (!values.empty())
-                cases += "        " + name + ":" + modifier.key + "=) " + text(join(values, " ")) +
-                         " ;;\n";
-        });
+                visit(name, modifier.key, values);
+        }
+    });
+}
+
+// A line of bash's and zsh's "case" for each of them: "--hdrflip:alpha=) SET(ignore error) ;;".
+std::string value_cases(const std::string& set, const std::string& end) {
+    std::string cases;
+    with_values([&](const std::string& name, const std::string& key, const Strings& values) {
+        cases += "        " + name + ":" + key + "=) " + set + join(values, " ") + end + " ;;\n";
     });
     return cases;
 }
@@ -79,12 +87,11 @@ std::string value_cases(const Text& text) {
 
 std::string bash_completion() {
     std::string names, cases;
-    for (const Command& row : all_commands())
-        for (const std::string& name : row.names)
-            names += " " + dashed(name);
-    with_modifiers([&](const std::string& name, const SortedModifiers& modifiers) {
+    for_each_name([&](const std::string& name, const Command&) { names += " " + name; });
+    with_modifiers([&](const std::string& name, const Modifiers& modifiers) {
         Strings keys;
-        in_order(modifiers, [&](const Modifier& one) { keys.push_back(one.key + "="); });
+        for (const Modifier& one : modifiers)
+            keys.push_back(one.key + "=");
         cases += "        " + name + ") found=\"" + join(keys, " ") + "\" ;;\n";
     });
     return "_tonetool() {\n"
@@ -102,7 +109,7 @@ std::string bash_completion() {
            "    [[ $COMP_WORDBREAKS == *:* ]] && before=\n"
            "    if [[ $last == *=* ]]; then\n"
            "        case \"$command:${last%%=*}=\" in\n" +
-           value_cases([](const std::string& values) { return "found=\"" + values + "\""; }) +
+           value_cases("found=\"", "\"") +
            "        esac\n"
            "        before=\"$before${last%%=*}=\"\n"
            "        [[ $COMP_WORDBREAKS == *=* ]] && before=\n"
@@ -119,14 +126,13 @@ std::string bash_completion() {
 
 std::string zsh_completion() {
     std::string commands, cases;
-    for (const Command& row : all_commands())
-        for (const std::string& name : row.names)
-            commands += "    '" + dashed(name) + ":" + quoted_inside(row.help) + "'\n";
-    with_modifiers([&](const std::string& name, const SortedModifiers& modifiers) {
+    for_each_name([&](const std::string& name, const Command& row) {
+        commands += "    '" + name + ":" + quoted_inside(row.help) + "'\n";
+    });
+    with_modifiers([&](const std::string& name, const Modifiers& modifiers) {
         std::string keys;
-        in_order(modifiers, [&](const Modifier& one) {
+        for (const Modifier& one : modifiers)
             keys += " '" + one.key + "=:" + quoted_inside(one.help) + "'";
-        });
         cases += "    " + name + ") modifiers=(" + keys + " ) ;;\n";
     });
     return "#compdef tonetool\n"
@@ -134,7 +140,7 @@ std::string zsh_completion() {
            "if [[ $word == -*:*=* && ${word##*:} == *=* ]]; then\n"
            "    local last=${word##*:}\n"
            "    case ${word%%:*}:${last%%=*}= in\n" +
-           value_cases([](const std::string& values) { return "choices=(" + values + ")"; }) +
+           value_cases("choices=(", ")") +
            "    esac\n"
            "    compset -P '*='\n    _describe -t values value choices -S ''\n    return\nfi\n"
            "if [[ $word == -*:* ]]; then\n"
@@ -153,27 +159,21 @@ std::string fish_completion() {
     const auto fish = [](const std::string& text) {
         return "'" + with_before(text, "'\\", "\\") + "'";
     };
-    std::string commands, keys;
-    for (const Command& row : all_commands())
-        for (const std::string& name : row.names)
-            commands += " \\\n                " + fish(dashed(name)) + " " + fish(row.help);
-    with_modifiers([&](const std::string& name, const SortedModifiers& modifiers) {
+    std::string commands, keys, values;
+    for_each_name([&](const std::string& name, const Command& row) {
+        commands += " \\\n                " + fish(name) + " " + fish(row.help);
+    });
+    with_modifiers([&](const std::string& name, const Modifiers& modifiers) {
         keys += "                    case " + fish(name) + "\n                        set found";
-        in_order(modifiers, [&](const Modifier& one) {
+        for (const Modifier& one : modifiers)
             keys += " \\\n                            \"$before\"" + fish(one.key + "=") + " " +
                     fish(one.help);
-        });
         keys += "\n";
     });
-    std::string values;
-    with_modifiers([&](const std::string& name, const SortedModifiers& modifiers) {
-        in_order(modifiers, [&](const Modifier& one) {
-            const Strings words = values_of(one);
-            if (!words.empty())
-                values += "                    case " + fish(name + ":" + one.key) +
-                          "\n                        set found \"$before\"" + one.key + "=" +
-                          join(words, " \"$before\"" + one.key + "=") + "\n";
-        });
+    with_values([&](const std::string& name, const std::string& key, const Strings& words) {
+        values += "                    case " + fish(name + ":" + key) +
+                  "\n                        set found \"$before\"" + key + "=" +
+                  join(words, " \"$before\"" + key + "=") + "\n";
     });
     return "function __tonetool_words\n"
            "    set -l word (commandline -ct)\n"

@@ -27,6 +27,11 @@ std::string signature(const Command& row) {
     return text;
 }
 
+// In a list of commands.
+std::string listed(const Command& row) {
+    return "    " + padded(signature(row), 30) + row.help + "\n";
+}
+
 std::string images_text(const Command& row) {
     auto count = [](bool varies, int images) {
         return varies ? (images > 0 ? std::to_string(images) + " or more" : "as many as asked for")
@@ -95,7 +100,7 @@ std::string short_help_text() {
     for (const char* name : kFirstCommands) {
         const Command* row = find_command(name);
         if (row)
-            text += "    " + padded(signature(*row), 30) + row->help + "\n";
+            text += listed(*row);
     }
     return text +
            "\nRead on:\n"
@@ -109,14 +114,9 @@ std::string help_text() {
                        "  -h is shorter; --help COMMAND tells more about one.\n"
                        "\nSubjects:\n" +
                        topics_text();
-    for (int group = 0; group < kGroupCount; ++group) {
-        std::string rows;
-        for (const Command& row : all_commands())
-            if (row.group == static_cast<Group>(group))
-                rows += "    " + padded(signature(row), 30) + row.help + "\n";
-        if (!rows.empty())
-            text += "\n" + group_title(static_cast<Group>(group)) + ":\n" + rows;
-    }
+    for_each_group(listed, [&](const std::string& title, const std::string& rows) {
+        text += "\n" + title + ":\n" + rows;
+    });
     return text + "\nExit status:\n" + indented(kExitStatusText);
 }
 

@@ -20,6 +20,19 @@ struct SortedModifiers {
 };
 SortedModifiers sorted_modifiers(const Command& row);
 
+/// Visits the title of each group and its commands' texts, one behind the other.
+template <class Text, class Visit>
+void for_each_group(const Text& text_of, const Visit& visit) {
+    for (int group = 0; group < kGroupCount; ++group) {
+        std::string rows;
+        for (const Command& row : all_commands())
+            if (row.group == static_cast<Group>(group))
+                rows += text_of(row);
+        if (!rows.empty())
+            visit(group_title(static_cast<Group>(group)), rows);
+    }
+}
+
 /// A few lines about the use of the program.
 std::string usage_text();
 /// One screen for the first day: -h.

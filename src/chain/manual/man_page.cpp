@@ -96,14 +96,9 @@ std::string command_text(const Command& row) {
 
 std::string command_sections() {
     std::string text;
-    for (int group = 0; group < kGroupCount; ++group) {
-        std::string rows;
-        for (const Command& row : all_commands())
-            if (row.group == static_cast<Group>(group))
-                rows += command_text(row);
-        text += rows.empty() ? ""
-                             : ".SS " + troff(group_title(static_cast<Group>(group))) + "\n" + rows;
-    }
+    for_each_group(command_text, [&](const std::string& title, const std::string& rows) {
+        text += ".SS " + troff(title) + "\n" + rows;
+    });
     return text;
 }
 

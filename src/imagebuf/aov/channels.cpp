@@ -7,13 +7,12 @@
 #include <set>
 
 #include "imagebuf/aov/aov_layers.h"
+#include "imagebuf/pixels/layer_name.h"
 #include "imagebuf/pixels/names.h"
 #include "metrics/refusal.h"
 
 namespace tonetool {
 namespace {
-
-constexpr const char* kPlain = "R,G,B";
 
 // What renderers call the final picture, as plain_word() makes it.
 constexpr const char* kBeautyNames[] = {"combined", "rgba",  "rgb",        "c",     "ci",
@@ -24,7 +23,7 @@ struct Layer {
     std::string part; // of plain R,G,B: what the part of the file is called
     int channel[4] = {-1, -1, -1, -1};
     bool twice = false; // a colour is there in two spellings, "R" and "red"
-    std::string shown() const { return name.empty() ? kPlain : name; }
+    std::string shown() const { return shown_layer(name); }
     AovKind kind() const {
         return kind_of_layer(split_layer(name.empty() ? part : name).layer_name);
     }
@@ -197,7 +196,7 @@ std::vector<Layer> beauty(const OIIO::ImageSpec& spec, const std::vector<Layer>&
 
 // How a user asks for a layer that is not taken for the picture.
 std::string asked_as(const Layer& layer) {
-    return !layer.name.empty() ? layer.name : layer.part.empty() ? kPlain : layer.part;
+    return !layer.name.empty() ? layer.name : shown_layer(layer.part);
 }
 
 std::string data_text(const OIIO::ImageSpec& spec, const Layer& layer) {

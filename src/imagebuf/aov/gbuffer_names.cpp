@@ -5,6 +5,7 @@
 
 #include "imagebuf/aov/aov_layers.h"
 #include "imagebuf/aov/gbuffer.h"
+#include "imagebuf/pixels/layer_name.h"
 #include "imagebuf/pixels/names.h"
 #include "metrics/refusal.h"
 
@@ -58,7 +59,7 @@ int rank_of(Guide guide, const AovLayer& layer, bool vray) {
 std::string shown(Guide guide, const AovLayer& layer, const ImageSpec& spec) {
     if (layer.plain && guide == Depth)
         return std::string(spec.channel_name(layer.scalar()));
-    return layer.name.empty() ? "R,G,B" : layer.name;
+    return shown_layer(layer.name);
 }
 
 struct Finder {

@@ -5,6 +5,7 @@
 
 #include "imagebuf/aov/channels.h"
 #include "imagebuf/pixels/guard.h"
+#include "imagebuf/pixels/layer_name.h"
 #include "imagebuf/pixels/names.h"
 #include "metrics/refusal.h"
 #include "tonetool/parts.h"
@@ -13,8 +14,6 @@ namespace tonetool {
 namespace {
 
 using OIIO::ImageSpec;
-
-constexpr const char* kPlain = "R,G,B";
 
 // A layer with colour of one of the parts.
 struct Picture {
@@ -62,7 +61,7 @@ std::string without_view(const std::string& name, const std::string& view) {
 
 Picture picture_of(const ImageSpec& spec, int part, const std::string& layer) {
     const std::vector<std::string> views = listed_views(spec);
-    const bool plain = layer == kPlain;
+    const bool plain = layer == kPlainLayer;
     Picture picture;
     picture.part = part;
     picture.name = plain ? std::string(spec.get_string_attribute("oiio:subimagename")) : layer;

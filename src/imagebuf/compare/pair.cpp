@@ -12,6 +12,7 @@
 #include "imagebuf/aov/channels.h"
 #include "imagebuf/pixels/allocation.h"
 #include "imagebuf/pixels/bands.h"
+#include "imagebuf/pixels/layer_name.h"
 #include "imagebuf/pixels/names.h"
 #include "imagebuf/pixels/oiio_compat.h"
 #include "imagebuf/pixels/upright.h"
@@ -52,10 +53,6 @@ bool alike(const std::string& a, const std::string& b) {
         return name.empty() || is_beauty_name(name);
     };
     return last_word(a) == last_word(b) || (beauty(a) && beauty(b));
-}
-
-std::string layer_text(const std::string& layer) {
-    return layer.empty() ? "R,G,B" : layer;
 }
 
 // The planes as an image of R, G, B (and A): linear Rec.709, NaN where they are not finite.
@@ -180,8 +177,8 @@ void FittedTest::open(const ImageBuf& reference, const ImageBuf& test, const Pai
     check_orientation(reference, test);
     m_notes = differing_tags(reference.spec(), test.spec());
     if (!alike(of_reference.layer, m_choice.layer))
-        m_notes.push_back("the layer of the reference is " + layer_text(of_reference.layer) +
-                          ", that of the test " + layer_text(m_choice.layer));
+        m_notes.push_back("the layer of the reference is " + shown_layer(of_reference.layer) +
+                          ", that of the test " + shown_layer(m_choice.layer));
     const ROI window = reference.roi_full();
     if (options.size == SizePolicy::Resize && !same_window(window, test.roi_full()))
         resize(window, options, nthreads);

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <string>
 
+#include "imagebuf/pixels/layer_name.h"
 #include "tonetool/errors.h"
 #include "tonetool/flip.h"
 #include "tonetool/tmqi.h"
@@ -60,7 +61,7 @@ inline int64_t said(const SummaryField&, int64_t value) {
 /// How an image was read: of any summary.
 template <class S, class Visit>
 void visit_source(const Visit& visit) {
-    visit(SummaryField{"layer", "\"\" for the plain R, G, B.", nullptr, nullptr, "R,G,B"},
+    visit(SummaryField{"layer", "\"\" for the plain R, G, B.", nullptr, nullptr, kPlainLayer},
           &S::layer);
     visit(SummaryField{"space", "Colour space the stored values were read in."}, &S::space);
 }

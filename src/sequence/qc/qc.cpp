@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <tuple>
 
+#include "imagebuf/pixels/layer_name.h"
 #include "sequence/qc/qc_shot.h"
 #include "text/printable.h"
 
@@ -183,7 +184,7 @@ std::string frames_text(int first, int last) {
 std::string layer_text(const QcLayer& layer) {
     return layer.kind == "picture" ? "the picture"
            : layer.kind == "light" ? "light group " + layer.name
-                                   : "layer " + (layer.name.empty() ? "R,G,B" : layer.name);
+                                   : "layer " + shown_layer(layer.name);
 }
 
 double median(std::vector<double> values) {
