@@ -29,7 +29,7 @@ void require(bool valid, const char* name, double value, const char* what) {
         throw Refusal(std::string(name) + " is " + std::to_string(value) + ", must be " + what);
 }
 
-void check(const BiasSide& reference, const BiasSide& test, const BiasOptions& options) {
+void check(const BiasSide& reference, const BiasSide& test, const BiasTest& options) {
     if (reference.seeds() < 1 || test.seeds() < 1)
         throw Refusal("a side has no image");
     if (reference.width() != test.width() || reference.height() != test.height())
@@ -42,6 +42,10 @@ void check(const BiasSide& reference, const BiasSide& test, const BiasOptions& o
             "above 0 and below 0.5");
     require(options.power >= 0.5 && options.power < 1, "power", options.power,
             "at least 0.5 and below 1");
+    if (std::find(std::begin(kBiasNoises), std::end(kBiasNoises), options.reference) ==
+        std::end(kBiasNoises))
+        throw Refusal("reference is \"" + options.reference +
+                      "\", must be auto, alike or converged");
 }
 
 bool all_identical(const Sums& sums) {
@@ -109,9 +113,9 @@ void shown_by_pixels(BiasReason reason, double bound, BiasResult& out) {
     out.shown = 1;
 }
 
-int unlike_of(const BiasOptions& options, double asymmetry) {
-    if (options.reference != BiasNoise::Auto)
-        return options.reference == BiasNoise::Converged ? 1 : 0;
+int unlike_of(const BiasTest& options, double asymmetry) {
+    if (options.reference != kBiasNoises[0])
+        return options.reference == kBiasNoises[2] ? 1 : 0;
     if (std::abs(asymmetry) <= kUnlike)
         return 0;
     return asymmetry > 0 ? 1 : -1;
@@ -184,7 +188,7 @@ void decide(BiasResult& out) {
 
 } // namespace
 
-BiasResult bias_check(const BiasSide& reference, const BiasSide& test, const BiasOptions& options,
+BiasResult bias_check(const BiasSide& reference, const BiasSide& test, const BiasTest& options,
                       const ParallelFor& parallel) {
     check(reference, test, options);
     BiasResult out;

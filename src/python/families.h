@@ -11,6 +11,7 @@ void add_compare(Module& module); ///< what comparisons have in common
 void add_flip(Module& module);
 void add_flip_results(Module& module);
 void add_evaluate(Module& module);
+void add_bias(Module& module);
 void add_errors(Module& module);
 void add_tmqi(Module& module);
 void add_tonemap(Module& module);

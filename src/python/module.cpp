@@ -29,6 +29,7 @@ void add_everything(Module& module) {
     add_compare(module);
     add_flip(module);
     add_evaluate(module);
+    add_bias(module);
     add_errors(module);
     add_tmqi(module);
     add_tonemap(module);

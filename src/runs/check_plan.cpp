@@ -3,8 +3,12 @@
 
 #include <algorithm>
 #include <set>
+#include <stdexcept>
 
+#include "sequence/results/limits_file.h"
+#include "sequence/results/measuring.h"
 #include "text/error.h"
+#include "text/token.h"
 
 namespace tonetool::runs {
 
@@ -43,7 +47,7 @@ private:
         m_plan.dry_run |= word.is("n");
         note_what_is_judged(word);
         if (!manner)
-            keep(word.at, with_shot_exposures(word.token));
+            keep(word.at, with_numbers(word.row->names.front(), with_shot_exposures(word.token)));
         // What --qc looks for is part of what comes of the line.
         if (check || word.is("qc"))
             take_check(word);
@@ -63,7 +67,7 @@ private:
         if (m_line.compat && !row.own)
             return;
         m_plan.compares |= row.group == Group::Compare && row.pops > 0;
-        m_plan.has_limits |= word.is("diff") || word.is("pdiff");
+        m_plan.has_limits |= row.always_judges;
         for (const auto& [key, value] : word.token.modifiers) {
             m_plan.has_limits |= key == "fail" || key == "warn";
             if (row.writes_to(key) && m_depth == 0)
@@ -132,6 +136,26 @@ private:
         }
         m_plan.exposures = value;
         return token.with_value("exposures", "shot");
+    }
+
+    // Limits are what a file of them says, so that results can be held to them. What cannot be read
+    // is told when the command runs.
+    std::string with_numbers(const std::string& command, const std::string& text) {
+        Token token = parse_token(text, true);
+        for (const char* key : {"fail", "warn"})
+            for (const auto& [name, value] : Token(token).modifiers)
+                if (name == key && sequence::measuring_command(command) &&
+                    sequence::names_limits_file(value))
+                    token = parse_token(token.with_value(key, numbers_in(value)), true);
+        return token.text;
+    }
+
+    static std::string numbers_in(const std::string& file) {
+        try {
+            return sequence::limits_text(sequence::read_limits(file));
+        } catch (const std::runtime_error&) {
+            return file;
+        }
     }
 
     void check_merge() const {

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "runs/frames.h"
 
+#include <algorithm>
 #include <map>
 
 #include "runs/frame_scan.h"
 #include "text/error.h"
+#include "text/token.h"
 
 namespace tonetool::runs {
 
@@ -131,6 +133,27 @@ void make_runs(Scan& scan, const Files& first, const std::vector<Files>& listing
     }
 }
 
+// "frames=family" says how many tests there are: those of all frames. As a number it is the same in
+// the tasks of a farm, in a check that goes on, and in its results.
+void count_families(FramePlan& plan) {
+    const auto counted = [&](std::string& text) {
+        const Token token = parse_token(text, true);
+        for (const auto& [key, value] : token.modifiers)
+            if (key == "frames" && value == "family")
+                text = token.with_value(key, std::to_string(plan.runs.size()));
+    };
+    for (const chain::Word& word : plan.line.words) {
+        if (!word.is("biascheck"))
+            continue;
+        for (FrameRun& run : plan.runs)
+            counted(run.words.at(word.at));
+        const auto& at = plan.check.essence_at;
+        const auto found = std::find(at.begin(), at.end(), word.at);
+        if (found != at.end())
+            counted(plan.check.essence.at(size_t(found - at.begin())));
+    }
+}
+
 // Each frame would be written over the one before. What an expression or an --if makes of it is
 // seen when it is written.
 void check_outputs_differ(const FramePlan& plan) {
@@ -177,6 +200,7 @@ FramePlan plan_frames(chain::ParsedLine line, const std::string& directory, bool
         list_frames(scan, first, listings);
     }
     make_runs(scan, first, listings);
+    count_families(scan.plan);
     check_outputs_differ(scan.plan);
     return scan.plan;
 }

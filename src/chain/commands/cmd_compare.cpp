@@ -185,7 +185,7 @@ void run_hdrflip(Session& session, const Call& call) {
     HdrFlipOptions options;
     read_flip_options(session, call, true, options);
     read_hdr_options(session, call, options);
-    const Limits limits = limits_of(call, {}, options.quantities);
+    const Limits limits = limits_of(session, call, {}, options.quantities);
     read_shot_exposures(session, call, options);
     auto exposure_map = call.choice("exposuremap", {"stops", "index"});
     options.want_exposure_map = exposure_map || shown_bytes(session, call) > 0;
@@ -218,7 +218,7 @@ void run_hdrflip(Session& session, const Call& call) {
 void run_ldrflip(Session& session, const Call& call) {
     FlipOptions options;
     read_flip_options(session, call, true, options);
-    const Limits limits = limits_of(call, {}, options.quantities);
+    const Limits limits = limits_of(session, call, {}, options.quantities);
     FlipResult result;
     auto [views, maps] =
         compare(session, call, same_look(call), [&](Maps& to, auto& reference, auto& tests) {
@@ -237,7 +237,8 @@ void run_flipdiff(Session& session, const Call& call) {
     HdrFlipOptions options = flipdiff_options(session, call);
     bool hdr = call.flag("hdr", true);
     const auto* measuring = sequence::measuring_command(call.row().label());
-    const Limits limits = limits_of(call, {{measuring->quantity}, false}, options.quantities);
+    const Limits limits =
+        limits_of(session, call, {{measuring->quantity}, false}, options.quantities);
     auto colors = call.text("colormap");
     if (colors)
         check_colormap(*colors);
@@ -264,7 +265,7 @@ void run_filmstrip(Session& session, const Call& call) {
     HdrFlipOptions options;
     read_flip_options(session, call, false, options);
     read_hdr_options(session, call, options);
-    const Limits limits = limits_of(call, {}, options.quantities);
+    const Limits limits = limits_of(session, call, {}, options.quantities);
     ToneAlgo::FilmstripOptions look;
     look.thumb_width = call.integer("width", {32, 4096}).value_or(look.thumb_width);
     look.max_columns = call.integer("columns", {1, 1024}).value_or(look.max_columns);
@@ -283,7 +284,7 @@ void run_filmstrip(Session& session, const Call& call) {
 void run_errormap(Session& session, const Call& call) {
     ErrorOptions options = error_options(session, call);
     const metrics::ErrorMetric& metric = *metrics::find_error_metric(options.metric);
-    const Limits limits = limits_of(call, error_measures(metric), options.quantities);
+    const Limits limits = limits_of(session, call, error_measures(metric), options.quantities);
     ErrorSummary summary;
     auto [views, maps] =
         compare(session, call, same_look(call), [&](Maps& to, auto& reference, auto& tests) {
@@ -312,7 +313,7 @@ void run_tmqi(Session& session, const Call& call) {
     TmqiOptions options{pixel_options(call), pixel_options(call, "ldr"), call.flag("crop", false),
                         session.settings.memory};
     Strings none;
-    const Limits limits = limits_of(call, tmqi_measures(), none);
+    const Limits limits = limits_of(session, call, tmqi_measures(), none);
     TmqiSummary summary;
     auto [views, maps] =
         compare(session, call, {options.hdr, options.ldr}, [&](Maps& to, auto& hdr, auto& tests) {

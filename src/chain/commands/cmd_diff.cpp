@@ -334,10 +334,12 @@ Rows diff_commands() {
         rows.push_back(limit_row(option));
     rows.push_back(
         command("diff", "Report the difference of two images; status 1 if it fails", run_diff)
-            .images(2, 2));
+            .images(2, 2)
+            .judges());
     rows.push_back(
         command("pdiff", "Report the perceptual difference of two images (Yee)", run_diff)
-            .images(2, 2));
+            .images(2, 2)
+            .judges());
     return rows;
 }
 

@@ -84,7 +84,8 @@ Part& color_part(Session& session, const Call& call, const Image& image,
     const bool compares = call.row().group == Group::Compare;
     if (compares && session.settings.all_subimages && options.layer.empty())
         refuse_all(image);
-    const bool judged = compares && (call.has("fail") || call.has("warn") || session.check.result);
+    const bool judged = compares && (call.has("fail") || call.has("warn") ||
+                                     call.row().always_judges || session.check.result);
     if (judged)
         check_nothing_left_out(image);
     PartChoice choice;

@@ -26,6 +26,8 @@ void add_measuring_commands() {
     constexpr bool own = true;
     add_commands(Group::Compare, diff_commands());
     add_commands(Group::Compare, compare_commands(), own);
+    add_commands(Group::Compare, bias_commands(), own);
+    add_commands(Group::Compare, noise_floor_commands(), own);
     add_commands(Group::Measure, qc_commands(), own);
     add_commands(Group::Color, exposure_commands(), own);
     add_commands(Group::Color, tone_commands(), own);

@@ -28,6 +28,8 @@ Rows diff_commands();
 
 // Those of tonetool itself.
 Rows compare_commands();
+Rows bias_commands();
+Rows noise_floor_commands();
 Rows qc_commands();
 Rows exposure_commands();
 Rows tone_commands();

@@ -3,11 +3,13 @@
 
 #include <OpenImageIO/sysutil.h>
 #include <algorithm>
+#include <stdexcept>
 
 #include "chain/commands/frame_pictures.h"
 #include "chain/commands/options.h"
 #include "chain/commands/tone_args.h"
 #include "imagebuf/options/flip_options.h"
+#include "sequence/results/limits_file.h"
 #include "sequence/results/measuring.h"
 #include "text/error.h"
 
@@ -44,8 +46,9 @@ void check_order(const Call& call, const std::optional<double>& start,
 // fail= and warn= of a command.
 class LimitReader {
 public:
-    LimitReader(const Call& call, const Measures& measures, Strings& pooled)
-        : m_call(call),
+    LimitReader(Session& session, const Call& call, const Measures& measures, Strings& pooled)
+        : m_session(session),
+          m_call(call),
           m_measures(measures),
           m_pooled(pooled) {}
 
@@ -72,7 +75,10 @@ private:
     void read_list(const std::string& key, Member member) {
         if (!m_call.has(key))
             return;
-        for (const std::string& word : split(*m_call.text(key), ',')) {
+        std::string text = *m_call.text(key);
+        if (sequence::names_limits_file(text))
+            text = numbers_of(key, m_session.file(text));
+        for (const std::string& word : split(text, ',')) {
             const size_t equals = word.find('=');
             const bool named = equals != std::string::npos;
             if (!named && !parse_number(word)) {
@@ -88,6 +94,41 @@ private:
             }
             limit.*member = number(key, word.substr(named ? equals + 1 : 0), limit.quantity);
         }
+    }
+
+    // What the file of --noisefloor has, if it is of a command like this one.
+    std::string numbers_of(const std::string& key, const std::string& file) const {
+        sequence::KeptLimits kept;
+        try {
+            kept = sequence::read_limits(file);
+        } catch (const std::runtime_error& problem) {
+            throw CommandError(key + ": " + problem.what());
+        }
+        const std::string label = m_call.row().label(), of = "the limits of \"" + file + "\" are ";
+        if (kept.command != label)
+            throw CommandError(of + "for --" + kept.command + ", not for --" + label);
+        for (const Modifier& one : m_call.row().modifiers) {
+            const auto given = m_call.text(one.key);
+            const auto measured =
+                std::find_if(kept.modifiers.begin(), kept.modifiers.end(),
+                             [&](const auto& modifier) { return modifier.first == one.key; });
+            const bool had = measured != kept.modifiers.end();
+            if (measures(one.key) &&
+                (given.has_value() != had || (had && measured->second != *given))) {
+                throw CommandError(
+                    of + "of a comparison with " +
+                    (had ? one.key + "=" + measured->second : "no " + one.key + "=") +
+                    ", this one has " + (given ? one.key + "=" + *given : "none"));
+            }
+        }
+        return sequence::limits_text(kept);
+    }
+
+    // The others say what becomes of the numbers.
+    static bool measures(const std::string& key) {
+        static const Strings others = {"fail",  "warn",        "quantity",      "print",   "above",
+                                       "tests", "exposuremap", "saveexposures", "colormap"};
+        return std::find(others.begin(), others.end(), key) == others.end();
     }
 
     double number(const std::string& key, const std::string& text,
@@ -108,14 +149,15 @@ private:
     }
 
     Scale scale_of(const std::string& quantity) const {
-        return quantity.compare(0, above.size(), above) == 0 ? Scale() : m_measures.scale(quantity);
+        return quantity.compare(0, m_above.size(), m_above) == 0 ? Scale()
+                                                                 : m_measures.scale(quantity);
     }
 
     // Of above=E, or of a quantity above0.2: an error that some pixel can be above.
     void check_error_above(const std::string& text, double error) const {
         const Scale scale = m_measures.scale("max");
         if (error >= scale.high) {
-            throw CommandError(above + "=" + text + ": no error is above it (valid: 0 to below " +
+            throw CommandError(m_above + "=" + text + ": no error is above it (valid: 0 to below " +
                                format_number(scale.high) + ")");
         }
     }
@@ -125,15 +167,15 @@ private:
         const auto& names = m_measures.names;
         if (std::find(names.begin(), names.end(), name) != names.end())
             return name;
-        const auto known = !m_measures.map ? std::nullopt
-                           : name == above ? std::optional<std::string>(above + error_above())
-                                           : ToneAlgo::flip_quantity_name(name);
+        const auto known = !m_measures.map   ? std::nullopt
+                           : name == m_above ? std::optional<std::string>(m_above + error_above())
+                                             : ToneAlgo::flip_quantity_name(name);
         if (!known) {
             throw CommandError("unknown quantity \"" + name + "\"" + meant(name, m_measures.names) +
                                " (valid: " + join(listed(), ", ") + ")");
         }
-        if (known->compare(0, above.size(), above) == 0) {
-            const std::string error = known->substr(above.size());
+        if (known->compare(0, m_above.size(), m_above) == 0) {
+            const std::string error = known->substr(m_above.size());
             check_error_above(error, parse_number(error).value());
         }
         m_pooled.push_back(*known);
@@ -157,9 +199,9 @@ private:
         const Scale scale = m_measures.scale("max");
         const double error = checked_number("above", *text, {0, scale.high});
         check_error_above(*text, error);
-        return ToneAlgo::flip_quantity_name(above + format_apart(error, 0))
+        return ToneAlgo::flip_quantity_name(m_above + format_apart(error, 0))
             .value()
-            .substr(above.size());
+            .substr(m_above.size());
     }
 
     Limit& limit_of(const std::string& quantity) {
@@ -170,7 +212,8 @@ private:
         return m_limits.back();
     }
 
-    const std::string above = "above";
+    const std::string m_above = "above";
+    Session& m_session;
     const Call& m_call;
     const Measures& m_measures;
     Strings& m_pooled;
@@ -210,10 +253,11 @@ Modifiers hdr_modifiers() {
 
 Modifiers threshold_modifiers(const Measures& measures, const std::string& unless) {
     Modifiers rows = {
-        {"fail", "X|QUANTITY=X,...",
+        {"fail", "X|QUANTITY=X,...|JSON",
          "exit status 3 unless the quantity is " + unless +
              (measures.map ? "; p99.9 and max find local faults, which the mean does not" : "")},
-        {"warn", "X|QUANTITY=X,...", "a warning unless the quantity is " + unless},
+        {"warn", "X|QUANTITY=X,...|JSON",
+         "a warning unless the quantity is " + unless + "; JSON: a file of --noisefloor"},
         {"quantity", choices(measures.names) + (measures.map ? "|pNN|above" : ""),
          "what a limit without a name tests (the first)" +
              std::string(measures.map ? "; pNN: any percentile, p99.95" : "")}};
@@ -267,8 +311,8 @@ void read_hdr_options(const Session& session, const Call& call, HdrFlipOptions& 
     check_order(call, options.start_exposure, options.stop_exposure);
 }
 
-Limits limits_of(const Call& call, const Measures& measures, Strings& pooled) {
-    return LimitReader(call, measures, pooled).read();
+Limits limits_of(Session& session, const Call& call, const Measures& measures, Strings& pooled) {
+    return LimitReader(session, call, measures, pooled).read();
 }
 
 Modifiers error_modifiers() {

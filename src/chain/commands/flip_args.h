@@ -36,6 +36,7 @@ struct Measures {
 };
 
 // Lists of modifiers, to be put together into rows.
+extern const Modifier kPrint;
 Modifiers pixel_modifiers(); ///< layer, from
 Modifiers pair_modifiers();  ///< and resize, crop, alpha
 Modifiers hdr_modifiers();   ///< tone curve and exposures
@@ -52,9 +53,10 @@ void read_pair_options(const Session& session, const Call& call, PairOptions& op
 /// `screen`: distance, width and pixels describe the screen; else only ppd does.
 void read_flip_options(const Session& session, const Call& call, bool screen, FlipOptions& options);
 void read_hdr_options(const Session& session, const Call& call, HdrFlipOptions& options);
-/// fail= and warn=: a number, or quantity=number with commas between them. What has to be pooled
+/// fail= and warn=: a number, quantity=number with commas between them, or the file of
+/// --noisefloor. What has to be pooled
 /// for them is added to `pooled`.
-Limits limits_of(const Call& call, const Measures& measures, Strings& pooled);
+Limits limits_of(Session& session, const Call& call, const Measures& measures, Strings& pooled);
 Modifiers error_modifiers();
 /// Errors that have no bound may have any limit.
 Measures error_measures(const metrics::ErrorMetric& metric);

@@ -47,7 +47,7 @@ bool names_file(const std::string& hint) {
 }
 
 bool Command::writes() const {
-    return group == Group::Check ||
+    return group == Group::Check || (!args.empty() && args.front() == kLimitsArgument) ||
            (group == Group::Write && std::any_of(args.begin(), args.end(), names_file));
 }
 

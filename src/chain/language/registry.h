@@ -99,9 +99,15 @@ struct Command {
     bool writes() const;
     /// A modifier of that name says where files go.
     bool writes_to(const std::string& key) const;
+    /// It ends in a verdict whatever its modifiers are: fails, unless it passes.
+    bool always_judges = false;
+
     /// Something of it remains when the chain has ended.
     bool outlives_chain() const { return of_process || writes(); }
 };
+
+/// An argument that is a file which a command of comparisons writes.
+inline constexpr char kLimitsArgument[] = "LIMITS";
 
 /// Whether an argument or modifier of that name or hint is a file, or may be one.
 bool names_file(const std::string& hint);
@@ -141,6 +147,7 @@ public:
     }
     Row& keeps_header() { return set(&Command::keeps_header, true); }
     Row& makes_map() { return set(&Command::makes_map, true); }
+    Row& judges() { return set(&Command::always_judges, true); }
     /// "fail,layer": the modifiers that are used most, in the order in which help names them.
     Row& frequent(const std::string& keys) { return set(&Command::frequent, split(keys, ',')); }
     Row& of_subimages() { return set(&Command::of_subimages, true); }

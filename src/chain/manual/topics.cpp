@@ -71,13 +71,46 @@ A quantity is mean, weighted-median, weighted-q1, weighted-q3, min, max, a perce
 or the share of the pixels above an error (above0.2). Without a name it is the first one that the
 command has. Of psnr, mpsnr and --tmqi more is better, and a limit is what must be reached.
 
-Noise alone gave a mean of 0.14 to 0.29 and a p99.9 of 0.5 to 0.85 in three scenes, so measure yours.
-How to find a limit: render a frame twice with different seeds and compare the two: what they differ
-by is noise. Set the limit of the mean a tenth above theirs, that of p99.9 a fifth. p99.9 leaves out
-a thousandth of the pixels, 45x45 of 1920x1080: for smaller faults add a limit of p99.99.
+Noise alone gave a mean of 0.14 to 0.29 and a p99.9 of 0.5 to 0.85 in three scenes, so measure yours:
+--noisefloor makes limits from renders of the approved version (--help biascheck). By hand: render a
+frame twice with different seeds and compare the two: what they differ by is noise. Set the limit of
+the mean a tenth above theirs, that of p99.9 a fifth. p99.9 leaves out a thousandth of the pixels,
+45x45 of 1920x1080: for smaller faults add a limit of p99.99.
 
 A limit that cannot fail (fail=1 of a map from 0 to 1) is an error; NaN exceeds any limit; where a
 limit could not be tested, the check has not passed. Status 3 says that fail= was exceeded.
+)";
+
+const char* const kBiascheck = R"(Noise or change?
+
+  tonetool approved.exr test.exr --biascheck
+  tonetool a1.exr a2.exr a3.exr a4.exr t1.exr t2.exr t3.exr t4.exr --biascheck:seeds=4:within=0.02
+  tonetool approved.#.exr test.#.exr --biascheck:frames=family:inconclusive=warn --json check.json
+
+HDR-FLIP sees noise as an eye does, and cannot see behind it: a noisy render that is 5 % too bright
+may have a lower error than an honest one. --biascheck tests whether the light of two renders differs
+in more than the noise of their samples, over the picture and in blocks of 16, 32 and 64 pixels. It
+wants renders without a denoiser, of different seeds. Three verdicts:
+
+  different           beyond chance: alpha= is the rate of false alarms, 1 % of the images. Status 3
+  equal               shown to be equal within the margin within=, 5 %, as the line says. Status 0
+  not enough samples  neither; it says how many times more are needed. Status 3, unless
+                      inconclusive=warn or inconclusive=pass; it is never called passed
+
+Keep 4 seeds of the approved version at the samples per pixel of the tests (references=4): with noise
+of the same kind on both sides nothing is left untested. Against a converged reference
+(reference=converged) parts that are darker may have to stay untested. More seeds of a test: tests=K.
+
+What it cannot know: an error that both sides have; a change that a denoiser has smeared over its
+neighbours (more than 30 % is found); one firefly in a whole picture; an object smaller than a block
+that changes a little. HDR-FLIP sees small objects, so use both.
+
+  tonetool ref.exr a1.exr a2.exr a3.exr a4.exr --noisefloor limits.json
+  tonetool ref.exr test.exr --hdrflip:fail=limits.json
+
+--noisefloor finds limits of HDR-FLIP or --errormap from 4 or more renders of the approved version, so
+that at most 1 % of honest renders exceed one (content=0.99), with 95 % confidence. It fails if the
+reference is not what the renders converge to: then the baseline is out of date.
 )";
 
 const char* const kTonemap = R"(Showing an HDR picture
@@ -155,6 +188,7 @@ const std::vector<Topic>& topics() {
         {"compare", "a test image with a reference", kCompare},
         {"check", "a sequence of frames, with or without a reference", kCheck},
         {"threshold", "limits: what fails, and how to find a number", kThreshold},
+        {"biascheck", "noise or change: what HDR-FLIP cannot see", kBiascheck},
         {"tonemap", "show an HDR picture on a display", kTonemap},
         {"hdr", "colour spaces, NaN, negative values, windows, alpha", kHdr},
         {"ocio", "views, displays and LUTs", kOcio},

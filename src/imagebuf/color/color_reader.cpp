@@ -298,7 +298,7 @@ void ColorReader::clean_pixel(const Row& row, size_t x, const float (&stored)[3]
         counts.negative_digest += digest(row.place + x, v);
     }
     for (size_t p = 0; p < 3; ++p) {
-        row.plane[p][x] = finite ? float(std::clamp(v[p], 0.0, double(FLT_MAX))) : 0.0f;
+        row.plane[p][x] = finite ? float(std::clamp(v[p], double(m_least), double(FLT_MAX))) : 0.0f;
         counts.largest = std::max(counts.largest, row.plane[p][x]);
     }
 }

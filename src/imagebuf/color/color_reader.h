@@ -3,6 +3,7 @@
 #pragma once
 
 #include <OpenImageIO/imagebuf.h>
+#include <cfloat>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -21,6 +22,8 @@ public:
     /// Alpha, where it is not asked for, is told from another by ColorCounts::alpha_digest; before
     /// open().
     void watch_alpha() { m_watch = true; }
+    /// Negative components stay what they are; before open().
+    void keep_negative() { m_least = -FLT_MAX; }
     /// Looks at the header only. The image must live as long as this does.
     void open(const OIIO::ImageBuf& image, const PixelOptions& options, OIIO::ROI region,
               bool want_alpha, int nthreads);
@@ -79,6 +82,7 @@ private:
     ColorSpace m_space;
     OIIO::ROI m_region, m_window;
     bool m_alpha = false, m_watch = false, m_saving_memory = false;
+    float m_least = 0; ///< of a component
     int m_nthreads = 0;
     int64_t m_uncovered = 0;
     Place m_place[4];

@@ -146,4 +146,19 @@ void annotate(ImageSpec& spec, const TmqiSummary& summary) {
     annotate_end(to, summary.warnings);
 }
 
+void annotate(ImageSpec& spec, const BiasSummary& summary) {
+    const Writer to{spec, "Bias:"};
+    const BiasResult& result = summary.result;
+    to.text("verdict", ToneAlgo::bias_verdict_name(result.verdict));
+    to.text("reason", ToneAlgo::bias_reason_name(result.reason));
+    to.text("sentence", ToneAlgo::bias_sentence(result));
+    to.number("within", result.options.within);
+    to.number("alpha", result.options.alpha);
+    for (const auto& [name, value] : ToneAlgo::bias_numbers(result))
+        to.number(name, value);
+    visit_side(to.fields(summary.reference, "reference"));
+    visit_side(to.fields(summary.test, "test"));
+    annotate_end(to, summary.warnings);
+}
+
 } // namespace tonetool

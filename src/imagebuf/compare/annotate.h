@@ -4,6 +4,7 @@
 
 #include <OpenImageIO/imagebuf.h>
 
+#include "tonetool/bias.h"
 #include "tonetool/errors.h"
 #include "tonetool/flip.h"
 #include "tonetool/tmqi.h"
@@ -17,5 +18,7 @@ void annotate(OIIO::ImageSpec& spec, const FlipSummary& summary);
 void annotate(OIIO::ImageSpec& spec, const ErrorSummary& summary);
 /// As `TMQI:*`: Q, S, N, S1 to S5, the finest scale first.
 void annotate(OIIO::ImageSpec& spec, const TmqiSummary& summary);
+/// As `Bias:*`: verdict, reason, sentence, within, alpha, and the names of bias_numbers().
+void annotate(OIIO::ImageSpec& spec, const BiasSummary& summary);
 
 } // namespace tonetool

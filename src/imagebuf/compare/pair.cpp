@@ -30,7 +30,7 @@ std::string window_text(const ROI& r) {
 }
 
 // Of a region that is compared at once: 32 times an 8K frame.
-constexpr double kMostPixels = 1 << 30;
+constexpr double kMostComparedPixels = 1 << 30;
 
 // A tag that stretches the picture on a screen, but not its pixels.
 std::vector<std::string> differing_tags(const OIIO::ImageSpec& reference,
@@ -146,31 +146,31 @@ ROI compared_region(const ImageBuf& reference, const ImageBuf& test, SizePolicy 
     // In double: corrupt windows overflow everything else.
     const double pixels =
         (double(region.xend) - region.xbegin) * (double(region.yend) - region.ybegin);
-    if (!(pixels <= kMostPixels))
+    if (!(pixels <= kMostComparedPixels))
         throw Refusal(
             OIIO::Strutil::fmt::format("the union of the data windows has {} pixels, more than {}; "
                                        "crop=1 compares the display window only",
-                                       pixels, kMostPixels));
+                                       pixels, kMostComparedPixels));
     return region;
 }
 
 void FittedTest::open(const ImageBuf& reference, const ImageBuf& test, const PairOptions& options,
                       int nthreads) {
     check_readable(reference, "reference");
-    check_readable(test, "test");
+    check_readable(test, m_who);
     m_test = m_came = &test;
     m_pixels = options.pixels;
     ColorChoice of_reference;
     for (const ImageBuf* image : {&reference, &test}) {
         of_reference = m_choice;
-        m_choice = of_side(side_name(image == &test ? "test" : "reference", *image),
+        m_choice = of_side(side_name(image == &test ? m_who : "reference", *image),
                            [&] { return chosen_color(deciding_spec(*image), options.pixels); });
     }
     // One that lost its other channels would pass where colours are pale.
     if (of_reference.grey() != m_choice.grey()) {
         const bool lost = m_choice.grey();
         throw Refusal(
-            side_name(lost ? "test" : "reference", lost ? test : reference) +
+            side_name(lost ? m_who : "reference", lost ? test : reference) +
             "has one channel, the other image has R,G,B: a grey picture is compared with a grey "
             "one (--ch Y,Y,Y makes three channels of it)");
     }
@@ -202,6 +202,8 @@ void FittedTest::resize(const ROI& window, const PairOptions& options, int nthre
     const bool alpha = options.alpha == AlphaPolicy::Error;
     ColorReader reader;
     check_resize_fits(m_test->roi(), window, options);
+    if (m_signed)
+        reader.keep_negative();
     of_side(name(),
             [&] { reader.open(*m_test, m_pixels, plane_of(m_test->roi()), alpha, nthreads); });
     if (options.memory > 0)
@@ -237,6 +239,8 @@ uint64_t FittedTest::held_bytes() const {
 }
 
 void FittedTest::open_reader(bool alpha, int nthreads, ColorReader& reader) const {
+    if (m_signed)
+        reader.keep_negative();
     of_side(name(), [&] { reader.open(*m_test, m_pixels, m_region, alpha, nthreads); });
 }
 

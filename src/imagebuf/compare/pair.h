@@ -25,10 +25,15 @@ OIIO::ROI compared_region(const OIIO::ImageBuf& reference, const OIIO::ImageBuf&
 /// A test image brought to the reference's display window.
 class FittedTest {
 public:
+    /// Before open(): it is called so in errors; negative components stay what they are.
+    void call(const char* who) { m_who = who; }
+    void keep_negative() { m_signed = true; }
     /// Checks both images, resizes the test if that was asked for, finds the region.
     void open(const OIIO::ImageBuf& reference, const OIIO::ImageBuf& test,
               const PairOptions& options, int nthreads);
     const OIIO::ROI& region() const { return m_region; }
+    /// Other pixels are to be read than it would compare by itself.
+    void set_region(const OIIO::ROI& region) { m_region = region; }
     /// What a user must know of how the two go together.
     const std::vector<std::string>& notes() const { return m_notes; }
     bool resized() const { return m_test == &m_resized; }
@@ -42,13 +47,15 @@ public:
     /// Bytes of the resized image, 0 if there is none.
     uint64_t held_bytes() const;
     /// How errors about the test begin.
-    std::string name() const { return side_name("test", *m_test); }
+    std::string name() const { return side_name(m_who, *m_test); }
 
 private:
     void resize(const OIIO::ROI& window, const PairOptions& options, int nthreads);
     void note_cropped(const OIIO::ROI& window);
     void fill_window(const ColorPlanes& planes, OIIO::ROI window, int nthreads);
 
+    const char* m_who = "test";
+    bool m_signed = false;
     const OIIO::ImageBuf* m_came = nullptr;
     const OIIO::ImageBuf* m_test = nullptr;
     PixelOptions m_pixels;

@@ -2,6 +2,7 @@
 // Everything tonetool offers to C++.
 #pragma once
 
+#include "tonetool/bias.h"
 #include "tonetool/cgtmo.h"
 #include "tonetool/color_tags.h"
 #include "tonetool/compare.h"

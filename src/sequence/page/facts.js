@@ -64,8 +64,20 @@ function settingsOf(measurement) {
   return rows.concat(entries(measurement.parameters));
 }
 
+/** Of a command with one of three verdicts: its sentence, what was found, and the numbers. */
+function verdictBoxes(measurement, rows) {
+  const found = (measurement.evidence || []).map((text) => make("li", {}, text));
+  const boxes = [make("div", { className: "wide" }, make("h3", {}, `${measurement.command} (${measurement.status})`),
+    make("p", {}, measurement.sentence), found.length ? make("ul", {}, ...found) : null)];
+  boxes.push(table("Numbers", rows), table("Parameters", settingsOf(measurement)));
+  measurement.warnings.forEach((text) => boxes.push(make("p", { className: "wide" }, badge("warning"),
+    ` ${text}`)));
+  return boxes;
+}
+
 function measurementBoxes(measurement) {
   const rows = entries(measurement.quantities);
+  if (measurement.verdict) return verdictBoxes(measurement, rows);
   for (const limit of thresholdsOf(measurement)) {
     if (typeof limit.fail === "number") rows.push([`fail (${limit.quantity})`, limit.fail]);
     if (typeof limit.warn === "number") rows.push([`warn (${limit.quantity})`, limit.warn]);

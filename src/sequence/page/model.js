@@ -135,12 +135,16 @@ function thresholdOf(place) {
 
 const mainPlace = Math.max(0, measures.findIndex((_, place) => thresholdOf(place)));
 
-const mainQuantity = (thresholdOf(mainPlace) || {}).quantity || quantitiesOf(mainPlace)[0] || "";
+/** Whether the command's result is one of three verdicts; its limits are no quantities of a curve. */
+const hasVerdict = frames.some((frame) => (measurementOf(frame, mainPlace) || {}).verdict);
+
+const mainQuantity = (!hasVerdict && (thresholdOf(mainPlace) || {}).quantity) || quantitiesOf(mainPlace)[0] || "";
 
 /** "p99 0.4512 > 0.05" */
 function verdictOf(frame) {
   const measurement = measurementOf(frame, mainPlace) || frame.measurements[0];
   if (!measurement) return "";
+  if (measurement.verdict) return measurement.sentence;
   const limit = decidingOf(measurement);
   if (limit) {
     const bound = exceeds(limit, limit.warn) && !exceeds(limit, limit.fail) ? limit.warn : limit.fail ?? limit.warn;

@@ -17,6 +17,7 @@ const KEYS = {
   Home: () => select(0), End: () => select(frames.length - 1),
   n: () => stepWorst(1), p: () => stepWorst(-1),
   c: () => chooseShow("compare"), e: () => chooseShow("error"), x: () => chooseShow("stops"),
+  b: () => chooseShow("bias"),
   "[": () => setSplit(viewer.split - 5), "]": () => setSplit(viewer.split + 5),
 };
 

@@ -2,7 +2,8 @@
 
 // `stops` is the requested exposure; `exposure` the index of the nearest one that was drawn.
 const viewer = { index: 0, exposure: 0, stops: null, show: "compare", split: 50 };
-const SHOWS = [["compare", "Comparison"], ["error", "Error map"], ["stops", "Exposure map"]];
+const SHOWS = [["compare", "Comparison"], ["error", "Error map"], ["stops", "Exposure map"],
+  ["bias", "Noise or change"]];
 
 const picture = (source, words) => make("img", { src: source, alt: words });
 
@@ -26,6 +27,12 @@ function stopsLegend(full) {
   const [low, high] = full.range;
   return legendOf(data.legends.stops, stops(low), `${stops(high)} stops`,
     `Viridis colours, from dark blue, ${stops(low)} stops, to yellow, ${stops(high)} stops`);
+}
+
+function biasLegend(full) {
+  const range = `${number(100 * full.bias_range)} %`;
+  return legendOf(data.legends.bias, `\u2212${range}`, `+${range}`,
+    `From blue, ${range} darker, to orange, ${range} brighter, where that is more than noise`);
 }
 
 function setSplit(value) {
@@ -68,6 +75,8 @@ function stageOf(frame, full, small) {
     return [picture(full.error, "Error map"), data.pictures.error, errorLegend()];
   if (viewer.show === "stops" && full.stops)
     return [picture(full.stops, "Exposure map"), data.pictures.stops, stopsLegend(full)];
+  if (viewer.show === "bias" && full.bias)
+    return [picture(full.bias, "Map of noise or change"), data.pictures.bias, biasLegend(full)];
   const at = full.exposures[viewer.exposure];
   if (!at.reference) return [picture(at.test, `Test at ${stops(at.stops)} stops`), data.pictures.shown, null];
   const range = make("input", { type: "range", className: "slide", id: "slide", min: 0, max: 100, step: 1,
@@ -97,6 +106,7 @@ function drawPictures() {
       picture(small.error, "Error map, thumbnail")), errorLegend()));
   if (full && full.stops)
     maps.push(mapFigure(full.stops, "Exposure of the largest error", stopsLegend(full), "stops"));
+  if (full && full.bias) maps.push(mapFigure(full.bias, "Noise or change", biasLegend(full), "bias"));
   byId("maps").replaceChildren(...maps);
   byId("maps").hidden = maps.length === 0;
   byId("near").replaceChildren(...nearBoxes(frame, full));
@@ -115,8 +125,9 @@ function drawChoices() {
   viewer.exposure = nearest(list);
   radios(byId("exposures"), "exposure", list.map((each, i) => [i, stops(each.stops), true, `Key ${i + 1}`]),
     viewer.exposure, chooseExposure);
-  const there = { compare: true, error: full && full.error, stops: full && full.stops };
-  radios(byId("shows"), "show", full ? SHOWS.map(([key, text]) =>
+  const there = { compare: true, error: full && full.error, stops: full && full.stops, bias: full && full.bias };
+  const shows = SHOWS.filter(([key]) => key !== "bias" || there.bias);
+  radios(byId("shows"), "show", full ? shows.map(([key, text]) =>
     [key, key === "compare" && !list[0].reference ? "Picture" : text, Boolean(there[key])]) : [],
     there[viewer.show] ? viewer.show : "compare", chooseShow);
 }

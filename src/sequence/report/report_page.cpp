@@ -146,6 +146,10 @@ ordered_json captions() {
             {"error", "0 is no visible difference, 1 the largest. Each pixel shows the largest "
                       "error beneath it, so that a single pixel is not lost."},
             {"stops", "The exposure at which the error is largest."},
+            {"bias", "Blocks that differ in more than their noise: blue where the test is darker, "
+                     "orange where it is brighter. Plain grey: no difference beyond the noise. "
+                     "Hatched dark: could not be tested. Hatched white: only the structure "
+                     "differs."},
             {"thumbnails", "Of this frame only thumbnails were kept: it is not among the worst."}};
 }
 
@@ -168,11 +172,13 @@ std::string data_of(const ShotResult& shot, const Kept& kept, const PageLimits& 
     ordered_json result = parse_json<ordered_json>(to_json(shot));
     result["worst"] = shot.worst; // here they are indices
     trim(result, kept, limits);
-    const ordered_json page{
-        {"shot", result},
-        {"legends", {{"error", legend_uri("magma")}, {"stops", legend_uri("viridis")}}},
-        {"pictures", captions()},
-        {"about", about(shot, kept, limits)}};
+    const ordered_json page{{"shot", result},
+                            {"legends",
+                             {{"error", legend_uri("magma")},
+                              {"stops", legend_uri("viridis")},
+                              {"bias", bias_legend_uri()}}},
+                            {"pictures", captions()},
+                            {"about", about(shot, kept, limits)}};
     return one_line(page);
 }
 

@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "imagebuf/pixels/upright.h"
+#include "sequence/report/bias_picture.h"
 #include "sequence/report/bytes.h"
 #include "sequence/report/encoded.h"
 #include "sequence/report/reduced.h"
@@ -42,7 +43,9 @@ public:
         : m_request(request),
           m_nthreads(nthreads),
           m_look(request.look),
-          m_whole(request.error ? request.error->roi() : request.test->roi_full()),
+          m_whole(request.error  ? request.error->roi()
+                  : request.bias ? request.bias->roi()
+                                 : request.test->roi_full()),
           m_orientation(orientation_of(request.test->spec())) {
         m_look.pixels.layer.clear();
         if (!says_space_again(m_look.pixels))
@@ -63,6 +66,8 @@ public:
         draw_small(pictures, linear, middle, small);
         if (m_request.full)
             draw_large(pictures, linear, stops);
+        if (m_request.bias)
+            draw_bias(pictures);
         draw_spots(pictures, middle);
         return pictures;
     }
@@ -187,6 +192,13 @@ private:
         }
     }
 
+    void draw_bias(FramePictures& pictures) const {
+        pictures.bias_range = bias_range(*m_request.bias, m_request.within);
+        pictures.bias =
+            uri(bias_picture(*m_request.bias, fitted(m_whole, kPictureSide), pictures.bias_range),
+                Encoding::Png);
+    }
+
     // The exposure of the largest error at this pixel.
     double stops_at(const Position& at, double otherwise) const {
         return m_request.stops ? double(m_request.stops->getchannel(at.x, at.y, 0, 0)) : otherwise;
@@ -246,6 +258,10 @@ std::string full_json(const FramePictures& pictures) {
     to["error"] = pictures.error;
     to["stops"] = pictures.stops;
     to["range"] = {pictures.first_stop, pictures.last_stop};
+    if (!pictures.bias.empty()) {
+        to["bias"] = pictures.bias;
+        to["bias_range"] = pictures.bias_range;
+    }
     to["spots"] = json_of(pictures.spots);
     return one_line(to);
 }
@@ -261,6 +277,10 @@ std::string legend_uri(const std::string& map) {
     const float from[1] = {0.0f}, to[1] = {1.0f};
     OIIO::ImageBufAlgo::fill(ramp, from, to, from, to);
     return data_uri(colored_bytes(ramp, map), Encoding::Png);
+}
+
+std::string bias_legend_uri() {
+    return data_uri(bias_ramp(), Encoding::Png);
 }
 
 } // namespace tonetool::sequence

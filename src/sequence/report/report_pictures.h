@@ -17,6 +17,8 @@ struct PictureRequest {
     const OIIO::ImageBuf* test = nullptr;
     const OIIO::ImageBuf* error = nullptr; ///< a map of errors from 0 to 1; gives the region
     const OIIO::ImageBuf* stops = nullptr; ///< FlipResult::exposure_stops
+    const OIIO::ImageBuf* bias = nullptr;  ///< bias_check()'s map "all"; gives the region, too
+    double within = 0;                     ///< the margin of that check
     /// Exposures that were compared, ascending; empty: the image's own.
     std::vector<double> exposures;
     HdrFlipOptions look; ///< how the images were compared, and so how they are shown
@@ -40,6 +42,8 @@ struct FramePictures {
     std::vector<ExposurePictures> exposures;
     std::string error, stops; ///< magma from 0 to 1, viridis over the range below
     double first_stop = 0, last_stop = 0;
+    std::string bias; ///< the map of --biascheck; colours end at this relative difference
+    double bias_range = 0;
     std::vector<SpotPictures> spots;
     std::string small_test, small_error; ///< thumbnails
 };
@@ -62,5 +66,6 @@ std::string small_json(const FramePictures& pictures);
 
 /// The colours of a map from left to right, as a data URI.
 std::string legend_uri(const std::string& map);
+std::string bias_legend_uri();
 
 } // namespace tonetool::sequence

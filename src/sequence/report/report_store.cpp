@@ -182,7 +182,11 @@ void FramePainter::take(FramePictures pictures, const PictureRequest& request) {
     const bool wanted = wants(request);
     if (!drawn || wanted) {
         std::swap(pictures, drawn ? *drawn : drawn.emplace());
-        pair = request.reference != nullptr;
+        pair = request.reference && !request.bias; // a later command may have an error map
+    }
+    if (drawn->bias.empty()) {
+        drawn->bias = std::move(pictures.bias);
+        drawn->bias_range = pictures.bias_range;
     }
     // Each pixel appears once, as it was drawn first.
     for (SpotPictures& spot : pictures.spots) {

@@ -100,4 +100,23 @@ Measurement measurement(const TmqiSummary& summary) {
     return to;
 }
 
+Measurement measurement(const BiasSummary& summary) {
+    const BiasResult& result = summary.result;
+    Measurement to;
+    to.verdict = ToneAlgo::bias_verdict_name(result.verdict);
+    to.sentence = ToneAlgo::bias_sentence(result);
+    to.evidence = ToneAlgo::bias_evidence(result);
+    to.quantities = ToneAlgo::bias_numbers(result);
+    to.settings.emplace_back("reason", ToneAlgo::bias_reason_name(result.reason));
+    to.settings.emplace_back("noise-of-reference", result.options.reference);
+    to.parameters = {{"within", result.options.within},
+                     {"alpha", result.options.alpha},
+                     {"power", result.options.power}};
+    visit_side(fields(to, summary.reference, "reference"));
+    visit_side(fields(to, summary.test, "test"));
+    to.pixels = static_cast<long long>(summary.region.npixels());
+    to.warnings = summary.warnings;
+    return to;
+}
+
 } // namespace tonetool::sequence

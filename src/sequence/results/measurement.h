@@ -11,5 +11,6 @@ namespace tonetool::sequence {
 Measurement measurement(const FlipSummary& summary);
 Measurement measurement(const ErrorSummary& summary);
 Measurement measurement(const TmqiSummary& summary);
+Measurement measurement(const BiasSummary& summary);
 
 } // namespace tonetool::sequence

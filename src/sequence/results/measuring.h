@@ -8,11 +8,12 @@ namespace tonetool::sequence {
 
 /// What a command's numbers are.
 enum class Scoring {
-    Map,      ///< the pool of an error map, 0 to 1
-    Error,    ///< an error metric's measure, and the pool of its map
-    Index,    ///< of TMQI
-    Values,   ///< of the pixels' differences, held to --fail and its like
-    Perceived ///< the same, but which pixels differ is told by eye
+    Map,       ///< the pool of an error map, 0 to 1
+    Error,     ///< an error metric's measure, and the pool of its map
+    Index,     ///< of TMQI
+    Values,    ///< of the pixels' differences, held to --fail and its like
+    Perceived, ///< the same, but which pixels differ is told by eye
+    Verdict    ///< one of three, of --biascheck
 };
 
 struct MeasuringCommand {
@@ -29,10 +30,11 @@ struct MeasuringCommand {
 };
 
 inline constexpr MeasuringCommand kMeasuringCommands[] = {
-    {"hdrflip", Scoring::Map, nullptr},    {"ldrflip", Scoring::Map, nullptr},
-    {"flipdiff", Scoring::Map, "max"},     {"filmstrip", Scoring::Map, nullptr},
-    {"errormap", Scoring::Error, nullptr}, {"tmqi", Scoring::Index, nullptr},
-    {"diff", Scoring::Values, nullptr},    {"pdiff", Scoring::Perceived, nullptr}};
+    {"hdrflip", Scoring::Map, nullptr},      {"ldrflip", Scoring::Map, nullptr},
+    {"flipdiff", Scoring::Map, "max"},       {"filmstrip", Scoring::Map, nullptr},
+    {"errormap", Scoring::Error, nullptr},   {"tmqi", Scoring::Index, nullptr},
+    {"diff", Scoring::Values, nullptr},      {"pdiff", Scoring::Perceived, nullptr},
+    {"biascheck", Scoring::Verdict, "bound"}};
 
 /// nullptr for a command that measures nothing.
 const MeasuringCommand* measuring_command(const std::string& name);

@@ -11,6 +11,7 @@
 
 #include "sequence/qc/qc.h"
 #include "sequence/results/measuring.h"
+#include "tonetool/bias.h"
 
 namespace tonetool::sequence {
 
@@ -50,6 +51,10 @@ struct Found {
     std::string message;
 };
 
+bool undecided(const Measurement& measurement) {
+    return measurement.verdict == ToneAlgo::bias_verdict_name(BiasVerdict::NotEnoughSamples);
+}
+
 // All thresholds must hold; the message names those that do not.
 Found of_thresholds(const Measurement& measurement) {
     std::string failed, warned;
@@ -62,10 +67,13 @@ Found of_thresholds(const Measurement& measurement) {
             add_text(warned, text_of(threshold, *threshold.warn));
     }
     const std::string start = measurement.command + ": ";
+    const bool in_words = !measurement.verdict.empty();
     if (!failed.empty())
-        return {Status::Failed, start + failed};
+        return {Status::Failed, start + (in_words ? measurement.sentence : failed)};
     if (!warned.empty())
-        return {Status::Warning, start + warned};
+        return {Status::Warning, start + (in_words ? measurement.sentence : warned)};
+    if (undecided(measurement)) // neither, also where that is accepted
+        return {Status::Measured, start + measurement.sentence};
     return {tested ? Status::Passed : Status::Measured, ""};
 }
 
@@ -114,6 +122,18 @@ std::string measured_text(const FrameResult& frame) {
     return format("{}: {} {:.6g}", frame.measurements.front().command, quantity, value);
 }
 
+// How many frames are to be called different by chance: every test may be wrong in so many.
+std::string false_alarms_text(const ShotResult& shot) {
+    double expected = 0;
+    for (const FrameResult& frame : shot.frames)
+        for (const Measurement& measured : frame.measurements)
+            for (const auto& [name, value] : measured.parameters)
+                expected += !measured.verdict.empty() && name == "alpha" ? value : 0;
+    return shot.frames.size() > 1 && expected > 0
+               ? format("; by chance alone up to {:.3g} of them are called different", expected)
+               : "";
+}
+
 std::string sentence_of(const ShotResult& shot) {
     std::vector<std::string> parts;
     const std::map<Status, size_t> counts = count_of_each(shot);
@@ -122,6 +142,7 @@ std::string sentence_of(const ShotResult& shot) {
     std::string text =
         format("{} {}: {}", shot.frames.size(), shot.frames.size() == 1 ? "frame" : "frames",
                OIIO::Strutil::join(parts, ", "));
+    text += false_alarms_text(shot);
     const FrameResult& worst = shot.frames[shot.worst.front()];
     const std::string why = measured_text(worst);
     if (has_problem(shot.verdict) || (shot.frames.size() > 1 && !why.empty()))
@@ -198,15 +219,25 @@ void judge(FrameResult& frame) {
         return;
     }
     // A frame passes if --qc found nothing or a threshold held; measurements alone do not pass it.
-    const bool tested = std::any_of(found.begin(), found.end(),
-                                    [](const Found& one) { return one.status == Status::Passed; });
-    frame.status = tested || !frame.qc.empty() ? Status::Passed : Status::Measured;
+    const auto any = [&](auto is) { return std::any_of(found.begin(), found.end(), is); };
+    const auto open = [](const Found& one) {
+        return one.status == Status::Measured && !one.message.empty();
+    };
+    const bool tested = any([](const Found& one) { return one.status == Status::Passed; });
+    frame.status = !any(open) && (tested || !frame.qc.empty()) ? Status::Passed : Status::Measured;
     for (const Found& one : found) {
+        if (open(one) && frame.status == Status::Measured && frame.message.empty())
+            frame.message = one.message;
         if (has_problem(one.status) && one.status > frame.status) {
             frame.status = one.status;
             frame.message = one.message;
         }
     }
+}
+
+bool is_undecided(const FrameResult& frame) {
+    return frame.status <= Status::Warning &&
+           std::any_of(frame.measurements.begin(), frame.measurements.end(), undecided);
 }
 
 std::optional<double> quantity_of(const Measurement& measured, const std::string& name) {
@@ -218,9 +249,13 @@ std::optional<double> quantity_of(const Measurement& measured, const std::string
 
 double badness(const FrameResult& frame) {
     double most = 0;
-    for (const Measurement& measurement : frame.measurements)
+    for (const Measurement& measurement : frame.measurements) {
+        const double bound = quantity_of(measurement, "bound").value_or(0);
+        if (!measurement.verdict.empty() && !(measurement.status <= Status::Passed))
+            most = std::max(most, std::isfinite(bound) ? bound : kWorstBadness);
         for (const Threshold& threshold : measurement.thresholds)
-            most = std::max(most, excess(threshold));
+            most = std::max(most, measurement.verdict.empty() ? excess(threshold) : 0);
+    }
     if (most > 0)
         return most;
     for (const Fault& fault : frame.faults)

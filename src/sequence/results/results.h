@@ -81,6 +81,10 @@ struct Measurement {
     std::vector<double> exposures;    ///< stops, ascending
     Numbers parameters;               ///< ppd, the curve's, max-luminance, counts of bad pixels...
     Texts settings;                   ///< tonemapper, colour spaces, layers, ...
+    /// Of a command that does not measure an error but tells noise from change: "different",
+    /// "equal" or "not enough samples", what it means, and what was found.
+    std::string verdict, sentence;
+    std::vector<std::string> evidence;
     std::vector<std::string> warnings;
 };
 
@@ -131,6 +135,10 @@ struct ShotResult {
 /// Sets status and message of a frame from its measurements and faults, unless its status is
 /// already worse.
 void judge(FrameResult& frame);
+
+/// Whether a test of the frame has said neither yes nor no, and nothing is worse: it has not
+/// passed, whatever its status.
+bool is_undecided(const FrameResult& frame);
 
 /// Whether nothing was measured of the frame although nothing is wrong with it.
 bool is_unmeasured(const FrameResult& frame);

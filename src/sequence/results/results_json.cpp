@@ -176,6 +176,10 @@ ordered_json json_of(const Measurement& measured) {
     put_list(to, "exposures", measured.exposures);
     put_list(to, "parameters", measured.parameters);
     put_list(to, "settings", measured.settings);
+    put(to, "verdict", measured.verdict);
+    put(to, "sentence", measured.sentence);
+    if (!measured.evidence.empty())
+        to["evidence"] = measured.evidence;
     if (!measured.warnings.empty())
         to["warnings"] = measured.warnings;
     return to;
@@ -200,6 +204,9 @@ Measurement measurement_of(const ordered_json& from) {
         measured.exposures.push_back(number(stops, "exposures"));
     measured.parameters = numbers(from, "parameters");
     measured.settings = texts(from, "settings");
+    measured.verdict = text(from, "verdict");
+    measured.sentence = text(from, "sentence");
+    measured.evidence = values<std::string>(from, "evidence");
     measured.warnings = values<std::string>(from, "warnings");
     return measured;
 }

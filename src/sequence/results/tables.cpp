@@ -52,6 +52,8 @@ void add_measurements(Columns& columns, Row& row, const FrameResult& frame) {
             measured.command + (number > 1 ? "#" + std::to_string(number) : "") + ".";
         if (number > 1 && measured.test != frame.measurements.front().test)
             columns.put(row, start + "test", cell(measured.test));
+        if (!measured.verdict.empty())
+            columns.put(row, start + "verdict", cell(measured.verdict));
         for (const Threshold& threshold : measured.thresholds) {
             const auto& limit = threshold.fail ? threshold.fail : threshold.warn;
             const bool first = &threshold == &measured.thresholds.front();
@@ -112,6 +114,8 @@ std::string outcome(const FrameResult& frame) {
     const std::string message = escaped(frame.message);
     const std::string name = status_name(frame.status);
     const std::string details = escaped(faults_text(frame));
+    if (is_undecided(frame))
+        return format("<skipped message=\"{}\"/>", message);
     switch (frame.status) {
     case Status::Passed:
         return "";
@@ -161,7 +165,7 @@ std::string junit_text(const ShotResult& shot) {
     for (const FrameResult& frame : shot.frames) {
         failures += frame.status == Status::Failed ? 1 : 0;
         errors += frame.status > Status::Failed ? 1 : 0;
-        skipped += frame.status == Status::Measured ? 1 : 0;
+        skipped += frame.status == Status::Measured || is_undecided(frame) ? 1 : 0;
         cases += test_case(frame);
     }
     const std::string counts =

@@ -42,10 +42,32 @@ Limits limits_of(const MeasuringCommand& command, const Token& token, const std:
     return limits;
 }
 
+// Each of so many frames is tested at a part of alpha.
+void ask_verdict(const Token& token, Asked& asked) {
+    const auto number = [&](const char* key, double otherwise) {
+        const std::string text = modifier(token, key);
+        const auto given = parse_number(text);
+        asked.open = asked.open || (!given && !text.empty());
+        return given.value_or(otherwise);
+    };
+    const std::string inconclusive = modifier(token, "inconclusive");
+    const BiasTest usual;
+    asked.limited = true;
+    asked.verdict.fails = modifier(token, "fail") != "0";
+    asked.verdict.inconclusive = inconclusive.empty() ? "fail" : inconclusive;
+    asked.within = number("within", usual.within);
+    const bool each = modifier(token, "frames") == "each";
+    asked.alpha = number("alpha", usual.alpha) / (each ? 1 : number("frames", 1));
+}
+
 Asked asked_of(const MeasuringCommand& command, const Token& token, const DiffLimits& diff,
                bool open) {
     Asked asked;
     asked.open = open || token.text.find('{') != std::string::npos;
+    if (command.scoring == Scoring::Verdict) {
+        ask_verdict(token, asked);
+        return asked;
+    }
     asked.fail = limits_of(command, token, "fail", asked.open);
     asked.warn = limits_of(command, token, "warn", asked.open);
     asked.limited = command.compares_values() || !asked.fail.empty() || !asked.warn.empty();

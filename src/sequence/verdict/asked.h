@@ -8,6 +8,7 @@
 
 #include "sequence/results/diff_limits.h"
 #include "sequence/results/measuring.h"
+#include "sequence/results/verdict_limits.h"
 
 namespace tonetool::sequence {
 
@@ -21,6 +22,8 @@ struct Asked {
     std::string metric; ///< of --errormap
     double peak = 1;
     DiffLimits diff;
+    VerdictLimits verdict;        ///< of --biascheck, with the numbers
+    double within = 0, alpha = 0; ///< that it is held to
 };
 
 struct Check {

@@ -252,7 +252,9 @@ std::string contradictory_thresholds(const Measurement& measured) {
             return format(": the threshold is held against {} {}, but {} is {}", name,
                           threshold.value, name, *value);
         }
-        if (!value && !measuring_command(measured.command)->compares_values())
+        const MeasuringCommand& command = *measuring_command(measured.command);
+        const bool measures = !command.compares_values() && command.scoring != Scoring::Verdict;
+        if (!value && measures)
             return " has a threshold of " + name + ", but no such quantity";
         if (threshold.higher_is_better != higher_is_better(measured.command, name)) {
             const char *said = threshold.higher_is_better ? "higher" : "lower",
@@ -273,6 +275,8 @@ std::string contradictory_numbers(const Measurement& measured, const Asked& aske
         return asked.open ? "" : contradictory_diff(measured, asked, scoring == Scoring::Perceived);
     case Scoring::Index:
         return contradictory_tmqi(measured);
+    case Scoring::Verdict:
+        return contradictory_verdict(measured);
     case Scoring::Error:
         why = contradictory_error(measured, asked);
         break;

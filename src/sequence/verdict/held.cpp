@@ -2,6 +2,7 @@
 #include "sequence/verdict/held.h"
 
 #include <OpenImageIO/strutil.h>
+#include <algorithm>
 
 #include "text/text.h"
 
@@ -60,10 +61,31 @@ std::string other_diff_limit(const Measurement& measured, const Asked& asked) {
 
 } // namespace
 
+std::string other_verdict_limits(const Measurement& measured, const Asked& asked) {
+    const auto same = [](const Threshold& a, const Threshold& b) {
+        return a.quantity == b.quantity && a.value == b.value && a.fail == b.fail &&
+               a.warn == b.warn;
+    };
+    const auto wanted = verdict_thresholds(measured.verdict, asked.verdict);
+    if (!std::equal(wanted.begin(), wanted.end(), measured.thresholds.begin(),
+                    measured.thresholds.end(), same)) {
+        return format(" has other thresholds than its verdict \"{}\" and the check's fail= and "
+                      "inconclusive= give",
+                      measured.verdict);
+    }
+    for (const auto& [name, wants] :
+         {std::pair("within", asked.within), std::pair("alpha", asked.alpha)})
+        for (const auto& [key, value] : measured.parameters)
+            if (key == name && value != wants)
+                return format(" was tested with {}={}, but the check has {}", name, value, wants);
+    return "";
+}
+
 std::string not_held(const Measurement& measured, const Asked& asked) {
-    return measuring_command(measured.command)->compares_values()
-               ? other_diff_limit(measured, asked)
-               : other_limits(measured, asked);
+    const MeasuringCommand& command = *measuring_command(measured.command);
+    return command.compares_values()             ? other_diff_limit(measured, asked)
+           : command.scoring == Scoring::Verdict ? other_verdict_limits(measured, asked)
+                                                 : other_limits(measured, asked);
 }
 
 } // namespace tonetool::sequence

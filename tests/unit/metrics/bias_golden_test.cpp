@@ -182,8 +182,8 @@ void expect_result(const BiasResult& got, const json& want) {
         expect_statistics(got, want);
 }
 
-BiasOptions options_of(const json& one) {
-    BiasOptions options;
+BiasTest options_of(const json& one) {
+    BiasTest options;
     options.within = one.value("within", options.within);
     options.alpha = one.value("alpha", options.alpha);
     options.power = one.value("power", options.power);

@@ -96,7 +96,7 @@ inline BiasSide side_of(const std::vector<Render>& seeds) {
 }
 
 inline BiasResult check_pair(const Render& reference, const Render& test,
-                             const BiasOptions& options = {}) {
+                             const BiasTest& options = {}) {
     return bias_check(BiasSide(reference.view()), BiasSide(test.view()), options,
                       kernels::in_order());
 }

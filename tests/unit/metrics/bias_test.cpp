@@ -72,7 +72,7 @@ void expect_near(const std::vector<double>& a, const std::vector<double>& b, dou
 }
 
 BiasResult check_sides(const std::vector<Render>& references, const std::vector<Render>& tests,
-                       const BiasOptions& options = {}) {
+                       const BiasTest& options = {}) {
     return bias_check(side_of(references), side_of(tests), options, in_order());
 }
 
@@ -179,7 +179,7 @@ TEST(BiasCheck, SameSeedsShowEqualityAtOnce) {
     const BiasResult got = check_pair(render(1), render(1, skewed(1.02)));
     EXPECT_EQ(got.verdict, BiasVerdict::Equal);
     EXPECT_NEAR(got.absolute, 0.02, 1e-6);
-    BiasOptions strict;
+    BiasTest strict;
     strict.within = 0.01;
     EXPECT_EQ(check_pair(render(1), render(1, skewed(1.02)), strict).verdict,
               BiasVerdict::Different);
@@ -348,7 +348,7 @@ TEST(BiasCheck, RefusesWhatCannotBeCompared) {
 TEST(BiasCheck, RefusesOptionsOutOfRange) {
     const Render a = render(1);
     const auto with = [&](double within, double alpha, double power) {
-        BiasOptions options;
+        BiasTest options;
         options.within = within;
         options.alpha = alpha;
         options.power = power;

@@ -1,0 +1,307 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// bias_check() of include/tonetool/bias.h.
+#include "metrics/bias.h"
+
+#include <OpenImageIO/hash.h>
+#include <OpenImageIO/strutil.h>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <utility>
+
+#include "imagebuf/compare/annotate.h"
+#include "imagebuf/compare/pair.h"
+#include "imagebuf/options/bias_options.h"
+#include "imagebuf/pixels/allocation.h"
+#include "imagebuf/pixels/bands.h"
+#include "imagebuf/pixels/deliver.h"
+#include "imagebuf/pixels/guard.h"
+#include "imagebuf/pixels/parallel.h"
+#include "metrics/refusal.h"
+#include "tonetool/bias.h"
+
+namespace tonetool {
+namespace {
+
+using metrics::BiasMap;
+using metrics::BiasSide;
+using OIIO::ImageBuf;
+using OIIO::ROI;
+using OIIO::Strutil::fmt::format;
+using Images = std::vector<const ImageBuf*>;
+
+// A layer of an image that is a seed of its side.
+struct BiasSeed {
+    const ImageBuf* image;
+    PixelOptions pixels;
+};
+
+std::vector<BiasSeed> seeds_of(const Images& images, const BiasOptions& options) {
+    std::vector<BiasSeed> seeds;
+    for (const ImageBuf* image : images) {
+        if (!image)
+            throw Refusal("an image is missing");
+        if (options.halves.empty())
+            seeds.push_back({image, options.pixels});
+        for (const std::string& layer : options.halves) {
+            seeds.push_back({image, options.pixels});
+            seeds.back().pixels.layer = layer;
+        }
+    }
+    return seeds;
+}
+
+void check_halves(const BiasOptions& options) {
+    const auto& halves = options.halves;
+    if (halves.empty())
+        return;
+    if (halves.size() != 2 || halves[0] == halves[1])
+        throw Refusal("halves has \"" + OIIO::Strutil::join(halves, ",") +
+                      "\": must be two different layers, A,B");
+    if (!options.pixels.layer.empty())
+        throw Refusal("layer and halves exclude each other: halves are layers");
+}
+
+// What identifies the pixels of a seed.
+using Digest = std::vector<OIIO::farmhash::uint128_t>;
+
+Digest digest_of(const ColorPlanes& planes) {
+    Digest digest;
+    for (const auto& plane : planes.plane)
+        digest.push_back(OIIO::farmhash::Fingerprint128(reinterpret_cast<const char*>(plane.data()),
+                                                        plane.size() * sizeof(float)));
+    return digest;
+}
+
+void make_nonfinite_nan(ColorPlanes& planes) {
+    for (size_t i = 0; planes.counts.nonfinite > 0 && i < planes.nonfinite.size(); ++i)
+        for (size_t p = 0; planes.nonfinite[i] && p < 3; ++p)
+            planes.plane[p][i] = std::numeric_limits<float>::quiet_NaN();
+}
+
+// The seeds of one side: one that stays in memory, or the sums of several.
+class SideReader {
+public:
+    SideReader(const char* who, int nthreads) : m_who(who), m_nthreads(nthreads) {}
+
+    void add(ColorPlanes&& planes, size_t count, BiasSummary& summary) {
+        note(planes, summary);
+        make_nonfinite_nan(planes);
+        if (count == 1) {
+            m_planes = std::move(planes);
+            m_side.emplace(m_planes.view());
+            return;
+        }
+        if (!m_side)
+            m_side.emplace(planes.width(), planes.region.height());
+        if (planes.counts.largest > 0)
+            note_twice(digest_of(planes), summary);
+        m_side->add(planes.view(), make_parallel(m_nthreads));
+    }
+    const BiasSide& side() const { return *m_side; }
+    const FlipSide& found() const { return m_found; }
+
+private:
+    void note(const ColorPlanes& planes, BiasSummary& summary) {
+        const FlipSide one = side_of(planes);
+        ++m_seeds;
+        if (m_seeds == 1) {
+            m_found = one;
+        } else {
+            m_found.nonfinite += one.nonfinite;
+            m_found.negative += one.negative;
+            m_found.uncovered += one.uncovered;
+        }
+        check_finite(planes, std::string("the ") + m_who);
+        warn_of_holes(one,
+                      std::string("the ") + m_who +
+                          (m_seeds > 1 ? " (seed " + std::to_string(m_seeds) + ")" : ""),
+                      summary.warnings);
+    }
+
+    // Two seeds are independent: alike, but not the same.
+    void note_twice(const Digest& digest, BiasSummary& summary) {
+        const auto found = std::find(m_digests.begin(), m_digests.end(), digest);
+        if (found != m_digests.end()) {
+            summary.warnings.push_back(
+                format("seeds {} and {} of the {} are the same image: independent renders have "
+                       "different noise",
+                       found - m_digests.begin() + 1, m_seeds, m_who));
+        }
+        m_digests.push_back(digest);
+    }
+
+    const char* m_who;
+    int m_nthreads;
+    int m_seeds = 0;
+    ColorPlanes m_planes;
+    std::optional<BiasSide> m_side;
+    FlipSide m_found;
+    std::vector<Digest> m_digests;
+};
+
+// All images, brought to the same pixels, read one after another.
+class BiasRun {
+public:
+    BiasRun(const BiasOptions& options, int nthreads) : m_options(options), m_nthreads(nthreads) {
+        m_pair.size = options.size;
+        m_pair.memory = options.memory;
+    }
+
+    void open(const std::vector<BiasSeed>& references, const std::vector<BiasSeed>& tests,
+              BiasSummary& summary) {
+        m_references = references;
+        m_tests = tests;
+        const ImageBuf& first = *references.front().image;
+        for (const auto* side : {&references, &tests})
+            for (const BiasSeed& seed : *side)
+                fit(first, seed, side == &tests, summary);
+        m_region = m_fitted.front()->region();
+        for (const auto& fitted : m_fitted)
+            m_region = OIIO::roi_union(m_region, fitted->region());
+        if (m_options.size == SizePolicy::Crop)
+            for (const auto& fitted : m_fitted)
+                m_region = OIIO::roi_intersection(m_region, plane_of(fitted->image().roi_full()));
+        if (m_region.width() <= 0 || m_region.height() <= 0)
+            throw Refusal("nothing to compare: the display windows do not overlap");
+        for (const auto& fitted : m_fitted)
+            fitted->set_region(m_region);
+        summary.region = m_region;
+        check_memory();
+    }
+
+    BiasResult judge(BiasSummary& summary) {
+        SideReader reference("reference", m_nthreads), test("test", m_nthreads);
+        for (size_t i = 0; i < m_fitted.size(); ++i) {
+            const bool of_test = i >= m_references.size();
+            read(i, of_test ? test : reference, of_test ? m_tests.size() : m_references.size(),
+                 summary);
+        }
+        summary.reference = reference.found();
+        summary.test = test.found();
+        return metrics::bias_check(reference.side(), test.side(), m_options,
+                                   make_parallel(m_nthreads));
+    }
+
+private:
+    void fit(const ImageBuf& first, const BiasSeed& seed, bool of_test, BiasSummary& summary) {
+        PairOptions pair = m_pair;
+        pair.pixels = seed.pixels;
+        m_fitted.push_back(std::make_unique<FittedTest>());
+        FittedTest& fitted = *m_fitted.back();
+        fitted.call(of_test ? "test" : "reference");
+        fitted.keep_negative();
+        fitted.open(first, *seed.image, pair, m_nthreads);
+        for (const std::string& note : fitted.notes())
+            if (std::find(summary.warnings.begin(), summary.warnings.end(), note) ==
+                summary.warnings.end())
+                summary.warnings.push_back(note);
+    }
+
+    // Planes of floats and marks while a seed is read; of several seeds five planes of doubles. The
+    // sums of blocks are small beside them.
+    void check_memory() const {
+        constexpr uint64_t planes = 3 * sizeof(float) + 1, sums = 5 * sizeof(double), blocks = 16;
+        const auto pixels = uint64_t(m_region.width()) * uint64_t(m_region.height());
+        const bool several_r = m_references.size() > 1, several_t = m_tests.size() > 1;
+        const uint64_t pixel = (several_r ? sums : planes) + (several_t ? sums : planes) +
+                               (several_r || several_t ? planes : 0) + blocks;
+        const uint64_t least = kSetAside + pixels * pixel;
+        if (m_options.memory > 0 && least > m_options.memory)
+            throw Refusal("memory is " + size_text(m_options.memory) + ": needs at least " +
+                          size_text(least));
+    }
+
+    void read(size_t i, SideReader& side, size_t count, BiasSummary& summary) {
+        const FittedTest& fitted = *m_fitted[i];
+        ColorReader reader;
+        fitted.open_reader(false, m_nthreads, reader);
+        if (m_options.memory > 0)
+            reader.save_memory();
+        ColorPlanes planes = fitted.planes(reader);
+        check_covered(planes, i < m_references.size() ? "the reference" : "the test");
+        of_side(fitted.name(), [&] { reader.read(m_region.ybegin, m_region.yend, planes); });
+        side.add(std::move(planes), count, summary);
+    }
+
+    const BiasOptions& m_options;
+    int m_nthreads;
+    PairOptions m_pair;
+    std::vector<BiasSeed> m_references, m_tests;
+    std::vector<std::unique_ptr<FittedTest>> m_fitted;
+    ROI m_region;
+};
+
+// ---- maps
+
+struct MapPlanes {
+    const char* name;
+    BiasMap map;
+    std::vector<const char*> channels; ///< of the planes that say something
+};
+
+const MapPlanes kMapPlanes[] = {
+    {kBiasMaps[0], BiasMap::Signed, {"difference", "halfwidth", "confidence"}},
+    {kBiasMaps[1], BiasMap::P, {"p16", "p32", "p64"}},
+    {kBiasMaps[2], BiasMap::Rejected, {"means", "structures"}}};
+
+ImageBuf make_bias_map(const BiasResult& result, const BiasOptions& options, const ROI& region,
+                       const ROI& full, int nthreads) {
+    std::vector<std::string> names;
+    std::vector<std::vector<float>> planes;
+    for (const MapPlanes& one : kMapPlanes) {
+        if (options.map != one.name && options.map != kBiasMaps[3])
+            continue;
+        auto values = metrics::bias_map(result, one.map, make_parallel(nthreads));
+        for (size_t c = 0; c < one.channels.size(); ++c) {
+            names.emplace_back(one.channels[c]);
+            planes.push_back(std::move(values[c]));
+        }
+    }
+    OIIO::ImageSpec spec(region.width(), region.height(), int(planes.size()), OIIO::TypeFloat);
+    spec.x = region.xbegin;
+    spec.y = region.ybegin;
+    spec.channelnames = names;
+    ImageBuf map = allocated_image(spec);
+    map.set_roi_full(full);
+    auto* const pixels = static_cast<float*>(map.localpixels());
+    for (size_t c = 0; c < planes.size(); ++c)
+        for (size_t i = 0; i < planes[c].size(); ++i)
+            pixels[i * planes.size() + c] = planes[c][i];
+    return map;
+}
+
+void check_bias(ImageBuf& dst, const Images& references, const Images& tests,
+                const BiasOptions& options, BiasSummary& summary, int nthreads) {
+    check_options(options);
+    check_halves(options);
+    if (references.empty() || tests.empty())
+        throw Refusal(references.empty() ? "there is no reference" : "there is no test");
+    BiasRun run(options, nthreads);
+    run.open(seeds_of(references, options), seeds_of(tests, options), summary);
+    summary.result = run.judge(summary);
+    ImageBuf map = make_bias_map(summary.result, options, summary.region,
+                                 references.front()->roi_full(), nthreads);
+    annotate(map.specmod(), summary);
+    deliver(dst, std::move(map), "Bias:");
+}
+
+} // namespace
+
+namespace ToneAlgo {
+
+bool bias_check(ImageBuf& dst, const Images& references, const Images& tests,
+                const BiasOptions& options, BiasSummary* summary, int nthreads) {
+    BiasSummary found;
+    if (!guarded(dst, "bias_check",
+                 [&] { check_bias(dst, references, tests, options, found, nthreads); }))
+        return false;
+    if (summary)
+        *summary = std::move(found);
+    return true;
+}
+
+} // namespace ToneAlgo
+} // namespace tonetool
