@@ -331,6 +331,7 @@ Rows noise_floor_commands() {
                           "tells; if not, exit status 3 and no limits (1)")
                 .modifiers(measuring_modifiers())
                 .frequent("command,quantity,content,confidence,layer,from")
+                .images(0, kAnyNumber)
                 .at_once()};
 }
 

@@ -97,9 +97,10 @@ wants renders without a denoiser, of different seeds. Three verdicts:
   not enough samples  neither; it says how many times more are needed. Status 3, unless
                       inconclusive=warn or inconclusive=pass; it is never called passed
 
-Keep 4 seeds of the approved version at the samples per pixel of the tests (references=4): with noise
-of the same kind on both sides nothing is left untested. Against a converged reference
-(reference=converged) parts that are darker may have to stay untested. More seeds of a test: tests=K.
+Keep a few seeds of the approved version, at the samples per pixel of the tests, and compare as many
+of each (seeds=K, or references=K and tests=K): with noise alike on both sides nothing is left
+untested. Against a converged reference, or one of more seeds, darker parts may have to stay
+untested, since the light of rare paths could be what is missing.
 
 What it cannot know: an error that both sides have; a change that a denoiser has smeared over its
 neighbours (more than 30 % is found); one firefly in a whole picture; an object smaller than a block

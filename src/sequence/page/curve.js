@@ -103,7 +103,7 @@ function markCurve() {
 function chooseMeasure(place) {
   curve.place = place;
   const quantities = place < 0 ? ["faults"] : quantitiesOf(place);
-  const limit = thresholdOf(place);
+  const limit = hasVerdict(place) ? null : thresholdOf(place);
   if (limit && !quantities.includes(limit.quantity)) quantities.push(limit.quantity);
   curve.quantity = limit ? limit.quantity : quantities[0];
   byId("quantity").replaceChildren(...quantities.map((each) =>

@@ -136,9 +136,9 @@ function thresholdOf(place) {
 const mainPlace = Math.max(0, measures.findIndex((_, place) => thresholdOf(place)));
 
 /** Whether the command's result is one of three verdicts; its limits are no quantities of a curve. */
-const hasVerdict = frames.some((frame) => (measurementOf(frame, mainPlace) || {}).verdict);
+const hasVerdict = (place) => frames.some((frame) => (measurementOf(frame, place) || {}).verdict);
 
-const mainQuantity = (!hasVerdict && (thresholdOf(mainPlace) || {}).quantity) || quantitiesOf(mainPlace)[0] || "";
+const mainQuantity = (!hasVerdict(mainPlace) && (thresholdOf(mainPlace) || {}).quantity) || quantitiesOf(mainPlace)[0] || "";
 
 /** "p99 0.4512 > 0.05" */
 function verdictOf(frame) {

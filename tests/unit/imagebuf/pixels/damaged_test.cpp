@@ -87,6 +87,12 @@ std::vector<Function> comparisons() {
         all.push_back({"flip_filmstrip", how, [=](const Call& c) {
                            return flip_filmstrip(c.dst, a(c), b(c), linear<HdrFlipOptions>());
                        }});
+        for (bool second_seed : {false, true})
+            all.push_back({"bias_check", how, [=](const Call& c) {
+                               const std::vector<const ImageBuf*> one{&a(c)}, two{&a(c), &c.good};
+                               return bias_check(c.dst, second_seed ? two : one, {&b(c)},
+                                                 linear<BiasOptions>());
+                           }});
         all.push_back({"tmqi", how, [=](const Call& c) {
                            TmqiOptions options;
                            options.hdr = options.ldr = kLinear;
