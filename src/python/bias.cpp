@@ -102,7 +102,8 @@ py::object run_bias(std::vector<py::object>& images, const CallOptions& options)
 struct FloorObject {
     double limit = 0;
     std::string method;
-    int64_t needed = 0;
+    int64_t values = 0, needed = 0, rank = 0;
+    double k = 0;
     std::optional<int64_t> outlier;
 };
 
@@ -112,7 +113,10 @@ py::object run_floor(std::vector<py::object>& arguments, const NoiseFloorOptions
     run_or_raise("noise_floor", [&](std::string& error) {
         return ToneAlgo::noise_floor(floor, values, options, error);
     });
-    FloorObject out{floor.limit, ToneAlgo::noise_floor_method(floor), floor.needed, {}};
+    FloorObject out{floor.limit,  ToneAlgo::noise_floor_method(floor),
+                    floor.values, floor.needed,
+                    floor.rank,   floor.k,
+                    std::nullopt};
     if (floor.outlier)
         out.outlier = int64_t(*floor.outlier);
     return py::cast(std::move(out));
@@ -142,6 +146,9 @@ void add_results(Module& module) {
     ResultClass<F>(module, "NoiseFloor", "A limit from values of unbiased renders.")
         .field("limit", &F::limit, "The upper tolerance limit.")
         .field("method", &F::method, "Order statistic, lognormal or normal.")
+        .field("values", &F::values, "How many there were.")
+        .field("rank", &F::rank, "Of the order statistic, from 1; else 0.")
+        .field("k", &F::k, "Of the others: how many standard deviations above the mean.")
         .field("needed", &F::needed, "From so many values on it is an order statistic.")
         .field("outlier", &F::outlier,
                "The place of a value that is implausible beside the others.")

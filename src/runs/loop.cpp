@@ -30,6 +30,20 @@ std::string what_was_thrown() {
     }
 }
 
+// The one error that a frame printed, without the number of the frame; empty for anything else.
+std::string error_in(const std::string& err) {
+    const std::string begin = "tonetool ERROR";
+    if (err.compare(0, begin.size(), begin) != 0 || err.find(begin, 1) != std::string::npos)
+        return "";
+    const size_t number = err.find(" (frame "), line = err.find("\nFull command line was:\n");
+    const size_t after =
+        line == std::string::npos ? line : err.find('\n', err.find("\n> ", line) + 1);
+    const bool more = after != std::string::npos && after + 1 < err.size();
+    return number == std::string::npos || line == std::string::npos || number > line || more
+               ? ""
+               : err.substr(0, number);
+}
+
 int library_threads() {
     return OIIO::get_int_attribute("threads");
 }
@@ -53,6 +67,7 @@ int Loop::run() {
         run_on_threads();
     else
         run_streaming();
+    tell_repeated();
     return m_status;
 }
 
@@ -109,13 +124,38 @@ void Loop::deliver(size_t index, Done done) {
     done.err += err.str();
     m_aborted |= done.ran.aborted;
     m_done[index] = std::move(done);
+    print_done();
+}
+
+void Loop::print_done() {
     for (auto next = m_done.find(m_printed); next != m_done.end();
          next = m_done.find(++m_printed)) {
         m_out << next->second.out << std::flush;
-        m_err << next->second.err << std::flush;
+        if (!is_repeated(next->second.err))
+            m_err << next->second.err << std::flush;
         finished(next->first, next->second.ran, next->second.seconds);
         m_done.erase(next);
     }
+}
+
+// What is wrong with the command line is wrong in every frame: it is told once.
+bool Loop::is_repeated(const std::string& err) {
+    const std::string what = error_in(err);
+    const bool again = !what.empty() && what == m_last_error;
+    m_repeated += again ? 1 : 0;
+    if (!again) {
+        tell_repeated();
+        m_last_error = what;
+    }
+    return again;
+}
+
+void Loop::tell_repeated() {
+    if (m_repeated > 0) {
+        m_err << "tonetool: the same error in " << m_repeated << " more frame"
+              << (m_repeated == 1 ? "" : "s") << std::endl;
+    }
+    m_repeated = 0;
 }
 
 void Loop::finished(size_t index, const Ran& ran, double seconds) {

@@ -81,6 +81,9 @@ private:
     std::string reply_of(size_t index);
     void work();
     void deliver(size_t index, Done done);
+    void print_done();
+    bool is_repeated(const std::string& err);
+    void tell_repeated();
     void take(size_t index, Ran& ran, std::ostream& err);
     void finished(size_t index, const Ran& ran, double seconds);
 
@@ -95,6 +98,8 @@ private:
     bool m_aborted = false;
     std::mutex m_mutex;
     size_t m_next = 0, m_printed = 0;
+    std::string m_last_error;      ///< of the frame that was printed last
+    int m_repeated = 0;            ///< frames since then with the same one
     std::map<size_t, Done> m_done; ///< frames that wait for earlier ones to be printed
 };
 

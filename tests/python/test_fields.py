@@ -44,6 +44,7 @@ def test_python_has_all_members_of_the_structs():
     absent = {("QcPicture", "lit"), ("QcPicture", "unseen")}
     classes = {name: getattr(tonetool, name) for name in tonetool.__all__}
     results = {name: fields_of(class_) for name, class_ in classes.items() if inspect.isclass(class_)}
+    assert "numbers" in results.pop("BiasResult")  # flat: test_bias_check looks at the numbers
     found, compared = set(), 0
     for name, wanted in structs().items():
         if results.get(name):
@@ -152,6 +153,29 @@ def test_tmqi(pair, program, tmp_path):
     program(*names, "--tmqi", "--json", "out.json")
     renamed = {**capital, "mean": "ldr-mean", "deviation": "ldr-deviation"}
     assert missing(result.summary, key, record_of(tmp_path), renamed) == {"region"}
+
+
+def test_bias_check(pair, program, tmp_path):
+    names, images = pair
+    result = tonetool.bias_check(*images)
+    said = attributes_of(result.map, "Bias:")
+    assert set(result.numbers) | {"verdict", "reason", "sentence", "within", "alpha"} <= said
+    program(*names, "--biascheck:inconclusive=pass:fail=0", "--json", "out.json")
+    record = record_of(tmp_path)
+    assert set(result.numbers) | {"verdict", "reason", "sentence", "within", "alpha", "power"} <= record
+    # Of a judged pair, every member of the structs that is a number of the whole picture.
+    rng = np.random.default_rng(2)
+    noisy = tonetool.bias_check(*(rng.gamma(4, 0.25, (96, 96, 3)).astype(np.float32) for _ in range(2)))
+    members = {name for name in structs()["BiasResult"] if name not in NOT_NUMBERS}
+    of_channels = {"gain": "gain.Y", "rare": "rare.B", "tested": "block-tests"}
+    assert {of_channels.get(name, name) for name in members} <= set(noisy.numbers) | {"more"}
+    for name in structs()["BiasGain"]:
+        shown = {"se": "gain-se", "energy_se": "energy-se"}.get(name, name)
+        assert name == "rejected" or f"{shown}.G" in noisy.numbers
+
+
+# Said in words, by the region, or of single blocks.
+NOT_NUMBERS = {"verdict", "reason", "options", "width", "height", "judged", "dark", "scales", "contradicted"}
 
 
 def test_luminance(program):

@@ -46,6 +46,8 @@ MAKERS = {
     "side": lambda: hdr_of_arrays().summary.test,
     "filmstrip": lambda: tonetool.flip_filmstrip(*cornell(), thumb_width=48),
     "error_map": lambda: tonetool.error_map(*cornell(), metric="mpsnr"),
+    "bias_check": lambda: tonetool.bias_check(*cornell()),
+    "noise_floor": lambda: tonetool.noise_floor([0.1, 0.11, 0.12, 0.13, 0.14]),
     "tmqi": lambda: tonetool.tmqi(cornell()[0], tonetool.tonemap(cornell()[0]).image),
     "tonemap": lambda: tonetool.tonemap(cornell()[0], curve="agx", calibration="mean"),
     "calibrate": lambda: tonetool.calibrate(cornell()[0], method="mean"),

@@ -208,17 +208,20 @@ void check_seeds(Session& session, const Call& call, size_t references) {
     }
 }
 
-std::vector<ImageBuf> read_images(Session& session, const Call& call, const BiasOptions& options) {
-    const bool shown = shown_bytes(session, call) > 0;
+// Those that a report shows are read; the others one after another by the library.
+std::vector<ImageBuf> read_images(Session& session, const Call& call, const BiasOptions& options,
+                                  size_t references) {
+    const bool shown = shown_bytes(session, call) > 0 && options.halves.empty();
     PixelOptions pixels = options.pixels;
     if (!options.halves.empty())
         pixels.layer = options.halves.front();
     std::vector<ImageBuf> images;
     images.reserve(call.images.size()); // else the pixels are copied
-    for (const ImagePtr& image : call.images)
-        images.push_back(shown && options.halves.empty()
-                             ? shown_input(session, call, *image, pixels)
-                             : color_source(session, call, *image, pixels));
+    for (size_t i = 0; i < call.images.size(); ++i) {
+        const bool first = i == 0 || i == references;
+        images.push_back(
+            (shown && first ? shown_input : color_source)(session, call, *call.images[i], pixels));
+    }
     return images;
 }
 
@@ -255,16 +258,18 @@ void run_biascheck(Session& session, const Call& call) {
     BiasOptions options = bias_options(session, call);
     const VerdictLimits limits = verdict_limits(call);
     const std::string map_name = options.map;
-    options.map = kBiasMaps[3];
+    const bool shown = session.check.painter && options.halves.empty();
+    if (shown)
+        options.map = kBiasMaps[3];
     check_seeds(session, call, references);
-    const std::vector<ImageBuf> images = read_images(session, call, options);
+    const std::vector<ImageBuf> images = read_images(session, call, options, references);
     std::vector<const ImageBuf*> sides[2];
     for (size_t i = 0; i < images.size(); ++i)
         sides[i < references ? 0 : 1].push_back(&images[i]);
     BiasSummary summary;
-    ImageBuf all;
-    if (!ToneAlgo::bias_check(all, sides[0], sides[1], options, &summary))
-        throw CommandError(all.geterror());
+    ImageBuf map;
+    if (!ToneAlgo::bias_check(map, sides[0], sides[1], options, &summary))
+        throw CommandError(map.geterror());
     session.outcome.produced = true;
     for (const std::string& warning : summary.warnings)
         session.warning(call.row().label(), warning);
@@ -273,16 +278,17 @@ void run_biascheck(Session& session, const Call& call) {
     record(session, call, std::move(measured), references - 1);
     print_lines(session, call, summary);
     print_verdict(session, call, summary, thresholds);
-    sequence::PictureRequest request;
-    request.reference = sides[0].front();
-    request.test = sides[1].front();
-    request.bias = &all;
-    request.within = options.within;
-    request.look.pixels = options.pixels;
-    request.look.size = options.size;
-    if (options.halves.empty())
+    if (shown) {
+        sequence::PictureRequest request;
+        request.reference = sides[0].front();
+        request.test = sides[1].front();
+        request.bias = &map;
+        request.within = options.within;
+        request.look.pixels = options.pixels;
+        request.look.size = options.size;
         show(session, call, std::move(request));
-    ImageBuf map = asked_map(all, map_name);
+        map = asked_map(map, map_name);
+    }
     lie_as(call.images.front()->part().header(), map);
     session.stack.push(Image::computed("--" + call.row().label(), std::move(map)));
 }

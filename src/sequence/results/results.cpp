@@ -9,6 +9,7 @@
 #include <stdexcept>
 #include <tuple>
 
+#include "sequence/frames/file_sequence.h"
 #include "sequence/qc/qc.h"
 #include "sequence/results/measuring.h"
 #include "tonetool/bias.h"
@@ -113,11 +114,22 @@ std::string name_of(const FrameResult& frame) {
            (frame.test_frame ? " (test " + std::to_string(*frame.test_frame) + ")" : "");
 }
 
-// The description of the worst frame if it is not bad.
+// The description of the worst frame if it is not bad: the limit that was nearest, else a number.
 std::string measured_text(const FrameResult& frame) {
     if (!frame.message.empty() || frame.measurements.empty() ||
         frame.measurements.front().quantities.empty())
         return frame.message;
+    const Measurement& first = frame.measurements.front();
+    const auto nearest = std::max_element(
+        first.thresholds.begin(), first.thresholds.end(),
+        [](const Threshold& a, const Threshold& b) { return excess(a) < excess(b); });
+    if (!first.verdict.empty())
+        return first.command + ": " + first.sentence;
+    if (nearest != first.thresholds.end()) {
+        return format("{}: {} {:.6g} {} {:.6g}", first.command, nearest->quantity, nearest->value,
+                      nearest->higher_is_better ? ">=" : "<=",
+                      nearest->fail.value_or(nearest->warn.value_or(0)));
+    }
     const auto& [quantity, value] = frame.measurements.front().quantities.front();
     return format("{}: {} {:.6g}", frame.measurements.front().command, quantity, value);
 }
@@ -134,17 +146,35 @@ std::string false_alarms_text(const ShotResult& shot) {
                : "";
 }
 
-std::string sentence_of(const ShotResult& shot) {
+// "2 warnings, 1 failed".
+std::string counts_text(const ShotResult& shot) {
     std::vector<std::string> parts;
     const std::map<Status, size_t> counts = count_of_each(shot);
-    for (auto item = counts.rbegin(); item != counts.rend(); ++item)
-        parts.push_back(format("{} {}", item->second, status_name(item->first)));
-    std::string text =
-        format("{} {}: {}", shot.frames.size(), shot.frames.size() == 1 ? "frame" : "frames",
-               OIIO::Strutil::join(parts, ", "));
-    text += false_alarms_text(shot);
+    for (auto item = counts.rbegin(); item != counts.rend(); ++item) {
+        const bool noun = item->first == Status::Warning || item->first == Status::Error;
+        const bool mismatch = item->first == Status::SizeMismatch;
+        const char* plural = item->second == 1 ? "" : noun ? "s" : mismatch ? "es" : "";
+        parts.push_back(format("{} {}{}", item->second, status_name(item->first), plural));
+    }
+    return OIIO::Strutil::join(parts, ", ");
+}
+
+// A command line without frames.
+bool is_still(const ShotResult& shot) {
+    return shot.frames.size() == 1 && shot.frames.front().frame == 0 &&
+           std::none_of(shot.check.begin(), shot.check.end(), is_pattern);
+}
+
+std::string sentence_of(const ShotResult& shot) {
     const FrameResult& worst = shot.frames[shot.worst.front()];
     const std::string why = measured_text(worst);
+    if (is_still(shot)) {
+        const bool told = has_problem(shot.verdict) || !worst.message.empty();
+        return "1 image: " + counts_text(shot) + (told ? " (" + why + ")" : "");
+    }
+    std::string text = format("{} {}: {}", shot.frames.size(),
+                              shot.frames.size() == 1 ? "frame" : "frames", counts_text(shot));
+    text += false_alarms_text(shot);
     if (has_problem(shot.verdict) || (shot.frames.size() > 1 && !why.empty()))
         text += format("; worst: frame {}{}", name_of(worst), why.empty() ? "" : " (" + why + ")");
     return text;
