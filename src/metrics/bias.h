@@ -7,7 +7,6 @@
 // over the seeds of a side. d is test - reference. Negative values stay: to clamp them is a bias.
 #pragma once
 
-#include <array>
 #include <string>
 #include <vector>
 
@@ -51,7 +50,7 @@ enum class BiasMap {
             ///< and its channel of the smallest p, else of the 32-block in Y
     P,      ///< log10 of the smallest p over the channels of the 16-, 32- and 64-block, >= -300
     Rejected ///< how many scales rejected a mean (-1: none could be tested in Y); how many a
-             ///< structure (-1: not run); 0
+             ///< structure (-1: not run)
 };
 
 /// The images must have the same size and at least one seed each (else Refusal). Options out of
@@ -63,8 +62,13 @@ BiasResult bias_check(const BiasSide& reference, const BiasSide& test, const Bia
 /// real and still within the margin.
 std::vector<std::string> bias_evidence(const BiasResult& result);
 
-/// Three planes of a map, without padding.
-std::array<std::vector<float>, 3> bias_map(const BiasResult& result, BiasMap map,
-                                           const kernels::ParallelFor& parallel);
+/// Values for each pixel: Rejected has two, the others three.
+constexpr int bias_map_channels(BiasMap map) {
+    return map == BiasMap::Rejected ? 2 : 3;
+}
+
+/// Writes those of the pixels in scanline order, from `out` on; pixels are `step` floats apart.
+void bias_map(const BiasResult& result, BiasMap map, float* out, int step,
+              const kernels::ParallelFor& parallel);
 
 } // namespace tonetool::metrics

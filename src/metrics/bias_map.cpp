@@ -12,7 +12,6 @@ using namespace bias;
 
 constexpr double kLeastLog = -300;
 
-using Planes = std::array<std::vector<float>, 3>;
 using Values = std::array<double, 3>;
 
 double smallest_p(const BiasScale& scale, size_t at) {
@@ -74,14 +73,14 @@ Values rejected_at(const BiasResult& result, const Place& place) {
         if (!scale.structure_rejected.empty())
             structures += scale.structure_rejected[place[s]];
     }
-    return {double(means || tested ? means : -1), double(structure ? structures : -1), 0};
+    return {double(means || tested ? means : -1), double(structure ? structures : -1)};
 }
 
 // Of pictures that were not judged: equal by every pixel, or too small.
 Values without_tests(const BiasResult& result, BiasMap map) {
     if (map != BiasMap::Rejected || result.reason != BiasReason::TooSmall)
         return {};
-    return {-1, -1, 0};
+    return {-1, -1};
 }
 
 Values at(const BiasResult& result, BiasMap map, const Place& place) {
@@ -118,18 +117,20 @@ public:
     }
     int rows() const { return m_cells.grid.rows(); }
 
-    void row(size_t row, Planes& out) const {
+    void row(size_t row, float* out, int step) const {
         const Grid& grid = m_cells.grid;
-        const auto width = ptrdiff_t(m_result.width);
+        const int channels = bias_map_channels(m_map);
         for (size_t column = 0; column < size_t(grid.columns()); ++column) {
             Place place{};
             for (size_t s = 0; s < kBiasScales; ++s)
                 place[s] = m_cells.scale[s].grid.at(int(m_columns[s][column]), int(m_rows[s][row]));
             const Values values = at(m_result, m_map, place);
-            for (ptrdiff_t y = grid.y[row]; y < grid.y[row + 1]; ++y)
-                for (size_t c = 0; c < 3; ++c)
-                    std::fill(out[c].begin() + y * width + grid.x[column],
-                              out[c].begin() + y * width + grid.x[column + 1], float(values[c]));
+            for (ptrdiff_t y = grid.y[row]; y < grid.y[row + 1]; ++y) {
+                float* pixel = out + (y * m_result.width + grid.x[column]) * step;
+                for (int x = grid.x[column]; x < grid.x[column + 1]; ++x, pixel += step)
+                    for (int c = 0; c < channels; ++c)
+                        pixel[c] = float(values[size_t(c)]);
+            }
         }
     }
 
@@ -142,16 +143,17 @@ private:
 
 } // namespace
 
-Planes bias_map(const BiasResult& result, BiasMap map, const kernels::ParallelFor& parallel) {
-    Planes out;
+void bias_map(const BiasResult& result, BiasMap map, float* out, int step,
+              const kernels::ParallelFor& parallel) {
+    if (result.judged) {
+        const CellMap cells(result, map);
+        parallel(cells.rows(), [&](int64_t row) { cells.row(size_t(row), out, step); });
+        return;
+    }
     const Values none = without_tests(result, map);
-    for (size_t c = 0; c < 3; ++c)
-        out[c].assign(size_t(result.width) * size_t(result.height), float(none[c]));
-    if (!result.judged)
-        return out;
-    const CellMap cells(result, map);
-    parallel(cells.rows(), [&](int64_t row) { cells.row(size_t(row), out); });
-    return out;
+    for (int64_t i = 0; i < int64_t(result.width) * result.height; ++i)
+        for (int c = 0; c < bias_map_channels(map); ++c)
+            out[i * step + c] = float(none[size_t(c)]);
 }
 
 } // namespace tonetool::metrics

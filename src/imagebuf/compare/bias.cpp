@@ -250,26 +250,24 @@ const MapPlanes kMapPlanes[] = {
 ImageBuf make_bias_map(const BiasResult& result, const BiasOptions& options, const ROI& region,
                        const ROI& full, int nthreads) {
     std::vector<std::string> names;
-    std::vector<std::vector<float>> planes;
+    std::vector<BiasMap> asked;
     for (const MapPlanes& one : kMapPlanes) {
         if (options.map != one.name && options.map != kBiasMaps[3])
             continue;
-        auto values = metrics::bias_map(result, one.map, make_parallel(nthreads));
-        for (size_t c = 0; c < one.channels.size(); ++c) {
-            names.emplace_back(one.channels[c]);
-            planes.push_back(std::move(values[c]));
-        }
+        names.insert(names.end(), one.channels.begin(), one.channels.end());
+        asked.push_back(one.map);
     }
-    OIIO::ImageSpec spec(region.width(), region.height(), int(planes.size()), OIIO::TypeFloat);
+    OIIO::ImageSpec spec(region.width(), region.height(), int(names.size()), OIIO::TypeFloat);
     spec.x = region.xbegin;
     spec.y = region.ybegin;
     spec.channelnames = names;
     ImageBuf map = allocated_image(spec);
     map.set_roi_full(full);
-    auto* const pixels = static_cast<float*>(map.localpixels());
-    for (size_t c = 0; c < planes.size(); ++c)
-        for (size_t i = 0; i < planes[c].size(); ++i)
-            pixels[i * planes.size() + c] = planes[c][i];
+    auto* pixels = static_cast<float*>(map.localpixels());
+    for (const BiasMap one : asked) {
+        metrics::bias_map(result, one, pixels, int(names.size()), make_parallel(nthreads));
+        pixels += metrics::bias_map_channels(one);
+    }
     return map;
 }
 

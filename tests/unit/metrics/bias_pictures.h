@@ -101,4 +101,19 @@ inline BiasResult check_pair(const Render& reference, const Render& test,
                       kernels::in_order());
 }
 
+// A map as planes; where it has two channels the third is 0.
+inline std::array<std::vector<float>, 3> planes_of(const BiasResult& result, BiasMap map,
+                                                   const kernels::ParallelFor& parallel) {
+    const auto channels = size_t(bias_map_channels(map));
+    const auto pixels = size_t(result.width) * size_t(result.height);
+    std::vector<float> values(pixels * channels);
+    bias_map(result, map, values.data(), int(channels), parallel);
+    std::array<std::vector<float>, 3> planes;
+    for (size_t i = 0; i < values.size(); ++i)
+        planes[i % channels].push_back(values[i]);
+    for (size_t c = channels; c < planes.size(); ++c)
+        planes[c].assign(pixels, 0.0f);
+    return planes;
+}
+
 } // namespace tonetool::metrics

@@ -237,9 +237,9 @@ TEST(BiasMaps, SignedShowsTheFinestRejectedBlock) {
     changed.corner = 6;
     const BiasResult got = check_pair({128, 96, 1, skewed()}, {128, 96, 2, changed});
     ASSERT_GT(got.scales[0].rejected, 0);
-    const auto map = bias_map(got, BiasMap::Signed, in_order());
-    const auto rejected = bias_map(got, BiasMap::Rejected, in_order());
-    const auto p = bias_map(got, BiasMap::P, in_order());
+    const auto map = planes_of(got, BiasMap::Signed, in_order());
+    const auto rejected = planes_of(got, BiasMap::Rejected, in_order());
+    const auto p = planes_of(got, BiasMap::P, in_order());
     EXPECT_NEAR(map[0][0], 5, 1.5) << "six times as much light";
     EXPECT_GT(map[2][0], 0.99f);
     EXPECT_EQ(rejected[0][0], 3.0f);
@@ -265,7 +265,7 @@ TEST(BiasMaps, UntestedAndStructure) {
         return Render(160, 96, 2, dark);
     }());
     ASSERT_GT(got.untested, 0);
-    const auto map = bias_map(got, BiasMap::Rejected, in_order());
+    const auto map = planes_of(got, BiasMap::Rejected, in_order());
     // Against the blocks, one pixel after the other.
     const auto block = [](const std::vector<int>& edges, int at) {
         return int(std::upper_bound(edges.begin(), edges.end(), at) - edges.begin()) - 1;
@@ -298,20 +298,20 @@ TEST(BiasMaps, OfPicturesThatAreNotJudged) {
     const Render a(128, 96, 1), small(32, 32, 1);
     const BiasResult same = check_pair(a, a), tiny = check_pair(small, small);
     for (const BiasMap map : {BiasMap::Signed, BiasMap::P, BiasMap::Rejected}) {
-        const auto planes = bias_map(same, map, in_order());
+        const auto planes = planes_of(same, map, in_order());
         for (const auto& plane : planes)
             EXPECT_EQ(plane, std::vector<float>(128 * 96, 0.0f));
-        EXPECT_EQ(bias_map(tiny, map, in_order())[0].size(), size_t(32 * 32));
+        EXPECT_EQ(planes_of(tiny, map, in_order())[0].size(), size_t(32 * 32));
     }
-    EXPECT_EQ(bias_map(tiny, BiasMap::Rejected, in_order())[0][5], -1.0f);
-    EXPECT_EQ(bias_map(tiny, BiasMap::Signed, in_order())[0][5], 0.0f);
+    EXPECT_EQ(planes_of(tiny, BiasMap::Rejected, in_order())[0][5], -1.0f);
+    EXPECT_EQ(planes_of(tiny, BiasMap::Signed, in_order())[0][5], 0.0f);
 }
 
 TEST(BiasMaps, LogarithmsHaveAFloor) {
     RenderOptions lit = clean();
     lit.level = 0.5;
     const BiasResult got = check_pair({128, 96, 1, clean()}, {128, 96, 1, lit});
-    EXPECT_EQ(bias_map(got, BiasMap::P, in_order())[0][0], -300.0f);
+    EXPECT_EQ(planes_of(got, BiasMap::P, in_order())[0][0], -300.0f);
 }
 
 TEST(BiasMaps, BitsDoNotDependOnSchedules) {
@@ -319,7 +319,7 @@ TEST(BiasMaps, BitsDoNotDependOnSchedules) {
     changed.corner = 6;
     const BiasResult got = check_pair({128, 96, 1, skewed()}, {128, 96, 2, changed});
     for (const BiasMap map : {BiasMap::Signed, BiasMap::P, BiasMap::Rejected})
-        EXPECT_EQ(bias_map(got, map, in_order()), bias_map(got, map, on_threads(3)));
+        EXPECT_EQ(planes_of(got, map, in_order()), planes_of(got, map, on_threads(3)));
 }
 
 } // namespace
