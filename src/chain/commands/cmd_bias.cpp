@@ -58,11 +58,9 @@ int family_of(const Call& call) {
 
 BiasOptions bias_options(const Session& session, const Call& call) {
     BiasOptions options;
-    PairOptions pair;
-    read_pair_options(session, call, pair);
-    options.pixels = pair.pixels;
-    options.size = pair.size;
-    options.memory = pair.memory;
+    options.pixels = pixel_options(call);
+    options.size = size_policy(call);
+    options.memory = memory_for(session, call);
     read_options(call, options);
     options.alpha /= family_of(call);
     return options;

@@ -61,7 +61,7 @@ public:
         if (m_command == "hdrflip")
             read_hdr_options(session, call, m_flip);
         for (const std::string& name : split(call.text("quantity").value_or("mean,p99"), ','))
-            m_quantities.push_back(known(name));
+            add_quantity(known(name));
         m_flip.quantities = m_error.quantities = m_further;
     }
 
@@ -123,6 +123,12 @@ private:
                 std::none_of(row.modifiers.begin(), row.modifiers.end(), same))
                 throw CommandError(one.key + "= is no modifier of --" + m_command);
         }
+    }
+
+    void add_quantity(const std::string& name) {
+        if (std::find(m_quantities.begin(), m_quantities.end(), name) != m_quantities.end())
+            throw CommandError("quantity= has " + name + " twice (valid: each once)");
+        m_quantities.push_back(name);
     }
 
     std::string known(const std::string& name) {
@@ -331,7 +337,7 @@ Rows noise_floor_commands() {
                           "tells; if not, exit status 3 and no limits (1)")
                 .modifiers(measuring_modifiers())
                 .frequent("command,quantity,content,confidence,layer,from")
-                .images(0, kAnyNumber)
+                .takes_all()
                 .at_once()};
 }
 

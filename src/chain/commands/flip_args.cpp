@@ -21,14 +21,6 @@ std::string choices(const Strings& names) {
     return join(names, "|");
 }
 
-void read_size(const Call& call, PairOptions& options) {
-    bool resize = call.flag("resize", false);
-    bool crop = call.flag("crop", false);
-    if (resize && crop)
-        throw CommandError("resize=1 and crop=1 exclude each other (valid: one of them)");
-    options.size = resize ? SizePolicy::Resize : (crop ? SizePolicy::Crop : SizePolicy::Match);
-}
-
 void read_screen(const Call& call, FlipOptions& options) {
     if (call.has("ppd") && (call.has("distance") || call.has("width") || call.has("pixels")))
         throw CommandError("ppd= goes without distance=, width= and pixels= (valid: either)");
@@ -282,11 +274,22 @@ void read_view_spaces(const std::optional<ViewOptions>& view, PixelOptions& pixe
     }
 }
 
+SizePolicy size_policy(const Call& call) {
+    const bool resize = call.flag("resize", false), crop = call.flag("crop", false);
+    if (resize && crop)
+        throw CommandError("resize=1 and crop=1 exclude each other (valid: one of them)");
+    return resize ? SizePolicy::Resize : (crop ? SizePolicy::Crop : SizePolicy::Match);
+}
+
+uint64_t memory_for(const Session& session, const Call& call) {
+    const uint64_t memory = session.settings.memory;
+    return memory - std::min(memory, shown_bytes(session, call));
+}
+
 void read_pair_options(const Session& session, const Call& call, PairOptions& options) {
-    options.memory =
-        session.settings.memory - std::min(session.settings.memory, shown_bytes(session, call));
+    options.memory = memory_for(session, call);
     options.pixels = pixel_options(call);
-    read_size(call, options);
+    options.size = size_policy(call);
     bool error = call.choice("alpha", {"ignore", "error"}).value_or("ignore") == "error";
     options.alpha = error ? AlphaPolicy::Error : AlphaPolicy::Ignore;
 }
@@ -387,8 +390,7 @@ Modifiers flipdiff_modifiers() {
 
 HdrFlipOptions flipdiff_options(const Session& session, const Call& call) {
     HdrFlipOptions options;
-    options.memory =
-        session.settings.memory - std::min(session.settings.memory, shown_bytes(session, call));
+    options.memory = memory_for(session, call);
     options.pixels = pixel_options(call);
     options.ppd = call.number("ppd", kPpdRange).value_or(kFlipdiffPpd);
     options.curve.name =

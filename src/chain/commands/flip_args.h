@@ -49,6 +49,10 @@ Modifiers threshold_modifiers(const Measures& measures = {},
 PixelOptions pixel_options(const Call& call, const std::string& prefix = "");
 /// `from` may name spaces of the view's configuration.
 void read_view_spaces(const std::optional<ViewOptions>& view, PixelOptions& pixels);
+/// resize= and crop=.
+SizePolicy size_policy(const Call& call);
+/// What --memory leaves beside the images that a report holds.
+uint64_t memory_for(const Session& session, const Call& call);
 void read_pair_options(const Session& session, const Call& call, PairOptions& options);
 /// `screen`: distance, width and pixels describe the screen; else only ppd does.
 void read_flip_options(const Session& session, const Call& call, bool screen, FlipOptions& options);

@@ -102,6 +102,7 @@ struct Command {
     /// It ends in a verdict whatever its modifiers are: fails, unless it passes.
     bool always_judges = false;
 
+    bool takes_all = false; ///< all images of the stack, by itself
     /// Something of it remains when the chain has ended.
     bool outlives_chain() const { return of_process || writes(); }
 };
@@ -147,6 +148,7 @@ public:
     }
     Row& keeps_header() { return set(&Command::keeps_header, true); }
     Row& makes_map() { return set(&Command::makes_map, true); }
+    Row& takes_all() { return set(&Command::takes_all, true).images(0, kAnyNumber); }
     Row& judges() { return set(&Command::always_judges, true); }
     /// "fail,layer": the modifiers that are used most, in the order in which help names them.
     Row& frequent(const std::string& keys) { return set(&Command::frequent, split(keys, ',')); }

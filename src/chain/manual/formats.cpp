@@ -19,7 +19,7 @@ std::string json_text() {
         }
         all.push_back({{"names", row.names},
                        {"args", row.args},
-                       {"pops", row.pops},
+                       {"pops", row.takes_all ? kAnyNumber : row.pops},
                        {"pushes", row.pushes},
                        {"group", group_title(row.group)},
                        {"help", row.help},

@@ -37,6 +37,8 @@ std::string images_text(const Command& row) {
         return varies ? (images > 0 ? std::to_string(images) + " or more" : "as many as asked for")
                       : std::to_string(images);
     };
+    if (row.takes_all)
+        return "    images popped: all, pushed: 0\n";
     return "    images popped: " + count(row.pops_of != nullptr, row.pops) +
            ", pushed: " + count(row.pushes_of != nullptr || row.pushes < 0, row.pushes) + "\n";
 }

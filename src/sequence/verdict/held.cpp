@@ -59,8 +59,6 @@ std::string other_diff_limit(const Measurement& measured, const Asked& asked) {
                                   only.quantity, fails ? "fail" : "warn", held, limit);
 }
 
-} // namespace
-
 std::string other_verdict_limits(const Measurement& measured, const Asked& asked) {
     const auto same = [](const Threshold& a, const Threshold& b) {
         return a.quantity == b.quantity && a.value == b.value && a.fail == b.fail &&
@@ -74,12 +72,20 @@ std::string other_verdict_limits(const Measurement& measured, const Asked& asked
                       measured.verdict);
     }
     for (const auto& [name, wants] :
-         {std::pair("within", asked.within), std::pair("alpha", asked.alpha)})
-        for (const auto& [key, value] : measured.parameters)
-            if (key == name && value != wants)
-                return format(" was tested with {}={}, but the check has {}", name, value, wants);
+         {std::pair("within", asked.within), std::pair("alpha", asked.alpha)}) {
+        const auto& all = measured.parameters;
+        const auto found = std::find_if(all.begin(), all.end(),
+                                        [key = name](const auto& one) { return one.first == key; });
+        if (found == all.end())
+            return format(" does not say with which {} it was tested", name);
+        if (found->second != wants)
+            return format(" was tested with {}={}, but the check has {}", name, found->second,
+                          wants);
+    }
     return "";
 }
+
+} // namespace
 
 std::string not_held(const Measurement& measured, const Asked& asked) {
     const MeasuringCommand& command = *measuring_command(measured.command);
