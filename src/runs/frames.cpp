@@ -133,14 +133,27 @@ void make_runs(Scan& scan, const Files& first, const std::vector<Files>& listing
     }
 }
 
+// A part of a family has fewer frames, never more.
+void check_family(const std::string& value, size_t frames) {
+    const auto count = parse_integer(value);
+    if (count && *count > 0 && size_t(*count) < frames) {
+        throw CommandError("biascheck: frames=" + value + ", but there are " +
+                           std::to_string(frames) +
+                           " frames (valid: family, or the number of all " + "frames of the shot)");
+    }
+}
+
 // "frames=family" says how many tests there are: those of all frames. As a number it is the same in
 // the tasks of a farm, in a check that goes on, and in its results.
 void count_families(FramePlan& plan) {
     const auto counted = [&](std::string& text) {
         const Token token = parse_token(text, true);
         for (const auto& [key, value] : token.modifiers)
-            if (key == "frames" && value == "family")
-                text = token.with_value(key, std::to_string(plan.runs.size()));
+            if (key == "frames") {
+                check_family(value, plan.runs.size());
+                if (value == "family")
+                    text = token.with_value(key, std::to_string(plan.runs.size()));
+            }
     };
     for (const chain::Word& word : plan.line.words) {
         if (!word.is("biascheck"))

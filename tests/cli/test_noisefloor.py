@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Limits from renders of the approved version: what --noisefloor writes, and fail= that reads it."""
+"""Limits from renders of the approved version: what --noisefloor writes, and fail= reads."""
 
 import json
 import math
@@ -36,7 +36,8 @@ def renders(put):
     put("ref.exr", render(499, spp=4096), "float")
 
     def make(count, **options):
-        return ["ref.exr", *(put(f"s{i:02d}.exr", render(500 + i, **options)) for i in range(count))]
+        seeds = [render(500 + i, **options) for i in range(count)]
+        return ["ref.exr", *(put(f"s{i:02d}.exr", pixels) for i, pixels in enumerate(seeds))]
 
     return make
 
@@ -360,9 +361,9 @@ def test_a_pair_against_the_limits(tonetool, calibrated):
 
 @pytest.fixture
 def shot(calibrated, put):
-    put("r.0001.exr", render(499, spp=4096), "float"), put("r.0002.exr", render(498, spp=4096),
-                                                           "float")
-    put("t.0001.exr", render(710)), put("t.0002.exr", render(711, spp=3))
+    for number, spp in ((1, 16), (2, 3)):
+        put(f"r.000{number}.exr", render(500 - number, spp=4096), "float")
+        put(f"t.000{number}.exr", render(709 + number, spp=spp))
     return ["r.#.exr", "t.#.exr"]
 
 
@@ -406,6 +407,7 @@ def test_parts_merge_to_the_bytes_of_the_single_run(program, tonetool, shot, tmp
 
 
 def call_it_passed(part):
+    """All that a hand would change so that every frame has passed."""
     for name in part["counts"]:
         part["counts"][name] = len(part["frames"]) if name == "passed" else 0
     part["verdict"] = "passed"
@@ -413,6 +415,25 @@ def call_it_passed(part):
     for frame in part["frames"]:
         frame.pop("message", None)
         frame["status"] = frame["measurements"][0]["status"] = "passed"
+
+
+@pytest.fixture
+def merge_forged(program, tmp_path):
+    """Merges a forged part, in which what follows from the frames is what a merge says it is."""
+
+    def run(part):
+        call_it_passed(part)
+        for _ in range(3):
+            (tmp_path / "forged.json").write_text(json.dumps(part))
+            ran = call(program, ["--merge", "forged.json", "--json", "c.json"], tmp_path)
+            told = re.search(r'"(sentence|worst)" is .*, but that of its frames is (.*)$', ran.err,
+                             re.M)
+            if not told:
+                break
+            part[told[1]] = json.loads(told[2])
+        return ran
+
+    return run
 
 
 def higher(part):
@@ -433,14 +454,14 @@ def other_line(part):
 
 
 @pytest.mark.parametrize("change", [higher, one_less, none, other_line])
-def test_results_whose_limits_were_altered_are_refused(tonetool, shot, tmp_path, change):
+def test_results_whose_limits_were_altered_are_refused(tonetool, shot, merge_forged, tmp_path,
+                                                       change):
     tonetool(*shot, "--hdrflip:fail=limits.json:print=0", "--json", "a.json", status=3)
     part = load(tmp_path / "a.json")
     change(part)
-    call_it_passed(part)
-    (tmp_path / "forged.json").write_text(json.dumps(part))
-    ran = tonetool("--merge", "forged.json", "--json", "c.json", status=1)
-    assert '"forged.json": ' in ran.err and not (tmp_path / "c.json").exists()
+    ran = merge_forged(part)
+    assert ran.status == 1 and '"forged.json": ' in ran.err
+    assert not (tmp_path / "c.json").exists()
 
 
 @pytest.mark.parametrize("words, text", [
@@ -502,6 +523,51 @@ def test_an_unknown_quantity_is_an_error(tonetool, calibrated, tmp_path):
     (tmp_path / "limits.json").write_text(json.dumps(found), encoding="utf-8")
     ran = tonetool("ref.exr", "good.exr", "--hdrflip:fail=limits.json", status=1)
     assert '"gain"' in ran.err and "PASS" not in ran.out
+
+
+# ---- limits of every frame
+
+@pytest.fixture
+def calibrated_frames(tonetool, put):
+    """Two frames, each with limits from four seeds of its own; the second test is noisier."""
+    for number in (1, 2):
+        put(f"r.000{number}.exr", render(500 - number, spp=4096), "float")
+        put(f"t.000{number}.exr", render(719 + number, spp=16 if number == 1 else 3))
+        for seed in range(4):
+            put(f"s{seed}.000{number}.exr", render(800 + 10 * number + seed))
+    words = ["r.#.exr", *(f"s{seed}.#.exr" for seed in range(4))]
+    tonetool("-q", *words, "--noisefloor", "limits.#.json")
+    return words
+
+
+def test_every_frame_has_its_limits(tonetool, calibrated_frames, tmp_path):
+    kept = [limits_of(load(tmp_path / f"limits.000{number}.json")) for number in (1, 2)]
+    assert kept[0] != kept[1]
+    tonetool("r.#.exr", "t.#.exr", "--hdrflip:fail=limits.#.json:print=0", "--json", "c.json",
+             status=3)
+    frames = load(tmp_path / "c.json")["frames"]
+    assert [frame["status"] for frame in frames] == ["passed", "failed"]
+    for frame, limits in zip(frames, kept):
+        used = {one["quantity"]: one["fail"] for one in frame["measurements"][0]["thresholds"]}
+        assert used == limits
+
+
+def test_a_frame_does_not_overwrite_the_limits_of_another(tonetool, calibrated_frames):
+    ran = tonetool(*calibrated_frames, "--noisefloor", "limits.json", status=1)
+    assert '"limits.json" was written by frame 1' in ran.err
+
+
+# The numbers are in the files of the frames: of a merge, only that there were limits is known.
+@pytest.mark.parametrize("change", [none])
+def test_altered_limits_of_frames_are_refused(tonetool, calibrated_frames, merge_forged, tmp_path,
+                                              change):
+    tonetool("r.#.exr", "t.#.exr", "--hdrflip:fail=limits.#.json:print=0", "--json", "a.json",
+             status=3)
+    part = load(tmp_path / "a.json")
+    change(part)
+    ran = merge_forged(part)
+    assert ran.status == 1 and '"forged.json": ' in ran.err
+    assert not (tmp_path / "c.json").exists()
 
 
 # ---- recipes

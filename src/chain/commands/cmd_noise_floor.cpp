@@ -165,7 +165,10 @@ Images take_all(Session& session, const Call& call) {
     if (all.size() < 5) {
         throw CommandError("needs a reference and 4 or more renders of the approved version, the "
                            "stack has " +
-                           std::to_string(all.size()) + " image(s)");
+                           std::to_string(all.size()) + " image(s)" +
+                           (session.frame.loops ? " (# loops over frames; valid: the names of all "
+                                                  "seeds, as a shell makes them of seed.*.exr)"
+                                                : ""));
     }
     for (const ImagePtr& image : all) {
         image->used = image->worked_on = true;

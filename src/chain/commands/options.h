@@ -18,8 +18,12 @@ std::string hint_of(const Option<Owner, T>& row) {
         return row.hint.empty() ? join(row.list, "|") : row.hint;
     if constexpr (std::is_same_v<Value, bool>)
         return "0|1";
+    else if constexpr (std::is_integral_v<Value>)
+        return "N";
+    else if constexpr (std::is_arithmetic_v<Value>)
+        return "X";
     else
-        return std::is_integral_v<Value> ? "N" : std::is_arithmetic_v<Value> ? "X" : "NAME";
+        return "NAME";
 }
 
 template <class Options>

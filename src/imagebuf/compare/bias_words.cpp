@@ -53,6 +53,53 @@ std::string equal_text(const BiasResult& result) {
     }
 }
 
+// Two digits, without an exponent.
+std::string times_text(double factor) {
+    const double unit = std::pow(10, std::floor(std::log10(factor)) - 1);
+    return unit < 1 ? format("{:.2g}", factor) : format("{:.0f}", std::round(factor / unit) * unit);
+}
+
+// "the light is 4.8 % lower overall": of the channel that shows it best.
+std::string overall_text(const BiasResult& result) {
+    std::string channels;
+    const BiasGain* clearest = nullptr;
+    for (size_t c = 0; c < kBiasChannels; ++c) {
+        const BiasGain& gain = result.gain[c];
+        if (!gain.rejected)
+            continue;
+        channels += std::string(channels.empty() ? "" : " ") + kBiasChannelNames[c];
+        if (!clearest || std::abs(gain.z) > std::abs(clearest->z))
+            clearest = &gain;
+    }
+    if (!clearest)
+        return "";
+    return format("the light is {:.2g} % {} overall ({})", 100 * std::abs(clearest->gain),
+                  clearest->gain < 0 ? "lower" : "higher", channels);
+}
+
+// "the light differs in 2 of 40 blocks of 16 pixels, 5 of 8 of 32"
+std::string blocks_text(const BiasResult& result, const char* what, int64_t BiasScale::*count) {
+    std::string text;
+    for (const BiasScale& scale : result.scales) {
+        if (scale.*count == 0)
+            continue;
+        const bool first = text.empty();
+        text += format("{}{} of {} {}{}{}", first ? "" : ", ", scale.*count, scale.blocks(),
+                       first ? "blocks of " : "of ", scale.block, first ? " pixels" : "");
+    }
+    return text.empty() ? "" : what + text;
+}
+
+std::string different_text(const BiasResult& result) {
+    std::string text;
+    for (const std::string& part :
+         {overall_text(result), blocks_text(result, "the light differs in ", &BiasScale::rejected),
+          blocks_text(result, "edges differ in ", &BiasScale::structures)})
+        if (!part.empty())
+            text += (text.empty() ? "" : "; ") + part;
+    return text;
+}
+
 std::string more_text(const BiasResult& result) {
     const std::string within = percent(result.options.within);
     if (!result.more)
@@ -60,21 +107,25 @@ std::string more_text(const BiasResult& result) {
     if (!std::isfinite(*result.more))
         return "; no number of samples shows equality within " + within +
                ", as there is light where the reference has none";
-    return format("; differences above {} are excluded, about {:.2g} times more samples are needed "
-                  "to show equality within {}",
-                  percent(result.bound), *result.more, within);
+    constexpr double slightly = 1.2;
+    return format("; differences above {} are excluded, {} more samples are needed to show "
+                  "equality within {}",
+                  percent(result.bound),
+                  *result.more < slightly ? "slightly"
+                                          : "about " + times_text(*result.more) + " times",
+                  within);
 }
 
 std::string undecided_text(const BiasResult& result) {
     const std::string name = ToneAlgo::bias_verdict_name(result.verdict);
     switch (result.reason) {
     case BiasReason::TooSmall:
-        return name + format(": the image has {} pixels, which are too few (at least 4096)",
+        return name + format(": the image has {} pixel(s), which are too few (at least 4096)",
                              int64_t(result.width) * result.height);
     case BiasReason::NonFinite:
-        return name + format(": {} pixel(s) are NaN or Inf, of which nothing is known; all others "
-                             "are equal within {}",
-                             result.nonfinite, percent(result.options.within));
+        return name + format(": of {} pixel(s), which are NaN or Inf, nothing is known; nothing "
+                             "else keeps the images from being equal",
+                             result.nonfinite);
     case BiasReason::Correlated:
         return name + ": neighbouring pixels are correlated (denoised or filtered?): give "
                       "undenoised renders";
@@ -116,7 +167,7 @@ std::string bias_sentence(const BiasResult& result) {
     case BiasVerdict::Equal:
         return equal_text(result);
     case BiasVerdict::Different:
-        return "different: " + OIIO::Strutil::join(bias_evidence(result), "; ");
+        return "different: " + different_text(result);
     case BiasVerdict::NotEnoughSamples:
         break;
     }

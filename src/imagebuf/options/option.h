@@ -89,7 +89,7 @@ struct Option {
     std::string initial() const {
         if (!otherwise.empty())
             return otherwise;
-        const T value = Owner().*member;
+        T value = Owner().*member;
         if constexpr (std::is_same_v<T, std::string>)
             return value;
         else if constexpr (std::is_same_v<T, bool>)
