@@ -28,9 +28,9 @@ def test_example(tmp_path):
     assert (tmp_path / "error.exr").stat().st_size > 0
 
 
-def examples():
-    """(code, what it prints or None) of the guide, in order."""
-    text = GUIDE.read_text(encoding="utf-8")
+def examples(page=GUIDE):
+    """(code, what it prints or None) of a page, in order."""
+    text = page.read_text(encoding="utf-8")
     for code, printed in re.findall(r"```python\n(.*?)```\n\n((?:    [^\n]*\n)*)", text, re.S):
         yield code, re.sub(r"^    ", "", printed, flags=re.M) or None
 
@@ -52,6 +52,15 @@ def test_guide_runs(printed):
 @pytest.mark.parametrize("number", [n for n, (_, said) in enumerate(examples()) if said])
 def test_guide_prints_what_it_says(printed, number):
     assert printed[number] == list(examples())[number][1]
+
+
+@pytest.mark.parametrize("name", sorted(page.stem for page in GUIDE.parent.glob("*.md")
+                                        if page != GUIDE and "```python" in page.read_text(encoding="utf-8")))
+def test_examples_of_other_guides(name, tmp_path):
+    for number, (code, said) in enumerate(examples(GUIDE.with_stem(name))):
+        folder = tmp_path / str(number)
+        folder.mkdir()
+        assert said is None or run(code, folder) == said
 
 
 def test_guide_names_what_there_is():
