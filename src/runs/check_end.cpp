@@ -11,6 +11,7 @@
 #include "sequence/report/report_files.h"
 #include "sequence/results/check_files.h"
 #include "sequence/results/shot_exposures.h"
+#include "sequence/results/tables.h"
 #include "sequence/verdict/merge.h"
 #include "text/error.h"
 #include "text/printable.h"
@@ -46,7 +47,8 @@ struct EndFile {
 std::vector<EndFile> places_of(const CheckPlan& check) {
     std::vector<EndFile> places;
     for (const auto& [command, file] : check.written()) {
-        const bool is_file = command != "merge" && command != "state" && command != "pictures";
+        const bool is_file = command != "merge" && command != "state" && command != "pictures" &&
+                             command != "exit-zero";
         if (is_file && file != "-")
             places.push_back({command, file, normal(file), sequence::stamp_of(file)});
     }
@@ -126,18 +128,25 @@ void write_statistics(const CheckPlan& check, const std::string& text) {
 }
 
 int conclude_check(const sequence::ShotResult& shot, const FramePlan& plan,
-                   const sequence::PictureStore& pictures, std::ostream& out, std::ostream& err) {
+                   const sequence::PictureStore& pictures, const std::string& unkept,
+                   std::ostream& out, std::ostream& err) {
     out << sequence::faults_text(shot);
     out << "check: " << status_name(shot.verdict) << ", " << printable(shot.sentence) << std::endl;
     const sequence::CheckFiles files = plan.check.written();
     Strings errors = sequence::write_results(shot, files);
+    if (const auto bad = files.find("bad-frames"); bad != files.end()) {
+        const std::string text = sequence::bad_frames_text(shot, plan.check.bad_from);
+        sequence::attempt(errors, [&] { sequence::write_text(text, bad->second); });
+    }
+    if (!unkept.empty())
+        errors.push_back(unkept);
     for (const std::string& complaint : sequence::write_reports(shot, pictures, files, errors))
         err << "tonetool WARNING: " << printable(complaint) << '\n';
     for (const std::string& error : errors)
         err << "tonetool ERROR: " << printable(error) << '\n';
     const int verdict = exit_status(shot.verdict, plan.warnings_exit);
     const int status = plan.line.compat && verdict == 3 ? 1 : verdict;
-    return errors.empty() ? status : 1;
+    return !errors.empty() ? 1 : plan.check.has("exit-zero") ? 0 : status;
 }
 
 int merge_parts(const FramePlan& plan, std::ostream& out, std::ostream& err) {
@@ -162,7 +171,7 @@ int merge_parts(const FramePlan& plan, std::ostream& out, std::ostream& err) {
     if (check.has("pictures") && !OIIO::Filesystem::is_directory(check.argument("pictures")))
         throw CommandError("--pictures: there is no folder \"" + check.argument("pictures") + "\"");
     const sequence::PictureStore pictures(picture_folder(check));
-    return worse(session.exit_status(), conclude_check(shot, plan, pictures, out, err));
+    return worse(session.exit_status(), conclude_check(shot, plan, pictures, "", out, err));
 }
 
 } // namespace tonetool::runs

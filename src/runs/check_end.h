@@ -24,9 +24,10 @@ std::string picture_folder(const CheckPlan& check);
 void refuse_to_write_over(const FramePlan& plan);
 
 /// Prints the verdict of a check, then writes its files, those that can be written: none with
-/// -n. The exit status.
+/// -n. `unkept`: what could not be kept of the frames, which is an error, too. The exit status.
 int conclude_check(const sequence::ShotResult& shot, const FramePlan& plan,
-                   const sequence::PictureStore& pictures, std::ostream& out, std::ostream& err);
+                   const sequence::PictureStore& pictures, const std::string& unkept,
+                   std::ostream& out, std::ostream& err);
 
 /// The measured exposures as the file of --statistics, which -n does not write.
 void write_statistics(const CheckPlan& check, const std::string& text);

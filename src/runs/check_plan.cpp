@@ -5,6 +5,7 @@
 #include <set>
 #include <stdexcept>
 
+#include "chain/language/values.h"
 #include "sequence/results/limits_file.h"
 #include "sequence/results/measuring.h"
 #include "text/error.h"
@@ -29,6 +30,7 @@ public:
             else
                 take_file(word.at);
         check_merge();
+        check_exit_zero();
         return std::move(m_plan);
     }
 
@@ -87,6 +89,17 @@ private:
         }
         if (!m_plan.words.emplace(word.row->names.front(), argument).second)
             throw CommandError(name + " is given twice");
+        if (word.is("bad-frames"))
+            take_severity(word.token);
+    }
+
+    void take_severity(const Token& token) {
+        for (const auto& [key, value] : token.modifiers) {
+            if (key == "from")
+                check_choice("--bad-frames: from", value, {"error", "warning"});
+            if (key == "from" && value == "warning")
+                m_plan.bad_from = sequence::Status::Warning;
+        }
     }
 
     void take_argument(const Word& word, bool manner, size_t at) {
@@ -155,6 +168,14 @@ private:
             return sequence::limits_text(sequence::read_limits(file));
         } catch (const std::runtime_error&) {
             return file;
+        }
+    }
+
+    // Else nothing would say what was found.
+    void check_exit_zero() const {
+        if (m_plan.has("exit-zero") && (!m_plan.has("json") || m_plan.has("merge"))) {
+            throw CommandError("--exit-zero is for the tasks of a farm, whose results are judged "
+                               "when they are merged (valid: with --json FILE, without --merge)");
         }
     }
 

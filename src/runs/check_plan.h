@@ -8,6 +8,7 @@
 
 #include "chain/language/line.h"
 #include "sequence/frames/file_sequence.h"
+#include "sequence/results/results.h"
 #include "text/text.h"
 
 namespace tonetool::runs {
@@ -24,6 +25,7 @@ struct CheckPlan {
     bool compares = false;                    ///< a command compares images
     bool has_limits = false;                  ///< one has fail= or warn=, or is --diff
     bool dry_run = false;                     ///< -n: no file is written
+    sequence::Status bad_from = sequence::Status::Failed; ///< of --bad-frames
     /// The words without those that say which frames, where to and how fast; and where they are.
     Strings essence;
     std::vector<size_t> essence_at;

@@ -13,6 +13,11 @@ chain::Rows check_commands() {
         command("csv FILE", "Write a table of all frames, a line each").whole_line(),
         command("junit FILE", "Write a test case for each frame, as CI systems read them")
             .whole_line(),
+        command("bad-frames FILE",
+                "Write the numbers of the frames to render again, in one line as render farms read "
+                "it: 1004,1006,1009-1011")
+            .modifier("from", "error|warning", "the least severity that counts (error)")
+            .whole_line(),
         command("report FILE.html",
                 "Write a page to look at: verdict, curve, worst frames, pictures, faults")
             .whole_line(),
@@ -26,6 +31,9 @@ chain::Rows check_commands() {
             .whole_line(),
         command("statistics FILE",
                 "Only measure the range of exposures=shot and write it, for exposures=FILE")
+            .whole_line(),
+        command("exit-zero", "For tasks of a farm: status 0 when all results that were asked for "
+                             "are written, whatever they are; needs --json, which --merge judges")
             .whole_line(),
         command("merge", "Join the results (--json) of parts of a shot; with --frames also those "
                          "that are in none; or the FILEs of --statistics")

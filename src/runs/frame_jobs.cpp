@@ -255,11 +255,8 @@ CheckedFrames::Checked CheckedFrames::check_or_find(size_t index) const {
         const std::string error = keep_in(
             *m_state, item, origin, made.files,
             {sequence::to_json(made.result), made.out, made.err, made.status, made.written});
-        if (!error.empty()) {
-            made.result.status = Status::Error;
-            made.result.message = error;
-            made.status = 1;
-        }
+        if (!error.empty())
+            made.unkept = "--state: " + error;
     }
     return made;
 }
@@ -272,7 +269,7 @@ Ran CheckedFrames::run(size_t index, std::ostream& out, std::ostream& err) {
     return {checked.status, in_words(checked.result), false,
             packed({sequence::to_json(checked.result), checked.known ? "known" : "",
                     pictures ? pictures->full : "", pictures ? pictures->small : "",
-                    packed(checked.written)})};
+                    packed(checked.written), checked.unkept})};
 }
 
 Ran CheckedFrames::failed(size_t index, Status status, const std::string& why, std::ostream& err) {
@@ -280,7 +277,7 @@ Ran CheckedFrames::failed(size_t index, Status status, const std::string& why, s
     result.status = status;
     result.message = status == Status::Crashed ? crashed(why) : why;
     m_context.print_error(index, result.message, err);
-    return {1, in_words(result), false, packed({sequence::to_json(result), "", "", "", ""})};
+    return {1, in_words(result), false, packed({sequence::to_json(result), "", "", "", "", ""})};
 }
 
 void CheckedFrames::claim(const Strings& written, FrameResult& result, Ran& ran) const {
@@ -298,7 +295,8 @@ void CheckedFrames::claim(const Strings& written, FrameResult& result, Ran& ran)
 }
 
 void CheckedFrames::take(size_t index, Ran& ran) {
-    Strings texts = unpacked(ran.found, 5);
+    Strings texts = unpacked(ran.found, 6);
+    m_unkept = m_unkept.empty() ? texts[5] : m_unkept;
     FrameResult& result = m_results[index];
     result = sequence::frame_from_json(texts[0]);
     claim(unpacked(texts[4]), result, ran);
@@ -307,14 +305,22 @@ void CheckedFrames::take(size_t index, Ran& ran) {
         remove_abandoned_outputs(
             words_at(m_context.plan.runs[index].words, m_context.plan.check.outputs));
     }
-    if (!draws(m_context.plan.check))
-        return;
-    if (!texts[1].empty())
-        m_pictures.restore(result);
-    else if (!texts[3].empty())
-        m_pictures.add(result, sequence::PictureTexts{std::move(texts[2]), std::move(texts[3])});
-    else
-        m_pictures.forget(result);
+    if (draws(m_context.plan.check))
+        keep_pictures(!texts[1].empty(), {std::move(texts[2]), std::move(texts[3])}, result);
+}
+
+void CheckedFrames::keep_pictures(bool known, sequence::PictureTexts texts,
+                                  const FrameResult& result) {
+    try {
+        if (known)
+            m_pictures.restore(result);
+        else if (!texts.small.empty())
+            m_pictures.add(result, std::move(texts));
+        else
+            m_pictures.forget(result);
+    } catch (const std::exception& problem) {
+        m_unkept = m_unkept.empty() ? problem.what() : m_unkept;
+    }
 }
 
 } // namespace tonetool::runs

@@ -80,6 +80,9 @@ public:
     void take(size_t index, Ran& ran) override;
 
     std::vector<sequence::FrameResult>& results() { return m_results; }
+    /// Why something of the first such frame could not be kept for a later run or the report;
+    /// results are not less right for that. Empty: all could.
+    const std::string& unkept() const { return m_unkept; }
 
 private:
     // A frame's result, what it has printed, and its pictures.
@@ -88,9 +91,10 @@ private:
         std::string out, err;
         int status = 0;
         bool known = false; ///< from an earlier run
-        Strings written{};  ///< files, by its commands
+        Strings written{}; ///< files, by its commands
         std::optional<sequence::PictureTexts> pictures{};
         sequence::FileLog files{}; ///< that its run has opened
+        std::string unkept{};      ///< why its result could not be kept for a later run
     };
 
     sequence::FrameResult unchecked(size_t index) const;
@@ -102,7 +106,11 @@ private:
     const FrameContext& m_context;
     const std::optional<sequence::State>& m_state;
     sequence::PictureStore& m_pictures;
+    void keep_pictures(bool known, sequence::PictureTexts texts,
+                       const sequence::FrameResult& result);
+
     std::vector<sequence::FrameResult> m_results;
+    std::string m_unkept;
 };
 
 } // namespace tonetool::runs

@@ -13,7 +13,7 @@ function drawWorst() {
     return make("li", {}, make("button", { type: "button", className: "pick", "data-index": index,
       onclick: () => { select(index); } },
       thumbnail(index), make("strong", {}, `Frame ${frameName(frame)}`), badge(frame.status),
-      make("span", { className: "what" }, verdictOf(frame) || frame.message)));
+      make("span", { className: "what" }, frame.message || verdictOf(frame))));
   }));
   const more = data.shot.worst.length - shown.length;
   const note = more > 0 ? `and ${plural(more, "more frame")}, see below`

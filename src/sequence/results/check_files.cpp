@@ -31,7 +31,7 @@ const std::map<std::string, Text>& texts() {
 // Only one text file may go to the standard output.
 void check_standard_output(const std::string& start, const std::string& command,
                            const CheckFiles& files) {
-    if (texts().count(command) == 0 && command != "statistics") {
+    if (texts().count(command) == 0 && command != "statistics" && command != "bad-frames") {
         throw std::runtime_error(start + "\"-\" is the standard output, which takes texts alone "
                                          "(valid: --json -, --csv -, --junit -, --statistics -)");
     }

@@ -6,8 +6,10 @@
 #include <cmath>
 #include <cstring>
 #include <map>
+#include <set>
 
 #include "imagebuf/pixels/utf8.h"
+#include "sequence/frames/frame_range.h"
 #include "text/printable.h"
 
 namespace tonetool::sequence {
@@ -174,6 +176,14 @@ std::string junit_text(const ShotResult& shot) {
     return "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites>\n <testsuite " + counts +
            ">\n" + cases + "  <system-out>" + escaped(shot.sentence) +
            "</system-out>\n </testsuite>\n</testsuites>\n";
+}
+
+std::string bad_frames_text(const ShotResult& shot, Status from) {
+    std::set<int> numbers; // of two views, once
+    for (const FrameResult& frame : shot.frames)
+        if (frame.status >= from)
+            numbers.insert(frame.test_frame.value_or(frame.frame));
+    return numbers.empty() ? "" : range_text({numbers.begin(), numbers.end()}) + "\n";
 }
 
 } // namespace tonetool::sequence

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Results as tables for other programs: CSV and JUnit's XML.
+// Results as texts for other programs: CSV, JUnit's XML, and numbers of frames.
 #pragma once
 
 #include <string>
@@ -17,5 +17,10 @@ std::string csv_text(const ShotResult& shot);
 /// A test case per frame: failed frames are failures, frames that could not be checked errors, and
 /// frames that were measured without a threshold are skipped, not passed.
 std::string junit_text(const ShotResult& shot);
+
+/// The numbers of the frames to render again, those of the tests, in one line:
+/// "1004,1006,1009-1011"; empty where there is none. `from`: the least status that counts, Warning
+/// or Failed.
+std::string bad_frames_text(const ShotResult& shot, Status from);
 
 } // namespace tonetool::sequence

@@ -13,7 +13,7 @@ from stock_surface import (EXPRESSIONS, HIDDEN, SHARED, all_commands, all_modifi
                            declared_commands, listed_commands)
 
 # Only tonetool has these; tests/cli/test_*.py run them.
-OWN_COMMANDS = set("""biascheck noisefloor hdrflip ldrflip flipdiff exposure calibrate tonemap cgtmo lightindex errormap
+OWN_COMMANDS = set("""bad-frames exit-zero biascheck noisefloor hdrflip ldrflip flipdiff exposure calibrate tonemap cgtmo lightindex errormap
     tmqi luminancestats qc exportlut report json csv junit contactsheet pictures state statistics
     merge doctor licenses h compat progress parallel-frames memory warnings-exit filmstrip tonecurves""".split())
 
