@@ -95,9 +95,10 @@ private:
 
     void take_severity(const Token& token) {
         for (const auto& [key, value] : token.modifiers) {
-            if (key == "from")
-                check_choice("--bad-frames: from", value, {"error", "warning"});
-            if (key == "from" && value == "warning")
+            if (key != "from")
+                throw CommandError("--bad-frames has no modifier \"" + key + "\" (valid: from)");
+            check_choice("--bad-frames: from", value, {"error", "warning"});
+            if (value == "warning")
                 m_plan.bad_from = sequence::Status::Warning;
         }
     }

@@ -58,6 +58,13 @@ def test_warnings_count_where_they_are_asked_for(tonetool, shot, tmp_path):
     assert 'from "info"' in ran.err and "error, warning" in ran.err
 
 
+@pytest.mark.parametrize("words", [[], ["--merge", "all.json"]])
+def test_unknown_modifiers(tonetool, shot, tmp_path, words):
+    tonetool(*shot, FLIP, "--json", "all.json", status=1)
+    ran = tonetool(*(words or [*shot, FLIP]), "--bad-frames:form=warning", "bad.txt", status=1)
+    assert '"form"' in ran.err and not (tmp_path / "bad.txt").exists()
+
+
 def test_numbers_are_those_of_the_test(tonetool, make_image, tmp_path):
     for number in (1, 2):
         make_image(f"a.{number}.exr", seed=number)

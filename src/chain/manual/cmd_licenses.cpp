@@ -12,7 +12,7 @@ namespace {
 
 void run_licenses(Session& session, const Call&) {
     session.outcome.produced = true;
-    session.out << licence_texts;
+    session.out << kLicenceTexts;
 }
 
 } // namespace

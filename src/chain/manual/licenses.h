@@ -7,7 +7,7 @@
 namespace tonetool::chain {
 
 /// LICENSE and src/THIRD_PARTY.md, which the build embeds in the program.
-extern const char* const licence_texts;
+extern const char* const kLicenceTexts;
 
 /// The row of --licenses.
 Rows licence_commands();

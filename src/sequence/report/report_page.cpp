@@ -122,7 +122,7 @@ std::string pictures_text(const ShotResult& shot, const Kept& kept, const PageLi
     const size_t count = shot.frames.size();
     return format("in full of {} of {} frames, the worst first; thumbnails of {}; this file holds "
                   "at most {} full frames and {} MB of pictures",
-                  kept.full.size(), count, kept.small, PictureStore::most_full_frames,
+                  kept.full.size(), count, kept.small, PictureStore::kMostFullFrames,
                   limits.bytes >> 20);
 }
 

@@ -31,7 +31,7 @@ public:
     /// that fails, or if the folder is a symbolic link, unless a / behind its name says that the
     /// link is meant: in a folder of --state others may have planted it. Links in place of the
     /// files are not followed, either.
-    explicit PictureStore(std::string folder = "", size_t full_frames = most_full_frames);
+    explicit PictureStore(std::string folder = "", size_t full_frames = kMostFullFrames);
 
     /// Whether a frame with this status and these measurements would be kept with full images.
     bool wants_full(const FrameResult& frame) const;
@@ -59,7 +59,7 @@ public:
     std::string small(const FrameResult& frame) const;
     std::string full(const FrameResult& frame) const;
 
-    static constexpr size_t most_full_frames = 24;
+    static constexpr size_t kMostFullFrames = 24;
 
 private:
     using Rank = std::tuple<int, double, int, std::string>; ///< the worst first

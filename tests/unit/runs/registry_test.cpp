@@ -105,7 +105,9 @@ TEST_F(Registry, WholeLinesAreSetByWhatMakesNoImage) {
     for (const Command& row : all_commands()) {
         if (row.whole_line) {
             EXPECT_EQ(row.pops + row.pushes, 0) << row.names.front();
-            EXPECT_TRUE(row.modifiers.empty()) << row.names.front();
+            // No call reads them: who has some checks them himself, in the plan of the line.
+            EXPECT_EQ(!row.modifiers.empty(), row.names.front() == "bad-frames")
+                << row.names.front();
         }
         EXPECT_TRUE(row.whole_line || row.group != Group::Check) << row.names.front();
     }
