@@ -160,6 +160,52 @@ def test_the_slider_by_mouse_and_by_keys(page):
     assert page.split() == pytest.approx(0, abs=0.5)
 
 
+def test_toggle_and_blink_in_place(page):
+    select(page, 5)
+    box = page.one(".compare").rect
+    for key, reference in (("t", 0), ("t", 100), (" ", 0)):
+        page.keys(key)
+        assert page.split() == pytest.approx(reference, abs=0.5)
+        assert page.one(".compare").rect == box  # nothing moves
+    page.keys("e", "t")
+    assert page.all(".compare")  # the pair comes back
+    page.keys("b")
+    assert page.one("#blink").get_attribute("aria-pressed") == "true"
+    first = page.split()
+    page.until("Math.abs(viewer.split - arguments[0]) > 50", first)
+    page.until("Math.abs(viewer.split - arguments[0]) < 50", first)
+    page.keys("[")
+    assert page.one("#blink").get_attribute("aria-pressed") == "false" and page.ask("viewer.blink") is None
+    page.one("#blink").click()
+    page.one("#toggle").click()
+    assert page.ask("viewer.blink") is None
+    select(page, 9)  # no pictures
+    assert not page.one("#toggle").is_enabled() and not page.one("#blink").is_enabled()
+
+
+def test_a_link_leads_to_a_frame(page, page_file):
+    select(page, 4)
+    assert page.ask("location.hash") == "#4"
+    length = page.ask("history.length")
+    page.keys(Keys.ARROW_RIGHT)
+    assert page.ask("location.hash") == "#5" and page.ask("history.length") == length
+    page.driver.execute_script("location.hash = '#7'")
+    page.until("document.getElementById('frame').value === '6'")
+    page.driver.execute_script("location.hash = '#nothing'")
+    assert page.frame() == "7"
+    page.driver.get("about:blank")
+    page.driver.get(page_file.as_uri() + "#3")
+    assert page.frame() == "3"
+
+
+def test_the_frames_to_render_again(page):
+    assert page.text("#bad-frames") == "5,9"
+    page.one("#copy").click()
+    page.until("document.getElementById('copied').textContent !== ''")
+    assert page.ask("getSelection().toString()") == "5,9"
+    assert page.ask("rangeText([11, 3, 9, 10, 3, -1])") == "-1,3,9-11"
+
+
 def test_keys_step_through_the_frames(page):
     select(page, 5)
     page.keys(Keys.ARROW_RIGHT)

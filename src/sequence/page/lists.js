@@ -21,6 +21,38 @@ function drawWorst() {
   if (note) byId("worst").after(make("p", { className: "hint" }, note));
 }
 
+/** "1004,1006,1009-1011": ascending numbers as render farms read them. */
+function rangeText(numbers) {
+  const parts = [];
+  for (const number of [...new Set(numbers)].sort((a, b) => a - b)) {
+    const last = parts[parts.length - 1];
+    if (last && last[1] === number - 1) last[1] = number;
+    else parts.push([number, number]);
+  }
+  return parts.map(([low, high]) => (low === high ? `${low}` : `${low}-${high}`)).join(",");
+}
+
+/** As --bad-frames writes them: what failed or could not be checked, by the numbers of the tests. */
+function badFrames() {
+  return rangeText(frames.filter((frame) => classOf(frame.status) === "failed" || classOf(frame.status) === "error")
+    .map((frame) => frame.test_frame ?? frame.frame));
+}
+
+function drawBadFrames() {
+  const text = badFrames();
+  byId("bad").hidden = !text || (frames.length === 1 && frames[0].frame === 0);
+  byId("bad-frames").textContent = text;
+  byId("copy").onclick = async () => {
+    getSelection().selectAllChildren(byId("bad-frames"));
+    try {
+      await navigator.clipboard.writeText(text);
+      byId("copied").textContent = "copied";
+    } catch {
+      byId("copied").textContent = "selected: copy with the keyboard";
+    }
+  };
+}
+
 function faultRow(frame, index, fault, spots) {
   const numbers = [];
   if (typeof fault.value === "number") numbers.push(`measured ${number(fault.value)}`);

@@ -17,7 +17,8 @@ const KEYS = {
   Home: () => select(0), End: () => select(frames.length - 1),
   n: () => stepWorst(1), p: () => stepWorst(-1),
   c: () => chooseShow("compare"), e: () => chooseShow("error"), x: () => chooseShow("stops"),
-  b: () => chooseShow("bias"),
+  m: () => chooseShow("bias"),
+  t: toggle, " ": toggle, b: blink,
   "[": () => setSplit(viewer.split - 5), "]": () => setSplit(viewer.split + 5),
 };
 
@@ -26,6 +27,8 @@ function onKey(event) {
   const owns = event.target.closest("select, input, textarea, .scroll");
   const moves = event.key.startsWith("Arrow") || event.key === "Home" || event.key === "End";
   if (owns && (moves || event.target.tagName === "SELECT")) return;
+  if (event.key === " " && event.target.closest("button, summary, a")) return; // presses it
+  if (event.key !== "b" && viewer.blink) stopBlinking();
   const exposure = "123456789".indexOf(event.key);
   const full = picturesOf(viewer.index, "full");
   if (event.key.length === 1 && exposure >= 0) {
@@ -54,19 +57,24 @@ function start() {
   byId("frame").onchange = (event) => select(Number(event.target.value));
   byId("previous").onclick = () => step(-1);
   byId("next").onclick = () => step(1);
+  byId("toggle").onclick = () => { stopBlinking(); toggle(); };
+  byId("blink").onclick = blink;
   byId("theme").onchange = (event) => chooseTheme(event.target.value.startsWith("as") ? "" : event.target.value);
   matchMedia("(prefers-color-scheme: dark)").addEventListener("change", redraw);
   const hasFrames = frames.length > 0;
   for (const part of document.querySelectorAll(".columns, .all, .curve")) part.hidden = !hasFrames;
   drawAbout();
   drawWorst();
+  drawBadFrames();
   drawFaults();
   if (!hasFrames) return;
   drawAll();
-  viewer.index = data.shot.worst.length ? data.shot.worst[0] : 0;
+  const first = linked();
+  viewer.index = first >= 0 ? first : data.shot.worst.length ? data.shot.worst[0] : 0;
   startCurve();
   select(viewer.index);
   document.addEventListener("keydown", onKey);
+  addEventListener("hashchange", () => select(linked()));
 }
 
 start();

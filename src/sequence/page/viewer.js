@@ -1,7 +1,8 @@
 // One frame: its images, its numbers.
 
 // `stops` is the requested exposure; `exposure` the index of the nearest one that was drawn.
-const viewer = { index: 0, exposure: 0, stops: null, show: "compare", split: 50 };
+// `blink`: the timer that toggles, or null.
+const viewer = { index: 0, exposure: 0, stops: null, show: "compare", split: 50, blink: null };
 const SHOWS = [["compare", "Comparison"], ["error", "Error map"], ["stops", "Exposure map"],
   ["bias", "Noise or change"]];
 
@@ -45,6 +46,29 @@ function setSplit(value) {
   byId("slide").setAttribute("aria-valuetext", `reference on the left ${Math.round(viewer.split)} %`);
 }
 
+/** One picture whole, in the place of the other: the eye sees a difference that a wipe hides. */
+function toggle() {
+  if (viewer.show !== "compare") chooseShow("compare");
+  setSplit(viewer.split < 50 ? 100 : 0);
+}
+
+function stopBlinking() {
+  clearInterval(viewer.blink);
+  viewer.blink = null;
+  byId("blink").setAttribute("aria-pressed", "false");
+}
+
+/** Twice a second, until a key or a click. */
+function blink() {
+  if (viewer.blink) {
+    stopBlinking();
+    return;
+  }
+  toggle();
+  viewer.blink = setInterval(toggle, 500);
+  byId("blink").setAttribute("aria-pressed", "true");
+}
+
 function slider(full) {
   const at = full.exposures[viewer.exposure];
   const words = (which) => `${which} at ${stops(at.stops)} stops`;
@@ -55,6 +79,7 @@ function slider(full) {
     make("span", { className: "tag of-right" }, "Test"));
   const drag = (event) => {
     if (event.type === "pointermove" && !event.buttons) return;
+    stopBlinking();
     const area = box.getBoundingClientRect();
     setSplit((100 * (event.clientX - area.left)) / area.width);
     event.preventDefault();
@@ -80,7 +105,8 @@ function stageOf(frame, full, small) {
   const at = full.exposures[viewer.exposure];
   if (!at.reference) return [picture(at.test, `Test at ${stops(at.stops)} stops`), data.pictures.shown, null];
   const range = make("input", { type: "range", className: "slide", id: "slide", min: 0, max: 100, step: 1,
-    "aria-label": "Where reference and test meet", oninput: (event) => setSplit(Number(event.target.value)) });
+    "aria-label": "Where reference and test meet",
+    oninput: (event) => { stopBlinking(); setSplit(Number(event.target.value)); } });
   return [slider(full), data.pictures.shown, range];
 }
 
@@ -107,6 +133,9 @@ function drawPictures() {
   if (full && full.stops)
     maps.push(mapFigure(full.stops, "Exposure of the largest error", stopsLegend(full), "stops"));
   if (full && full.bias) maps.push(mapFigure(full.bias, "Noise or change", biasLegend(full), "bias"));
+  const pair = Boolean(document.querySelector("#stage .compare"));
+  byId("toggle").disabled = byId("blink").disabled = !(full && full.exposures[0].reference);
+  if (!pair && viewer.blink) stopBlinking();
   byId("maps").replaceChildren(...maps);
   byId("maps").hidden = maps.length === 0;
   byId("near").replaceChildren(...nearBoxes(frame, full));
@@ -155,11 +184,20 @@ function refresh() {
   }
 }
 
+/** "#1009", or "#1009 left" of a view: what leads to a frame. */
+const linkOf = (frame) => `#${encodeURIComponent(String(frame.frame) + (frame.view ? ` ${frame.view}` : ""))}`;
+
+/** The frame that the page's address names, or -1. */
+function linked() {
+  return frames.findIndex((frame) => linkOf(frame) === location.hash);
+}
+
 function select(index) {
   if (index < 0 || index >= frames.length) return;
   viewer.index = index;
   const frame = frames[index];
   byId("frame-title").replaceChildren(`Frame ${frameName(frame)} `, badge(frame.status));
+  if (location.hash !== linkOf(frame)) history.replaceState(null, "", linkOf(frame));
   const message = frame.message || verdictOf(frame);
   byId("message").textContent = message;
   byId("message").classList.toggle("empty", !message);
