@@ -249,7 +249,8 @@ def test_odd_pictures():
 def test_inputs_are_not_changed():
     one, other = renders("different")
     before = one.tobytes(), other.tobytes()
-    tonetool.bias_check([one, other], other)
+    tonetool.bias_check(one, other)
+    tonetool.bias_check([one], [other])
     assert (one.tobytes(), other.tobytes()) == before
 
 

@@ -78,9 +78,11 @@ std::string plural(int count, const std::string& word) {
 }
 
 std::string noise_text(const BiasResult& r) {
-    const char* which = r.unlike == 0  ? "noise alike"
+    std::string which = r.unlike == 0  ? "noise alike"
                         : r.unlike > 0 ? "the test is noisier than the reference"
                                        : "the reference is noisier than the test";
+    if (r.options.reference != kBiasNoises[0])
+        which += " by reference=" + r.options.reference;
     return format(", {} (asymmetry {:.2f}), pixels {} (correlation {:.3f})", which, r.asymmetry,
                   r.correlated ? "correlated" : "independent", r.correlation);
 }
@@ -146,7 +148,7 @@ void print_lines(Session& session, const Call& call, const BiasSummary& summary)
     Lines lines(label);
     lines.add("reference", call.images.front()->name());
     visit_side(fields(lines, summary.reference, "reference"));
-    lines.add("test", call.images.back()->name());
+    lines.add("test", call.images[size_t(reference_count(call))]->name());
     visit_side(fields(lines, summary.test, "test"));
     lines.add("within", summary.result.options.within);
     lines.add("alpha", summary.result.options.alpha);
@@ -154,6 +156,13 @@ void print_lines(Session& session, const Call& call, const BiasSummary& summary)
     for (const auto& [name, value] : ToneAlgo::bias_numbers(summary.result))
         lines.add(name, value);
     session.print(lines.text);
+}
+
+std::string tests_text(const Call& call) {
+    const auto first = size_t(reference_count(call));
+    const size_t others = call.images.size() - first - 1;
+    return printable(call.images[first]->name()) +
+           (others > 0 ? " and " + plural(int(others), "more seed") : "");
 }
 
 // The verdict is the last line. What is neither equal nor different has not been passed, whatever
@@ -168,8 +177,8 @@ void print_verdict(Session& session, const Call& call, const BiasSummary& summar
     const bool failed = exceeded(&sequence::Threshold::fail);
     const bool warned = exceeded(&sequence::Threshold::warn);
     const std::string label = call.row().label();
-    const std::string text = ToneAlgo::bias_sentence(summary.result) + " (" +
-                             printable(call.images.back()->name()) + ")";
+    const std::string text =
+        ToneAlgo::bias_sentence(summary.result) + " (" + tests_text(call) + ")";
     if (warned)
         session.warning(label, text);
     if (failed) {
@@ -226,7 +235,7 @@ std::vector<ImageBuf> read_images(Session& session, const Call& call, const Bias
 sequence::Measurement measurement_of(const Call& call, const BiasSummary& summary,
                                      const VerdictLimits& limits, size_t references) {
     sequence::Measurement measured = sequence::measurement(summary);
-    measured.thresholds = sequence::verdict_thresholds(measured.verdict, limits);
+    measured.thresholds = sequence::verdict_thresholds(measured, limits);
     const auto names = [&](size_t begin, size_t end) {
         Strings all;
         for (size_t i = begin; i < end; ++i)
@@ -274,6 +283,8 @@ void run_biascheck(Session& session, const Call& call) {
     sequence::Measurement measured = measurement_of(call, summary, limits, references);
     const std::vector<sequence::Threshold> thresholds = measured.thresholds;
     record(session, call, std::move(measured), references - 1);
+    if (session.check.result) // not the second reference
+        session.check.result->test = call.images[references]->name();
     print_lines(session, call, summary);
     print_verdict(session, call, summary, thresholds);
     if (shown) {

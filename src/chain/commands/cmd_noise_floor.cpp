@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // --noisefloor: limits of an error that come from renders of the approved version instead of a
 // guess.
+#include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/strutil.h>
 #include <algorithm>
 #include <set>
@@ -78,6 +79,7 @@ public:
                metrics::find_error_metric(m_error.metric)->has(metrics::kBounded);
     }
 
+    /// The quantities, and last the mean of the map, which no two renders have in common.
     std::vector<double> measure(const ImageBuf& reference, const ImageBuf& seed) const {
         ImageBuf map;
         std::vector<double> values;
@@ -87,6 +89,7 @@ public:
             for (const std::string& name : m_quantities)
                 values.push_back(
                     ToneAlgo::flip_quantity(summary.pool, name).value_or(summary.value));
+            values.push_back(summary.pool.mean);
             return values;
         }
         FlipResult result;
@@ -95,6 +98,7 @@ public:
                 map);
         for (const std::string& name : m_quantities)
             values.push_back(ToneAlgo::flip_quantity(result.summary.pool, name).value());
+        values.push_back(result.summary.pool.mean);
         return values;
     }
 
@@ -207,7 +211,8 @@ public:
         std::vector<std::vector<double>> values(m_meter.quantities().size());
         for (size_t i = 1; i < m_images.size() && fresh; ++i) {
             const std::vector<double> found = m_meter.measure(m_sources[0], m_sources[i]);
-            for (size_t q = 0; q < found.size(); ++q)
+            refuse_copy(found.back(), i);
+            for (size_t q = 0; q < values.size(); ++q)
                 values[q].push_back(found[q]);
             m_kept.seeds.push_back(m_images[i]->name());
         }
@@ -219,6 +224,19 @@ public:
     const KeptLimits& kept() const { return m_kept; }
 
 private:
+    // A copy under another name is no render of its own: limits would be too narrow, or too wide.
+    void refuse_copy(double mean, size_t i) {
+        const auto same = std::find(m_means.begin(), m_means.end(), mean);
+        const bool twice = same != m_means.end();
+        if (mean == 0 || twice) {
+            const Image& other = *m_images[twice ? size_t(same - m_means.begin()) + 1 : 0];
+            throw CommandError("\"" + m_images[i]->name() + "\" is the same image as \"" +
+                               other.name() +
+                               "\": the reference and the seeds must be independent renders");
+        }
+        m_means.push_back(mean);
+    }
+
     // A reference that is not what the seeds converge to makes every limit too wide.
     bool check_baseline() {
         std::vector<const ImageBuf*> seeds;
@@ -273,6 +291,7 @@ private:
     Meter m_meter;
     Images m_images;
     std::vector<ImageBuf> m_sources;
+    std::vector<double> m_means; ///< of the seeds' maps
     KeptLimits m_kept;
 };
 
@@ -313,6 +332,10 @@ void run_noisefloor(Session& session, const Call& call) {
         return;
     }
     tell(session, call, floor.kept());
+    if (session.settings.no_clobber && OIIO::Filesystem::exists(file)) {
+        session.report(call.row().label() + ": " + printable(file) + " is there already, it stays");
+        return;
+    }
     session.claim(file);
     if (session.settings.dry_run)
         return;

@@ -8,7 +8,8 @@ const char* const kExitStatusText =
 1  an error: bad command line, unreadable file, nothing to compare, a result not written;
    and a --diff or --pdiff that fails
 2  only warnings, and --warnings-exit was given
-3  a fail= threshold was exceeded, or --qc found a fault that is an error
+3  a fail= threshold was exceeded, --biascheck found a difference or too few samples, or
+   --qc a fault that is an error
 )";
 
 namespace {
@@ -56,6 +57,7 @@ that fail or warn print a line, with -v each does.
   --merge              joins the results of a farm's tasks; tonetool-slurm does it all on Slurm
 
 exposures=shot compares all frames at one range of exposures, so that their errors can be compared.
+--biascheck tells noise from a change of the light (--help biascheck).
 --qc looks for faults that need no reference: black and constant frames, NaN, fireflies, flicker,
 missing layers; see --help qc and --help exit.
 )";
@@ -90,7 +92,7 @@ const char* const kBiascheck = R"(Noise or change?
 HDR-FLIP sees noise as an eye does, and cannot see behind it: a noisy render that is 5 % too bright
 may have a lower error than an honest one. --biascheck tests whether the light of two renders differs
 in more than the noise of their samples, over the picture and in blocks of 16, 32 and 64 pixels. It
-wants renders without a denoiser, of different seeds. Three verdicts:
+wants renders without a denoiser, of different seeds, of 4096 pixels or more. Three verdicts:
 
   different           beyond chance: alpha= is the rate of false alarms, 1 % of the images. Status 3
   equal               shown to be equal within the margin within=, 5 %, as the line says. Status 0

@@ -97,8 +97,11 @@ public:
         if (!m_side)
             m_side.emplace(planes.width(), planes.region.height());
         if (planes.counts.largest > 0)
-            note_twice(digest_of(planes), summary);
+            refuse_twice(digest_of(planes));
         m_side->add(planes.view(), make_parallel(m_nthreads));
+        if (m_seeds > 1)
+            refuse_other_version(planes);
+        m_planes = std::move(planes); // for the next one
     }
     const BiasSide& side() const { return *m_side; }
     const FlipSide& found() const { return m_found; }
@@ -122,15 +125,33 @@ private:
     }
 
     // Two seeds are independent: alike, but not the same.
-    void note_twice(const Digest& digest, BiasSummary& summary) {
+    void refuse_twice(const Digest& digest) {
         const auto found = std::find(m_digests.begin(), m_digests.end(), digest);
         if (found != m_digests.end()) {
-            summary.warnings.push_back(
-                format("seeds {} and {} of the {} are the same image: independent renders have "
-                       "different noise",
-                       found - m_digests.begin() + 1, m_seeds, m_who));
+            throw Refusal(format("seeds {} and {} of the {} are the same image: renders of "
+                                 "different random numbers have different noise",
+                                 found - m_digests.begin() + 1, m_seeds, m_who));
         }
         m_digests.push_back(digest);
+    }
+
+    // Images of both sides in one would have their difference in the noise of both. What is found
+    // at this level is no matter of chance, however many seeds there are.
+    void refuse_other_version(const ColorPlanes& planes) const {
+        constexpr double level = 1e-4;
+        BiasTest test;
+        test.alpha = level;
+        const BiasResult found = metrics::bias_check(
+            BiasSide(m_planes.view()), BiasSide(planes.view()), test, make_parallel(m_nthreads));
+        const auto differs = [](const auto& one) { return one.rejected > 0; };
+        if (std::any_of(found.gain.begin(), found.gain.end(), differs) ||
+            std::any_of(found.scales.begin(), found.scales.end(), differs)) {
+            throw Refusal(format("seeds {} and {} of the {} differ in more than their noise ({}): "
+                                 "they are not of one version; the references come first, then "
+                                 "the tests",
+                                 m_seeds - 1, m_seeds, m_who,
+                                 OIIO::Strutil::join(metrics::bias_evidence(found), "; ")));
+        }
     }
 
     const char* m_who;
@@ -181,11 +202,26 @@ public:
         }
         summary.reference = reference.found();
         summary.test = test.found();
-        return metrics::bias_check(reference.side(), test.side(), m_options,
-                                   make_parallel(m_nthreads));
+        BiasResult result = metrics::bias_check(reference.side(), test.side(), m_options,
+                                                make_parallel(m_nthreads));
+        result.x = m_region.xbegin;
+        result.y = m_region.ybegin;
+        refuse_holes(result);
+        return result;
     }
 
 private:
+    // A stray one is a pixel less; of a picture of them nothing can be said.
+    static void refuse_holes(const BiasResult& result) {
+        constexpr double most = 0.01;
+        const double pixels = double(result.width) * result.height;
+        if (double(result.nonfinite) > most * pixels) {
+            throw Refusal(format("{} of {} pixels are NaN or Inf in one of the images, more than "
+                                 "{:g} %: there is too little left to compare",
+                                 result.nonfinite, pixels, 100 * most));
+        }
+    }
+
     void fit(const ImageBuf& first, const BiasSeed& seed, bool of_test, BiasSummary& summary) {
         PairOptions pair = m_pair;
         pair.pixels = seed.pixels;
@@ -193,7 +229,8 @@ private:
         FittedTest& fitted = *m_fitted.back();
         fitted.call(of_test ? "test" : "reference");
         fitted.keep_negative();
-        fitted.open(first, *seed.image, pair, m_nthreads);
+        of_side(side_name(of_test ? "test" : "reference", *seed.image),
+                [&] { fitted.open(first, *seed.image, pair, m_nthreads); });
         for (const std::string& note : fitted.notes())
             if (std::find(summary.warnings.begin(), summary.warnings.end(), note) ==
                 summary.warnings.end())
@@ -207,7 +244,7 @@ private:
         const auto pixels = uint64_t(m_region.width()) * uint64_t(m_region.height());
         const bool several_r = m_references.size() > 1, several_t = m_tests.size() > 1;
         const uint64_t pixel = (several_r ? sums : planes) + (several_t ? sums : planes) +
-                               (several_r || several_t ? planes : 0) + blocks;
+                               (several_r || several_t ? 2 * planes : 0) + blocks;
         const uint64_t least = kSetAside + pixels * pixel;
         if (m_options.memory > 0 && least > m_options.memory)
             throw Refusal("memory is " + size_text(m_options.memory) + ": needs at least " +

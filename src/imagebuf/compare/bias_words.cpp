@@ -15,21 +15,70 @@ namespace {
 
 using OIIO::Strutil::fmt::format;
 
-std::string percent(double part) {
-    return format("{:.3g} %", 100 * part);
+// At least two digits, without an exponent.
+std::string plain(double value) {
+    const double size = std::abs(value);
+    if (!(size >= 100))
+        return format("{:.3g}", value);
+    const double unit = std::pow(10, std::floor(std::log10(size)) - 1);
+    return format("{:.0f}", std::round(value / unit) * unit);
 }
 
-// The largest of what was found although the images are equal: a gain, else a number of blocks.
+std::string percent(double part) {
+    return plain(100 * part) + " %";
+}
+
+std::string signed_percent(double part) {
+    const double size = 100 * std::abs(part);
+    return (part < 0 ? "-" : "+") + (size < 99.5 ? format("{:.2g}", size) : plain(size)) + " %";
+}
+
+// "light overall: Y -4.8 %, R -4.1 %"
+std::string overall_text(const BiasResult& result) {
+    std::string text;
+    for (size_t c = 0; c < kBiasChannels; ++c) {
+        const BiasGain& gain = result.gain[c];
+        if (gain.rejected)
+            text += std::string(text.empty() ? "light overall: " : ", ") + kBiasChannelNames[c] +
+                    " " + signed_percent(gain.gain);
+    }
+    return text;
+}
+
+// "the light differs in 2 of 40 blocks of 16 pixels, 5 of 8 of 32"
+std::string blocks_text(const BiasResult& result, const char* what, int64_t BiasScale::*count) {
+    std::string text;
+    for (const BiasScale& scale : result.scales) {
+        if (scale.*count == 0)
+            continue;
+        const bool first = text.empty();
+        text += format("{}{} of {} {}{}{}", first ? "" : ", ", scale.*count, scale.blocks(),
+                       first ? "blocks of " : "of ", scale.block, first ? " pixels" : "");
+    }
+    return text.empty() ? "" : what + text;
+}
+
+std::string place_text(const BiasResult& result) {
+    const auto place = ToneAlgo::bias_place(result);
+    return place
+               ? format("most at {},{}: {}", place->x, place->y, signed_percent(place->difference))
+               : "";
+}
+
+std::string found_text(const BiasResult& result) {
+    std::string text;
+    for (const std::string& part :
+         {overall_text(result), blocks_text(result, "the light differs in ", &BiasScale::rejected),
+          place_text(result), blocks_text(result, "edges differ in ", &BiasScale::structures)})
+        if (!part.empty())
+            text += (text.empty() ? "" : "; ") + part;
+    return text;
+}
+
+// What was found although the images are equal.
 std::string real_text(const BiasResult& result) {
-    if (ToneAlgo::bias_evidence(result).empty())
-        return "";
-    double largest = 0;
-    for (const BiasGain& gain : result.gain)
-        if (gain.rejected && std::abs(gain.gain) > std::abs(largest))
-            largest = gain.gain;
-    return largest != 0 ? format("; a difference of {:+.2g} % is real", 100 * largest)
-                        : "; smaller differences are real (" +
-                              OIIO::Strutil::join(ToneAlgo::bias_evidence(result), "; ") + ")";
+    const std::string found = found_text(result);
+    return found.empty() ? "" : "; differences that are smaller are real: " + found;
 }
 
 std::string equal_text(const BiasResult& result) {
@@ -46,74 +95,36 @@ std::string equal_text(const BiasResult& result) {
                "differ more" +
                real_text(result);
     default:
-        return "equal within " + within + ": with " + percent(1 - result.options.alpha) +
+        return "equal within " + within + ": with " +
+               format("{:.6g} %", 100 * (1 - result.options.alpha)) +
                " confidence the mean light of the picture and of each block of about 64x64 pixels "
                "differs by at most that, in Y, R, G and B; a smaller object may differ more" +
                real_text(result);
     }
 }
 
-// Two digits, without an exponent.
-std::string times_text(double factor) {
-    const double unit = std::pow(10, std::floor(std::log10(factor)) - 1);
-    return unit < 1 ? format("{:.2g}", factor) : format("{:.0f}", std::round(factor / unit) * unit);
-}
-
-// "the light is 4.8 % lower overall": of the channel that shows it best.
-std::string overall_text(const BiasResult& result) {
-    std::string channels;
-    const BiasGain* clearest = nullptr;
-    for (size_t c = 0; c < kBiasChannels; ++c) {
-        const BiasGain& gain = result.gain[c];
-        if (!gain.rejected)
-            continue;
-        channels += std::string(channels.empty() ? "" : " ") + kBiasChannelNames[c];
-        if (!clearest || std::abs(gain.z) > std::abs(clearest->z))
-            clearest = &gain;
-    }
-    if (!clearest)
-        return "";
-    return format("the light is {:.2g} % {} overall ({})", 100 * std::abs(clearest->gain),
-                  clearest->gain < 0 ? "lower" : "higher", channels);
-}
-
-// "the light differs in 2 of 40 blocks of 16 pixels, 5 of 8 of 32"
-std::string blocks_text(const BiasResult& result, const char* what, int64_t BiasScale::*count) {
-    std::string text;
-    for (const BiasScale& scale : result.scales) {
-        if (scale.*count == 0)
-            continue;
-        const bool first = text.empty();
-        text += format("{}{} of {} {}{}{}", first ? "" : ", ", scale.*count, scale.blocks(),
-                       first ? "blocks of " : "of ", scale.block, first ? " pixels" : "");
-    }
-    return text.empty() ? "" : what + text;
-}
-
-std::string different_text(const BiasResult& result) {
-    std::string text;
-    for (const std::string& part :
-         {overall_text(result), blocks_text(result, "the light differs in ", &BiasScale::rejected),
-          blocks_text(result, "edges differ in ", &BiasScale::structures)})
-        if (!part.empty())
-            text += (text.empty() ? "" : "; ") + part;
-    return text;
-}
-
 std::string more_text(const BiasResult& result) {
     const std::string within = percent(result.options.within);
     if (!result.more)
         return "; equality within " + within + " is not shown either";
-    if (!std::isfinite(*result.more))
+    constexpr double hopeless = 1e6;
+    if (!(*result.more < hopeless))
         return "; no number of samples shows equality within " + within +
-               ", as there is light where the reference has none";
+               ", as there is light where the reference has next to none";
     constexpr double slightly = 1.2;
-    return format("; differences above {} are excluded, {} more samples are needed to show "
+    return format("; differences above {} in blocks of about 64x64 pixels are excluded, {} more "
+                  "samples are needed to show "
                   "equality within {}",
                   percent(result.bound),
-                  *result.more < slightly ? "slightly"
-                                          : "about " + times_text(*result.more) + " times",
+                  *result.more < slightly ? "slightly" : "about " + plain(*result.more) + " times",
                   within);
+}
+
+std::string unknown_text(const BiasResult& result) {
+    return result.nonfinite == 0
+               ? ""
+               : format("; of {} pixel(s), which are NaN or Inf, nothing is known",
+                        result.nonfinite);
 }
 
 std::string undecided_text(const BiasResult& result) {
@@ -130,7 +141,7 @@ std::string undecided_text(const BiasResult& result) {
         return name + ": neighbouring pixels are correlated (denoised or filtered?): give "
                       "undenoised renders";
     default:
-        return name + ": no difference beyond the noise" + more_text(result);
+        return name + ": no difference beyond the noise" + more_text(result) + unknown_text(result);
     }
 }
 
@@ -158,6 +169,28 @@ std::string bias_reason_name(BiasReason reason) {
     return names[size_t(reason)];
 }
 
+std::optional<BiasPlace> bias_place(const BiasResult& result) {
+    std::optional<BiasPlace> worst;
+    for (const BiasScale& scale : result.scales) {
+        for (size_t at = 0; at < size_t(scale.blocks()) && scale.rejected > 0; ++at) {
+            for (const BiasScale::Channel& channel : scale.channel) {
+                const double base = std::max(channel.level[at], result.dark);
+                const double difference = base > 0 ? channel.mean[at] / base : 0;
+                if (!channel.rejected[at] ||
+                    (worst && std::abs(difference) <= std::abs(worst->difference)))
+                    continue;
+                const size_t row = at / size_t(scale.columns()),
+                             column = at % size_t(scale.columns());
+                worst = {result.x + (scale.x[column] + scale.x[column + 1]) / 2,
+                         result.y + (scale.y[row] + scale.y[row + 1]) / 2, difference};
+            }
+        }
+        if (worst)
+            break; // the finest blocks that differ
+    }
+    return worst;
+}
+
 std::vector<std::string> bias_evidence(const BiasResult& result) {
     return metrics::bias_evidence(result);
 }
@@ -167,7 +200,7 @@ std::string bias_sentence(const BiasResult& result) {
     case BiasVerdict::Equal:
         return equal_text(result);
     case BiasVerdict::Different:
-        return "different: " + different_text(result);
+        return "different: " + found_text(result) + unknown_text(result);
     case BiasVerdict::NotEnoughSamples:
         break;
     }

@@ -11,6 +11,7 @@
 
 #include <OpenImageIO/imagebuf.h>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -70,7 +71,10 @@ namespace ToneAlgo {
 /// Alpha: not compared.
 /// NaN, Inf: such a pixel counts as 0 in all images; they are counted, and there is no Equal.
 /// Identical images are Equal. The result does not depend on nthreads to the bit. Memory: 13 bytes
-///   per pixel for a side of one image, 53 for one of several, whatever their number.
+///   per pixel for a side of one image, 66 for one of several, whatever their number.
+/// Seeds of one side that are the same image, or that differ from each other in more than their
+///   noise (two versions were mixed), are an error, and so are NaN and Inf in more than 1 % of the
+///   pixels.
 /// Returns false, with the reason in dst.geterror(), and then never leaves a map in dst.
 TONETOOL_API bool bias_check(OIIO::ImageBuf& dst,
                              const std::vector<const OIIO::ImageBuf*>& references,
@@ -86,6 +90,13 @@ TONETOOL_API std::string bias_reason_name(BiasReason reason);
 /// What was found, as "overall R", "mean 16: 3 of 144", "structure 32: 1 of 40"; for Equal: what is
 /// real and still within the margin.
 TONETOOL_API std::vector<std::string> bias_evidence(const BiasResult& result);
+/// The middle of the finest block whose mean differs most, and by how much, as a part of the
+/// reference's light; nothing where none differs.
+struct BiasPlace {
+    int x = 0, y = 0;
+    double difference = 0;
+};
+TONETOOL_API std::optional<BiasPlace> bias_place(const BiasResult& result);
 /// The verdict as a sentence that says what it means.
 TONETOOL_API std::string bias_sentence(const BiasResult& result);
 /// Every number of the result but those of single blocks, by its name; what was not computed is

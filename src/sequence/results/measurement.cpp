@@ -114,6 +114,8 @@ Measurement measurement(const BiasSummary& summary) {
                      {"power", result.options.power}};
     visit_side(fields(to, summary.reference, "reference"));
     visit_side(fields(to, summary.test, "test"));
+    if (const auto place = ToneAlgo::bias_place(result))
+        to.worst = Position{place->x, place->y};
     to.pixels = static_cast<long long>(summary.region.npixels());
     to.warnings = summary.warnings;
     return to;

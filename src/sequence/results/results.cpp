@@ -124,7 +124,7 @@ std::string measured_text(const FrameResult& frame) {
         first.thresholds.begin(), first.thresholds.end(),
         [](const Threshold& a, const Threshold& b) { return excess(a) < excess(b); });
     if (!first.verdict.empty())
-        return first.command + ": " + first.sentence;
+        return "";
     if (nearest != first.thresholds.end()) {
         return format("{}: {} {:.6g} {} {:.6g}", first.command, nearest->quantity, nearest->value,
                       nearest->higher_is_better ? ">=" : "<=",
@@ -142,7 +142,7 @@ std::string false_alarms_text(const ShotResult& shot) {
             for (const auto& [name, value] : measured.parameters)
                 expected += !measured.verdict.empty() && name == "alpha" ? value : 0;
     return shot.frames.size() > 1 && expected > 0
-               ? format("; by chance alone up to {:.3g} of them are called different", expected)
+               ? format("; false alarms of biascheck to be expected: at most {:.3g}", expected)
                : "";
 }
 

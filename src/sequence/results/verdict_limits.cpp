@@ -51,13 +51,17 @@ bool shows_equality(const Measurement& measured) {
 
 } // namespace
 
-std::vector<Threshold> verdict_thresholds(const std::string& verdict, const VerdictLimits& limits) {
+std::vector<Threshold> verdict_thresholds(const Measurement& measured,
+                                          const VerdictLimits& limits) {
+    const std::string& verdict = measured.verdict;
+    const bool small =
+        setting_of(measured, "reason") == ToneAlgo::bias_reason_name(BiasReason::TooSmall);
+    const std::string inconclusive = small ? "fail" : limits.inconclusive;
     std::vector<Threshold> thresholds{
         threshold_of(kDifferentName, is(verdict, BiasVerdict::Different), limits.fails)};
-    if (limits.inconclusive != "pass") {
-        thresholds.push_back(threshold_of(kUndecidedName,
-                                          is(verdict, BiasVerdict::NotEnoughSamples),
-                                          limits.inconclusive == "fail"));
+    if (inconclusive != "pass") {
+        thresholds.push_back(threshold_of(
+            kUndecidedName, is(verdict, BiasVerdict::NotEnoughSamples), inconclusive == "fail"));
     }
     return thresholds;
 }

@@ -16,9 +16,10 @@ struct VerdictLimits {
 
 inline constexpr char kDifferentName[] = "different", kUndecidedName[] = "undecided";
 
-/// As thresholds: each is 1 where the verdict is that one, and must be 0. Where "not enough
-/// samples" is accepted it has none; it is no pass all the same (see judge()).
-std::vector<Threshold> verdict_thresholds(const std::string& verdict, const VerdictLimits& limits);
+/// Of a measurement's verdict as thresholds: each is 1 where the verdict is that one, and must be
+/// 0. Where "not enough samples" is accepted it has none; it is no pass all the same (see judge()).
+/// Too few pixels are never accepted: no number of samples would help.
+std::vector<Threshold> verdict_thresholds(const Measurement& measured, const VerdictLimits& limits);
 
 /// Why a verdict is none, or is not what its numbers say; empty: it is.
 std::string contradictory_verdict(const Measurement& measured);

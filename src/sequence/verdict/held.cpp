@@ -64,7 +64,7 @@ std::string other_verdict_limits(const Measurement& measured, const Asked& asked
         return a.quantity == b.quantity && a.value == b.value && a.fail == b.fail &&
                a.warn == b.warn;
     };
-    const auto wanted = verdict_thresholds(measured.verdict, asked.verdict);
+    const auto wanted = verdict_thresholds(measured, asked.verdict);
     if (!std::equal(wanted.begin(), wanted.end(), measured.thresholds.begin(),
                     measured.thresholds.end(), same)) {
         return format(" has other thresholds than its verdict \"{}\" and the check's fail= and "
