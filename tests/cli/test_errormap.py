@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Error maps: what --errormap prints and pushes, and the status it ends with."""
 
+import json
 import math
 import os
 
@@ -141,3 +142,21 @@ def test_geometry_and_files(tonetool_v, pair, make_image, testimages):
     tonetool_v(pair[0], testimages / "not_an_image.exr", "--errormap:metric=mae", status=1)
     tonetool_v(pair[0], testimages / "y_only.exr", "--errormap:metric=mae", status=1)
     tonetool_v(pair[0], "--errormap:metric=mae", status=1)
+
+
+def test_several_tests_against_one_reference(tonetool, make_image, read, tmp_path):
+    """As so many commands, with one record and one map each, the last on top."""
+    make_image("ref.exr", seed=1)
+    for number in (1, 2):
+        make_image(f"t{number}.exr", seed=1 + number)
+        tonetool("ref.exr", f"t{number}.exr", "--errormap:metric=mse", "-o", f"one{number}.exr", "--json", f"{number}.json")
+    tonetool("ref.exr", "t1.exr", "t2.exr", "--errormap:metric=mse:tests=2", "--json", "both.json",
+             "-o", "top.exr", "--pop", "-o", "below.exr")
+    for name, number in (("top", 2), ("below", 1)):
+        assert (read(f"{name}.exr")[0] == read(f"one{number}.exr")[0]).all()
+    both = json.loads((tmp_path / "both.json").read_text(encoding="utf-8"))["frames"][0]["measurements"]
+    for number, found in enumerate(both, 1):
+        alone = json.loads((tmp_path / f"{number}.json").read_text(encoding="utf-8"))
+        assert [found] == alone["frames"][0]["measurements"]
+    ran = tonetool("ref.exr", "t1.exr", "gone.exr", "--errormap:metric=mse:tests=2", status=1)
+    assert "gone.exr" in ran.err

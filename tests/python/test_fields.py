@@ -175,7 +175,7 @@ def test_bias_check(pair, program, tmp_path):
 
 
 # Said in words, by the region, or of single blocks.
-NOT_NUMBERS = {"verdict", "reason", "options", "width", "height", "judged", "dark", "scales", "contradicted"}
+NOT_NUMBERS = {"verdict", "reason", "options", "x", "y", "width", "height", "judged", "dark", "scales", "contradicted"}
 
 
 def test_luminance(program):

@@ -285,24 +285,34 @@ void run_errormap(Session& session, const Call& call) {
     ErrorOptions options = error_options(session, call);
     const metrics::ErrorMetric& metric = *metrics::find_error_metric(options.metric);
     const Limits limits = limits_of(session, call, error_measures(metric), options.quantities);
-    ErrorSummary summary;
-    auto [views, maps] =
-        compare(session, call, same_look(call), [&](Maps& to, auto& reference, auto& tests) {
-            return ToneAlgo::error_map(to[0], reference, *tests[0], options, &summary);
+    std::vector<ErrorSummary> summaries(size_t(test_count(call)));
+    auto [views, maps] = compare(
+        session, call, same_look(call, test_count(call) > 1),
+        [&](Maps& to, auto& reference, auto& tests) {
+            for (size_t i = 0; i < tests.size(); ++i) {
+                if (!ToneAlgo::error_map(to[i], reference, *tests[i], options, &summaries[i])) {
+                    std::swap(to[0], to[i]); // the one whose error is told
+                    return false;
+                }
+            }
+            return true;
         });
-    report(session, call, summary, limits);
-    const auto measured = [&](const std::string& quantity) {
-        return ToneAlgo::flip_quantity(summary.pool, quantity).value_or(summary.value);
-    };
-    judge(session, call, limits, measured,
-          sequence::Position{summary.pool.max_x, summary.pool.max_y});
-    sequence::PictureRequest request = pair_request(views);
-    request.look.pixels = options.pixels;
-    request.look.size = options.size;
-    request.exposures = summary.exposures;
-    request.error = metric.has(metrics::kBounded) ? &maps[0] : nullptr;
-    show(session, call, std::move(request));
-    push_map(session, call, std::move(maps[0]));
+    for (size_t i = 0; i < maps.size(); ++i) {
+        const ErrorSummary& summary = summaries[i];
+        report(session, call, summary, limits, i);
+        const auto measured = [&](const std::string& quantity) {
+            return ToneAlgo::flip_quantity(summary.pool, quantity).value_or(summary.value);
+        };
+        judge(session, call, limits, measured,
+              sequence::Position{summary.pool.max_x, summary.pool.max_y}, i);
+        sequence::PictureRequest request = pair_request(views, i);
+        request.look.pixels = options.pixels;
+        request.look.size = options.size;
+        request.exposures = summary.exposures;
+        request.error = metric.has(metrics::kBounded) ? &maps[i] : nullptr;
+        show(session, call, std::move(request));
+        push_map(session, call, std::move(maps[i]));
+    }
 }
 
 Measures tmqi_measures() {
@@ -393,7 +403,9 @@ Rows compare_commands() {
             filmstrip_row(),
             command("errormap", "An error by pixel: reference, test -> error map", run_errormap)
                 .images(2, 1)
+                .images_of(hdrflip_pops, test_count)
                 .modifiers(error_modifiers())
+                .modifier("tests", "K", "compare K tests with the one reference below them")
                 .frequent("metric,fail,warn,layer,from"),
             tmqi_row()};
 }

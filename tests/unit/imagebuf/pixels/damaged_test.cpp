@@ -89,9 +89,10 @@ std::vector<Function> comparisons() {
                        }});
         for (bool second_seed : {false, true})
             all.push_back({"bias_check", how, [=](const Call& c) {
-                               const std::vector<const ImageBuf*> one{&a(c)}, two{&a(c), &c.good};
-                               return bias_check(c.dst, second_seed ? two : one, {&b(c)},
-                                                 linear<BiasOptions>());
+                               std::vector<const ImageBuf*> references{&a(c)}, tests{&b(c)};
+                               if (second_seed) // behind one that can be read
+                                   (first ? references : tests) = {&c.good, &c.bad};
+                               return bias_check(c.dst, references, tests, linear<BiasOptions>());
                            }});
         all.push_back({"tmqi", how, [=](const Call& c) {
                            TmqiOptions options;
