@@ -24,6 +24,10 @@ std::string plain(double value) {
     return format("{:.0f}", std::round(value / unit) * unit);
 }
 
+std::string times(double factor) {
+    return factor < 100 ? format("{:.2g}", factor) : plain(factor);
+}
+
 std::string percent(double part) {
     return plain(100 * part) + " %";
 }
@@ -116,7 +120,7 @@ std::string more_text(const BiasResult& result) {
                   "samples are needed to show "
                   "equality within {}",
                   percent(result.bound),
-                  *result.more < slightly ? "slightly" : "about " + plain(*result.more) + " times",
+                  *result.more < slightly ? "slightly" : "about " + times(*result.more) + " times",
                   within);
 }
 
