@@ -309,13 +309,13 @@ void CheckedFrames::take(size_t index, Ran& ran) {
         keep_pictures(!texts[1].empty(), {std::move(texts[2]), std::move(texts[3])}, result);
 }
 
-void CheckedFrames::keep_pictures(bool known, sequence::PictureTexts texts,
+void CheckedFrames::keep_pictures(bool known, const sequence::PictureTexts& texts,
                                   const FrameResult& result) {
     try {
         if (known)
             m_pictures.restore(result);
         else if (!texts.small.empty())
-            m_pictures.add(result, std::move(texts));
+            m_pictures.add(result, texts);
         else
             m_pictures.forget(result);
     } catch (const std::exception& problem) {

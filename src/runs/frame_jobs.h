@@ -91,7 +91,7 @@ private:
         std::string out, err;
         int status = 0;
         bool known = false; ///< from an earlier run
-        Strings written{}; ///< files, by its commands
+        Strings written{};  ///< files, by its commands
         std::optional<sequence::PictureTexts> pictures{};
         sequence::FileLog files{}; ///< that its run has opened
         std::string unkept{};      ///< why its result could not be kept for a later run
@@ -106,7 +106,7 @@ private:
     const FrameContext& m_context;
     const std::optional<sequence::State>& m_state;
     sequence::PictureStore& m_pictures;
-    void keep_pictures(bool known, sequence::PictureTexts texts,
+    void keep_pictures(bool known, const sequence::PictureTexts& texts,
                        const sequence::FrameResult& result);
 
     std::vector<sequence::FrameResult> m_results;

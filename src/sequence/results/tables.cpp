@@ -27,7 +27,7 @@ std::string text_of(double value) {
 
 std::string cell(const std::string& text) {
     const bool formula = !text.empty() && std::strchr("=+-@\t\r", text.front()) != nullptr;
-    const std::string safe = (formula ? "'" : "") + printable_lines(valid_utf8(text));
+    std::string safe = (formula ? "'" : "") + printable_lines(valid_utf8(text));
     if (safe.find_first_of(",\"\r\n") == std::string::npos)
         return safe;
     return '"' + OIIO::Strutil::replace(safe, "\"", "\"\"", true) + '"';
