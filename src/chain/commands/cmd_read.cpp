@@ -8,6 +8,7 @@
 #include "chain/session/execute.h"
 #include "chain/session/io.h"
 #include "chain/session/ops.h"
+#include "imagebuf/pixels/oiio_compat.h"
 
 namespace tonetool::chain {
 
@@ -18,7 +19,7 @@ std::string linear_space(Session& session) {
 
 void convert_current(Session& session, const std::string& from, const std::string& to,
                      bool unpremult, bool all_subimages) {
-    if (!OIIO::Strutil::iequals(from, to)) {
+    if (!oiio::same_space(color_config(session), from, to)) {
         run_command(session,
                     std::string("colorconvert:strict=0") +
                         (all_subimages ? ":allsubimages=1" : "") +

@@ -128,6 +128,8 @@ OIIO::ImageSpec output_spec(const Outgoing& image, const Writer& from,
         spec.attribute("oiio:BitsPerSample", image.format.bits);
     spec.set_format(image.format.type);
     spec.channelformats = image.format.of_channel;
+    if (!from.lenient && writer.format_name() == "pnm"s)
+        oiio::order_pnm_rows(spec);
     return spec;
 }
 
@@ -265,7 +267,10 @@ void avoid_broken_type(DataFormat& format, const OIIO::ImageOutput& writer,
     const std::string name = writer.format_name();
     if (name == "fits" && format.type == OIIO::TypeHalf)
         format = DataFormat{}; // it calls half float, and writes half the bytes
-    if (name == "pnm" && asked.type && asked.type->type == OIIO::TypeUInt16)
+    if (name == "pnm" && format.type == OIIO::TypeHalf && !from.lenient && oiio::kPnmTakesTypes)
+        format.type = OIIO::TypeFloat; // it would write the bits of half as integers
+    if (name == "pnm" && asked.type && asked.type->type == OIIO::TypeUInt16 &&
+        !oiio::kPnmTakesTypes)
         from.warn("PNM files of 16 bits would have their bytes swapped: 8 bits are written");
 }
 

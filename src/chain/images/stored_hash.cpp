@@ -11,7 +11,7 @@
 namespace tonetool::chain {
 
 std::string stored_hash(const std::string& file, int subimage) {
-    auto input = OIIO::ImageInput::open(file);
+    auto input = oiio::open_input(file);
     if (!input)
         throw ReadError(file, OIIO::geterror());
     OIIO::SHA1 sum;

@@ -38,7 +38,7 @@ inline OIIO::ImageBuf read_whole(const OIIO::ImageBuf& image, OIIO::TypeDesc typ
     const auto fail = [&](const std::string& why) {
         throw Refusal(with_name(image, why.empty() ? "pixels could not be read" : why));
     };
-    const auto in = OIIO::ImageInput::open(std::string(image.name()));
+    const auto in = oiio::open_input(std::string(image.name()));
     if (!in)
         fail(OIIO::geterror());
     if (const std::string why = bytes_missing(*in, std::string(image.name())); !why.empty())

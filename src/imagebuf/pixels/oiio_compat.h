@@ -7,10 +7,15 @@
 //                   their way out.
 //   thread pool     2.4 does not look at the number of threads for chunks of one.
 //   ociodisplay     2.4 drops `looks` without a word; 2.5 adds `inverse`.
+//   colour spaces   2.5 knows which names mean the same space; 2.4 compares them.
 //   capture_image   3.0 leaves it to programs that are linked with OpenCV themselves.
 //   supports()      of readers and writers: an int in all of them, a string_view goes in.
 //   plugins         OIIO_PLUGIN_VERSION is 25 in 2.4 and 2.5, 27 in 3.x; the macros name it. The
 //                   folders are in OIIO_LIBRARY_PATH, for 3.x in OPENIMAGEIO_PLUGIN_PATH.
+//   PNM files       2.5 writes all of them from the last row to the first, as only those of floats
+//                   are; it reads those of floats that way too, unless they are opened with a
+//                   configuration. 2.4 writes 8 bits whatever is asked for, 2.5 16 and floats too.
+//   origins         2.5 numbers rows from 0 in formats that have no origin, 2.4 from the image's.
 //   names           TypeFloat, TypeInt, TypeString, paropt, parallel_for_chunked, Strutil::fmt and
 //                   string_view are spelt the same in all of them.
 #pragma once
@@ -22,6 +27,7 @@
 #include <OpenImageIO/imageio.h>
 #include <OpenImageIO/oiioversion.h>
 #include <OpenImageIO/parallel.h>
+#include <OpenImageIO/strutil.h>
 #include <OpenImageIO/sysutil.h>
 #include <OpenImageIO/thread.h>
 #include <algorithm>
@@ -75,6 +81,20 @@ inline OIIO::ImageBuf unread_file(const std::string& file, int subimage, const H
     return buffer;
 }
 
+/// A reader of a file, with its rows in the file's order, or nullptr.
+inline std::unique_ptr<OIIO::ImageInput> open_input(const std::string& file) {
+    const OIIO::ImageSpec configuration;
+    return OIIO::ImageInput::open(file, &configuration);
+}
+
+/// Whether PNM files hold 16 bits and floats where these are asked for.
+inline constexpr bool kPnmTakesTypes = OIIO_VERSION >= 20500;
+
+/// Asks the writer of PNM files for rows in the order that the format has.
+inline void order_pnm_rows(OIIO::ImageSpec& spec) {
+    spec.attribute("pnm:pfmflip", int(spec.format.is_floating_point()));
+}
+
 /// Read one subimage in the data type of `spec` into `buffer`.
 inline bool read_flat_pixels(OIIO::ImageInput& input, int subimage, int level,
                              const OIIO::ImageSpec& spec, void* buffer) {
@@ -104,6 +124,16 @@ inline bool resize(OIIO::ImageBuf& dst, const OIIO::ImageBuf& src, const std::st
 #else
     return OIIO::ImageBufAlgo::resize(dst, src, filter, 0.0f, roi, nthreads);
 #endif
+}
+
+/// Whether two names of a configuration mean one space, as far as the version knows.
+inline bool same_space(const OIIO::ColorConfig& config, const std::string& one,
+                       const std::string& other) {
+#if OIIO_VERSION >= 20500
+    if (config.equivalent(one, other))
+        return true;
+#endif
+    return OIIO::Strutil::iequals(one, other);
 }
 
 /// ImageBufAlgo::ociodisplay, forwards.

@@ -69,7 +69,7 @@ std::string RowSource::named(const std::string& error) const {
 
 void RowSource::open_file() {
     const std::string name(m_image->name());
-    m_input = OIIO::ImageInput::open(name);
+    m_input = oiio::open_input(name);
     if (!m_input)
         throw Refusal(OIIO::geterror());
     if (const std::string why = bytes_missing(*m_input, name); !why.empty())

@@ -37,10 +37,12 @@ bool write_pixels(const OIIO::ImageBuf& image, OIIO::ImageOutput& out) {
     const OIIO::ImageSpec& spec = image.spec();
     if (!image.localpixels() || spec.deep || spec.depth > 1 || out.spec().tile_width > 0)
         return image.write(&out);
-    for (int y = spec.y; y < spec.y + spec.height; y += rows_at_once) {
-        const int end = std::min(y + rows_at_once, spec.y + spec.height);
-        if (!out.write_scanlines(y, end, spec.z, spec.format, image.pixeladdr(spec.x, y),
-                                 image.pixel_stride(), image.scanline_stride()))
+    const int first = out.spec().y; // its own, where the format has no origin
+    for (int row = 0; row < spec.height; row += rows_at_once) {
+        const int end = std::min(row + rows_at_once, spec.height);
+        if (!out.write_scanlines(first + row, first + end, out.spec().z, spec.format,
+                                 image.pixeladdr(spec.x, spec.y + row), image.pixel_stride(),
+                                 image.scanline_stride()))
             return false;
     }
     return true;

@@ -305,6 +305,15 @@ TEST_F(Write, TiledFilesOfSeveralPartsAreWhole) {
     EXPECT_EQ(values(ImageBuf(in("a.exr"), 1, 0)), values(image));
 }
 
+// An ImageBuf of OpenImageIO 2.5 only knows them of a file in a cache.
+int mip_levels(const std::string& file) {
+    const auto reader = OIIO::ImageInput::open(file);
+    int levels = 0;
+    while (reader && reader->seek_subimage(0, levels))
+        ++levels;
+    return levels;
+}
+
 TEST_F(Write, TexturesHaveLevelsAndTheRightsOfWhatTheyReplace) {
     const auto image = noise(64, 64, 3);
     put("old.exr", "old");
@@ -314,7 +323,7 @@ TEST_F(Write, TexturesHaveLevelsAndTheRightsOfWhatTheyReplace) {
             << m_error;
         const ImageBuf back(in(name));
         EXPECT_EQ(values(back), values(image)) << name;
-        EXPECT_EQ(back.nmiplevels(), 7) << name;
+        EXPECT_EQ(mip_levels(in(name)), 7) << name;
     }
     struct stat info {};
     ASSERT_EQ(::stat(in("old.exr").c_str(), &info), 0);
