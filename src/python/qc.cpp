@@ -41,7 +41,11 @@ void add_layers(Module& module) {
     using L = QcLayer;
     ResultClass<L>(module, "QcLayer", "The values of a layer.")
         .field("name", &L::name, "\"\" for the plain R, G, B.")
-        .field("kind", &L::kind, "\"picture\", \"light\", \"color\", \"depth\" or \"data\".")
+        .field("kind", &L::kind,
+               "\"picture\", \"light\", \"color\", \"depth\", \"position\", \"motion\", \"id\" or "
+               "\"data\".")
+        .field("hash", &L::hash,
+               "Of the values of a depth, position or id without filter, else \"\".")
         .field("constant", &L::constant, "Each channel but alpha has one value.")
         .field("lit", &L::lit, "Pixels that are finite and not 0.")
         .field("min", &L::min, "Smallest value.")
@@ -61,6 +65,26 @@ void add_layers(Module& module) {
         .finish();
 }
 
+void add_places(Module& module) {
+    using R = QcRectangle;
+    ResultClass<R>(module, "QcRectangle", "Pixels of the picture that have one exact colour.")
+        .field("x", &R::x, "First column.")
+        .field("y", &R::y, "First row.")
+        .field("width", &R::width, "Columns.")
+        .field("height", &R::height, "Rows.")
+        .field("color", &R::color, "Its red, green and blue, as in the file.")
+        .field("background", &R::background, "Nothing is behind 90 % of it.")
+        .finish();
+    using B = QcBorders;
+    ResultClass<B>(module, "QcBorders",
+                   "Per cent of a border's pixels that equal the pixel inside, in 32 parts.")
+        .field("left", &B::left, "From the top.")
+        .field("right", &B::right, "From the top.")
+        .field("top", &B::top, "From the left.")
+        .field("bottom", &B::bottom, "From the left.")
+        .finish();
+}
+
 void add_picture(Module& module) {
     using P = QcPicture;
     ResultClass<P> picture(module, "QcPicture", "The colour that a viewer looks at.");
@@ -74,6 +98,15 @@ void add_picture(Module& module) {
         .field("alpha_high", &P::alpha_high, "Alpha above 1.")
         .field("spike_count", &P::spike_count, "Pixels 8 times as large as all 3 pixels away.")
         .field("spikes", &P::spikes, "The largest of them, at most 32.")
+        .field("rectangles", &P::rectangles,
+               "The largest of one exact colour, at least 8 x 8 pixels; at most 16.")
+        .field("borders", &P::borders, "How plain the picture is at its borders.")
+        .field("alpha_mean", &P::alpha_mean, "Of its alpha; 0 without one.")
+        .field("alpha_clear", &P::alpha_clear, "Share of pixels whose alpha is 0; 0 without one.")
+        .field("pairs", &P::pairs,
+               "Shares of pixels that equal their right neighbour, in even and in odd columns.")
+        .field("greens", &P::greens, "Pixels whose green is above 0.01 and below 1.")
+        .field("distinct", &P::distinct, "Different values of these, at most 1000.")
         .field("groups", &P::groups, "Number of light groups.")
         .field("group_sum", &P::group_sum, "Light of all groups over that of the picture.")
         .field("group_difference", &P::group_difference,
@@ -94,6 +127,7 @@ void add_picture(Module& module) {
 void add_qc(Module& module) {
     add_counts(module);
     add_layers(module);
+    add_places(module);
     add_picture(module);
     define(module,
            Description{"qc_facts",

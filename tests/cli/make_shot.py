@@ -28,7 +28,7 @@ class Frame:
         self.layers = layers
         self.compression = "zip"
         self.kind = "half"
-        self.attributes = {"Software": "renderer 4.2", "PixelAspectRatio": 1.0}
+        self.attributes = {"Software": "renderer 4.2", "PixelAspectRatio": 1.0, "camera": "main"}
         self.window = (0, 0)  # origin of the data window
         self.display = (WIDTH, HEIGHT)
         self.channels = list(CHANNELS)
@@ -173,10 +173,37 @@ def metadata(frame):
     frame.attributes["Software"] = "renderer 4.1"
 
 
+def camera(frame):
+    frame.attributes["camera"] = "persp"
+
+
+def hole(frame):
+    """A bucket that was not rendered."""
+    for layer in frame.layers.values():
+        layer[16:28, 40:56] = 0
+
+
+def other_noise(frame):
+    """Other seeds, the same moment."""
+    rng = np.random.default_rng(1)
+    for name in COLORS[1:]:
+        frame.layers[name] = frame.layers[name] * rng.uniform(0.9, 1.1, (HEIGHT, WIDTH, 1))
+    add_up(frame.layers)
+
+
+def enlarged(frame):
+    """Half the resolution, each pixel twice."""
+    for name in COLORS:
+        half = frame.layers[name][::2, ::2]
+        frame.layers[name] = np.repeat(np.repeat(half, 2, 0), 2, 1)
+
+
 def nearly(frame):
+    """Nearly the same picture, where no layer tells the moment: its depth is a mean of samples."""
     rng = np.random.default_rng(1)
     for name in COLORS[1:]:
         frame.layers[name] = frame.layers[name] * rng.uniform(0.999, 1.001, (HEIGHT, WIDTH, 1))
+    frame.layers["Depth"] = frame.layers["Depth"] * rng.uniform(0.999, 1.001, (HEIGHT, WIDTH))
     add_up(frame.layers)
 
 
@@ -185,6 +212,11 @@ FAULTS = {
     "missing": ("missing", 8, 8, None),
     "duplicate": ("duplicate", 9, 9, lambda frame: None),
     "near-duplicate": ("nearduplicate", 9, 9, nearly),
+    "duplicate-other-noise": ("duplicate", 9, 9, other_noise),
+    "frozen": ("frozen", 9, 13, lambda frame: None),
+    "frozen-at-the-end": ("frozen", 16, 20, lambda frame: None),
+    "repeat": ("repeat", 15, 15, other_noise),
+    "hole": ("hole", 10, 10, hole),
     "black": ("black", 6, 6, blacken(*COLORS)),
     "constant": ("constant", 6, 6, one_color),
     "nan": ("nan", 7, 7, patch("Combined", np.nan)),
@@ -201,6 +233,9 @@ FAULTS = {
     "type": ("type", 14, 14, replace(kind="float")),
     "compression": ("compression", 14, 20, replace(compression="piz")),
     "metadata": ("metadata", 15, 20, metadata),
+    "metadata-camera": ("metadata", 15, 20, camera),
+    "proxy": ("proxy", 11, 11, enlarged),
+    "alpha-empty": ("alphaempty", 16, 16, blacken("Alpha")),
     "alpha": ("alpha", 16, 16, patch("Alpha", 1.5)),
     "alpha-negative": ("alpha", 16, 16, patch("Alpha", -0.5)),
     "light-sum": ("lightsum", 17, 17, unlike_groups),
@@ -211,6 +246,13 @@ FAULTS = {
 }
 
 
+def moment_of(number, code, first):
+    """What a broken frame shows."""
+    if code in ("duplicate", "nearduplicate", "frozen"):
+        return first - 1
+    return 4 if code == "repeat" else number
+
+
 def make_shot(folder, fault=None, noisy=False, cut=False):
     """Writes the frames; the code of the fault and the number of the first frame that has it."""
     code, first, last, change = FAULTS[fault] if fault else ("", 0, -1, None)
@@ -218,8 +260,7 @@ def make_shot(folder, fault=None, noisy=False, cut=False):
         broken = first <= number <= last
         if broken and code == "missing":
             continue
-        copied = broken and "duplicate" in code
-        frame = make_frame(number - 1 if copied else number, noisy, cut)
+        frame = make_frame(moment_of(number, code, first) if broken else number, noisy, cut)
         if broken:
             change(frame)
         frame.attributes["DateTime"] = f"2024:05:01 10:00:{number:02d}"

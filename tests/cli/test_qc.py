@@ -32,15 +32,18 @@ def check(tonetool, tmp_path):
 @pytest.mark.parametrize("fault", make_shot.FAULTS)
 def test_each_fault_is_found_and_nothing_else(check, tmp_path, fault):
     code, first = make_shot.make_shot(tmp_path, fault)
-    ran, found = check({"error": 3, "warning": 2}[severity_of(code)] if code != "missing" else 1)
+    severity = severity_of(fault, code)
+    ran, found = check({"error": 3, "warning": 2}[severity] if code != "missing" else 1)
     assert found == [(first, code)]
-    assert f"qc: frame {first}: {severity_of(code)} {code}: " in ran.out
+    assert f"qc: frame {first}: {severity} {code}: " in ran.out
 
 
-def severity_of(code):
+def severity_of(fault, code):
     errors = ("missing", "black", "constant", "missinglayer", "blacklayer", "nan", "inf",
-              "lightsum", "channels", "displaywindow")
-    return "error" if code in errors else "warning"
+              "lightsum", "channels", "displaywindow", "hole", "frozen", "repeat", "alphaempty")
+    # What a story may do once: a light that goes out, a hold.
+    mild = ("black-layer-stays", "frozen-at-the-end")
+    return "error" if code in errors and fault not in mild else "warning"
 
 
 @pytest.mark.parametrize("kind", [{}, {"noisy": True}, {"cut": True}, {"noisy": True, "cut": True}])
@@ -95,6 +98,61 @@ def test_a_gap_on_the_disk_is_a_fault(tonetool, tmp_path):
     make_shot.make_shot(tmp_path, "missing")
     ran = tonetool("shot.#.exr", "--qc", status=1)
     assert "qc: frame 8: error missing: " in ran.out
+
+
+def test_few_values_are_bands_unless_the_file_has_no_more(tonetool, make_image, tmp_path):
+    ramp = np.random.default_rng(1).random((80, 100, 3)).astype(np.float32)
+    make_image("fine.exr", pixels=ramp)
+    assert "bands" not in tonetool("fine.exr", "--qc").out
+    make_image("coarse.exr", pixels=np.round(ramp * 255) / 255)
+    ran = tonetool("coarse.exr", "--qc", "--warnings-exit", status=2)
+    assert "warning bands: " in ran.out
+    assert "bands" not in tonetool("coarse.exr", "--qc:bands=200").out
+    tonetool("coarse.exr", "-d", "uint8", "-o", "coarse.png")
+    assert "bands" not in tonetool("coarse.png", "--qc").out
+
+
+def test_black_frames_by_their_alpha(check, tmp_path):
+    for alpha, status, severity in ((1, 3, "error"), (0, 0, "info"), (None, 2, "warning")):
+        for number in range(1, make_shot.FRAMES + 1):
+            frame = make_shot.make_frame(number)
+            if alpha is None:
+                make_shot.without("Combined.A")(frame)
+            if number == 6:
+                make_shot.blacken(*make_shot.COLORS)(frame)
+                frame.layers["Alpha"] = np.full_like(frame.layers["Alpha"], alpha or 0)
+            frame.write(tmp_path / f"shot.{number:04d}.exr")
+        ran, found = check(status)
+        assert found == [(6, "black")]
+        assert f"qc: frame 6: {severity} black: the picture is black" in ran.out
+
+
+def test_a_fade_to_black_is_told_and_no_fault(check, tmp_path):
+    for number in range(1, make_shot.FRAMES + 1):
+        frame = make_shot.make_frame(number)
+        make_shot.light(frame, max(0, min(1, (18 - number) / 8)))
+        frame.write(tmp_path / f"shot.{number:04d}.exr")
+    ran, found = check(0)
+    assert found == [(18, "black"), (19, "black"), (20, "black")]
+    assert "qc: frame 18: info black: the picture is black at the end of a fade" in ran.out
+
+
+def test_a_hold_at_the_end_may_be_made_an_error(check, tmp_path):
+    make_shot.make_shot(tmp_path, "frozen-at-the-end")
+    assert check(3, "--qc:frozen=error")[1] == [(16, "frozen")]
+    assert check(2, "--qc:frozen=4")[1] == [(16, "frozen")]
+    assert check(2, "--qc:frozen=6")[1] == [(16, "duplicate")]
+
+
+def test_matte_bars_are_told(check, tmp_path):
+    for number in range(1, make_shot.FRAMES + 1):
+        frame = make_shot.make_frame(number)
+        for layer in (frame.layers[name] for name in make_shot.COLORS):
+            layer[:10] = layer[-8:] = 0
+        frame.write(tmp_path / f"shot.{number:04d}.exr")
+    ran, found = check(0)
+    assert found == [(1, "bars"), (1, "bars")]
+    assert "info bars: 96x10 pixels at (0, 0) are all 0 in all frames" in ran.out
 
 
 def test_one_picture(tonetool):

@@ -4,6 +4,7 @@
 
 #include <OpenImageIO/strutil.h>
 #include <cmath>
+#include <cstring>
 
 #include "imagebuf/pixels/guard.h"
 #include "imagebuf/pixels/planes.h"
@@ -30,6 +31,7 @@ QcLayer layer_of(const QcScan::Layer& from) {
     QcLayer layer;
     layer.name = from.name;
     layer.kind = from.kind;
+    layer.hash = from.hash();
     layer.constant = scan.constant();
     layer.lit = scan.lit;
     layer.min = scan.min();
@@ -47,6 +49,31 @@ int thousandths_of_stops(double luminance) {
     return std::max(int(std::lround(1000 * std::log2(luminance))), QcPicture::kDark);
 }
 
+QcRectangle rectangle_of(const metrics::FlatRectangle& from) {
+    constexpr double mostly = 0.9;
+    QcRectangle to;
+    to.x = int(from.run.x);
+    to.y = int(from.y);
+    to.width = int(from.run.width);
+    to.height = int(from.height);
+    std::memcpy(to.color.data(), from.run.color.data(), sizeof to.color);
+    to.background = double(from.run.background) >= mostly * double(from.pixels());
+    return to;
+}
+
+void fill_places(const QcScan& scan, QcPicture& picture) {
+    for (const metrics::FlatRectangle& rectangle : scan.rectangles())
+        picture.rectangles.push_back(rectangle_of(rectangle));
+    picture.borders = {scan.borders()[0].shares(), scan.borders()[1].shares(),
+                       scan.borders()[2].shares(), scan.borders()[3].shares()};
+    picture.pairs = scan.values().shares();
+    picture.greens = scan.values().greens;
+    picture.distinct = int(scan.values().values.size());
+    const QcScan::Alpha& alpha = scan.alpha_levels();
+    picture.alpha_mean = alpha.finite > 0 ? alpha.sum / double(alpha.finite) : 0;
+    picture.alpha_clear = alpha.pixels > 0 ? double(alpha.clear) / double(alpha.pixels) : 0;
+}
+
 void fill_picture(const QcScan& scan, QcPicture& picture) {
     picture.layer = scan.choice().layer;
     picture.space = scan.choice().space;
@@ -62,6 +89,7 @@ void fill_picture(const QcScan& scan, QcPicture& picture) {
     picture.spike_count = scan.spike_count();
     for (const metrics::Spike& spike : scan.spikes())
         picture.spikes.push_back({int(spike.x), int(spike.y), spike.value, spike.around});
+    fill_places(scan, picture);
     picture.groups = int(scan.groups().size());
     picture.group_sum = scan.group_scan().sum();
     picture.group_difference = scan.group_scan().difference();

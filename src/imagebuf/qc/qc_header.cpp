@@ -25,8 +25,20 @@ std::string kept_value(const std::string& value) {
     return OIIO::Strutil::fmt::format("{} characters, SHA-1 {}", value.size(), hash.digest());
 }
 
-bool is_depth(const AovLayer& layer) {
-    return layer.has_lone_z() || kind_of_layer(layer.layer_name) == AovKind::Depth;
+// What the name tells of a layer that is neither the picture nor light; "" if no more than that.
+const char* kind_by_name(const AovLayer& layer) {
+    switch (layer.has_lone_z() ? AovKind::Depth : kind_of_layer(layer.layer_name)) {
+    case AovKind::Depth:
+        return "depth";
+    case AovKind::Position:
+        return layer.triple() ? "position" : "";
+    case AovKind::Motion:
+        return "motion";
+    case AovKind::Id:
+        return "id";
+    default:
+        return "";
+    }
 }
 
 } // namespace
@@ -86,9 +98,15 @@ std::string layer_kind(const AovLayer& layer, const ColorChoice& picture,
         return "picture";
     if (std::any_of(groups.begin(), groups.end(), same))
         return "light";
-    if (is_depth(layer))
-        return "depth";
-    return layer.has_rgb() ? "color" : "data";
+    const char* kind = kind_by_name(layer);
+    return *kind ? kind : layer.has_rgb() ? "color" : "data";
+}
+
+bool is_exact(const std::string& kind, const std::string& name) {
+    const std::string word = plain_word(name);
+    const auto tells = [&](const char* part) { return word.find(part) != std::string::npos; };
+    const bool filtered = tells("mist") || tells("denois") || tells("filtered");
+    return (kind == "depth" || kind == "position" || kind == "id") && !filtered;
 }
 
 } // namespace tonetool

@@ -20,8 +20,12 @@ OIIO::ImageSpec joined_spec(const std::vector<const OIIO::ImageBuf*>& parts);
 std::vector<std::pair<std::string, std::string>>
 channel_facts(const OIIO::ImageSpec& joined, const std::vector<const OIIO::ImageBuf*>& parts);
 
-/// "picture", "light", "color", "depth", "data".
+/// "picture", "light", "color", "depth", "position", "motion", "id", "data".
 std::string layer_kind(const AovLayer& layer, const ColorChoice& picture,
                        const std::vector<LightGroup>& groups);
+
+/// Whether the values of a layer, by its kind and name, tell the moment of its frame: those of a
+/// sample in the middle of the pixel do, a mean of samples is noise.
+bool is_exact(const std::string& kind, const std::string& name);
 
 } // namespace tonetool

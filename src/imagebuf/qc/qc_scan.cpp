@@ -4,6 +4,7 @@
 #include <OpenImageIO/hash.h>
 #include <OpenImageIO/strutil.h>
 #include <algorithm>
+#include <cmath>
 
 #include "imagebuf/aov/channels.h"
 #include "imagebuf/pixels/parallel.h"
@@ -101,6 +102,7 @@ void QcScan::list_layers() {
         }
         for (double& weight : layer.weights)
             weight /= from.has_rgb() ? 1.0 : double(layer.weights.size());
+        layer.exact = is_exact(layer.kind, layer.name);
         m_layers.push_back(std::move(layer));
         for (int channel : from.channels)
             if (!is_alpha(channel) && !belongs(from, channel))
@@ -135,6 +137,8 @@ void QcScan::run() {
             scan_spikes(end == last);
         begin = end;
     }
+    if (has_picture())
+        finish_places();
 }
 
 void QcScan::read_band(int begin, int end) {
@@ -160,11 +164,15 @@ metrics::ChannelRow QcScan::row_of(size_t which, int y) const {
 
 void QcScan::scan_row(int y, Row& row) const {
     row.layers.resize(m_layers.size());
+    row.exact.resize(m_layers.size());
     for (size_t i = 0; i < m_layers.size(); ++i) {
-        const metrics::ChannelRow pixels = row_of(m_layers[i].part, y);
-        if (pixels.pixels)
-            row.layers[i] =
-                scan_layer(pixels, m_layers[i].channels, m_layers[i].weights, m_layers[i].alpha);
+        const Layer& layer = m_layers[i];
+        const metrics::ChannelRow pixels = row_of(layer.part, y);
+        if (!pixels.pixels)
+            continue;
+        row.layers[i] = scan_layer(pixels, layer.channels, layer.weights, layer.alpha);
+        if (layer.exact)
+            row.exact[i] = layer_hash(layer, pixels);
     }
     if (m_choice.a >= 0) {
         const Place alpha = place_of(m_choice.a);
@@ -192,6 +200,7 @@ void QcScan::scan_picture_row(int y, Row& row) const {
     if (!m_groups.empty() && !m_space.encoded())
         scan_groups(y, row);
     scan_alpha(y, rgb, row);
+    scan_places(y, rgb, row);
     if (m_space.encoded() || m_space.scale != 1)
         for (float& v : rgb)
             v = float(m_space.light(double(v), 1));
@@ -199,22 +208,29 @@ void QcScan::scan_picture_row(int y, Row& row) const {
                                         size_t(QcPicture::kWide));
 }
 
-// Lit pixels, and those of them that alpha hides.
+// The levels of alpha; lit pixels, and those of them that alpha hides.
 void QcScan::scan_alpha(int y, const std::vector<float>& rgb, Row& row) const {
     if (m_choice.a < 0)
         return;
     const Place place = place_of(m_choice.a);
-    const metrics::ChannelRow alpha = row_of(place.part, y);
-    const ROI& window = picture_window();
+    const metrics::RowChannel alpha{row_of(place.part, y), place.channel};
+    const metrics::ChannelRow& there = alpha.row;
+    const int64_t left = picture_window().xbegin;
     for (int64_t x = 0; 3 * size_t(x) < rgb.size(); ++x) {
+        const float value = alpha.at(left + x);
+        ++row.alpha_levels.pixels;
+        row.alpha_levels.clear += value == 0;
+        if (std::isfinite(value)) {
+            ++row.alpha_levels.finite;
+            row.alpha_levels.sum += double(value);
+        }
         const float* pixel = &rgb[3 * size_t(x)];
         if (!(std::max({pixel[0], pixel[1], pixel[2]}) > 0))
             continue;
         ++row.lit;
-        const int64_t at = window.xbegin + x - alpha.x;
-        if (alpha.pixels && at >= 0 && at < alpha.width &&
-            alpha.pixels[at * alpha.stride + place.channel] == 0)
-            row.unseen.add({window.xbegin + x, y, 0});
+        const bool inside = left + x >= there.x && left + x < there.x + there.width;
+        if (there.pixels && inside && value == 0)
+            row.unseen.add({left + x, y, 0});
     }
 }
 
@@ -234,15 +250,39 @@ void QcScan::scan_groups(int y, Row& row) const {
 void QcScan::add(int y, const Row& row) {
     for (size_t i = 0; i < m_layers.size(); ++i)
         m_layers[i].scan.add(row.layers[i]);
+    for (size_t i = 0; i < m_layers.size(); ++i)
+        m_layers[i].hashes += row.exact[i];
     m_alpha.add(row.alpha);
     m_lit += row.lit;
     m_unseen.add(row.unseen);
+    m_alpha_levels.add(row.alpha_levels);
+    add_places(y, row);
     m_group_scan.add(row.groups);
     m_hashes += row.hash;
     if (!row.picture.largest.empty()) {
         m_largest.push_back(row.picture.largest);
         add_cells(y, row.picture.cells);
     }
+}
+
+std::string QcScan::Layer::hash() const {
+    return exact ? fingerprint(hashes.data(), hashes.size()) : std::string();
+}
+
+void QcScan::Alpha::add(const Alpha& later) {
+    sum += later.sum;
+    finite += later.finite;
+    clear += later.clear;
+    pixels += later.pixels;
+}
+
+std::string QcScan::layer_hash(const Layer& layer, const metrics::ChannelRow& pixels) const {
+    std::vector<float> values;
+    values.reserve(size_t(pixels.width) * layer.channels.size());
+    for (int64_t x = 0; x < pixels.width; ++x)
+        for (const int channel : layer.channels)
+            values.push_back(pixels.pixels[x * pixels.stride + channel]);
+    return fingerprint(values.data(), values.size() * sizeof(float));
 }
 
 std::string QcScan::hash() const {

@@ -2,6 +2,7 @@
 // One pass over all channels of a file.
 #pragma once
 
+#include <array>
 #include <deque>
 #include <string>
 #include <vector>
@@ -11,6 +12,8 @@
 #include "imagebuf/color/color_source.h"
 #include "imagebuf/pixels/row_source.h"
 #include "metrics/fault_scan.h"
+#include "metrics/rectangle_scan.h"
+#include "metrics/value_scan.h"
 #include "tonetool/qc.h"
 
 namespace tonetool {
@@ -23,7 +26,17 @@ public:
         std::vector<int> channels; ///< in the part, without alpha
         std::vector<double> weights;
         metrics::LayerScan scan;
-        int alpha = -1; ///< in the part; -1 if it has none
+        int alpha = -1;       ///< in the part; -1 if it has none
+        bool exact = false;   ///< its values are hashed
+        std::string hashes{}; ///< of its rows
+        std::string hash() const;
+    };
+    /// Left, right, top, bottom.
+    using Borders = std::array<metrics::BorderScan, 4>;
+    struct Alpha {
+        double sum = 0;
+        int64_t finite = 0, clear = 0, pixels = 0;
+        void add(const Alpha& later);
     };
 
     /// The images must live as long as this does.
@@ -43,9 +56,14 @@ public:
     std::vector<double> cell_means() const;
     const std::vector<double>& cell_peaks() const { return m_peaks; }
     bool has_picture() const { return m_choice.r >= 0; }
+    const OIIO::ROI& picture_window() const { return m_parts[place_of(m_choice.r).part].window; }
     /// Pixels of the picture that are lit, and those of them whose alpha is 0.
     int64_t lit() const { return m_lit; }
     const metrics::Hits& unseen() const { return m_unseen; }
+    const Alpha& alpha_levels() const { return m_alpha_levels; }
+    const std::vector<metrics::FlatRectangle>& rectangles() const { return m_rectangles; }
+    const Borders& borders() const { return m_borders; }
+    const metrics::ValueScan& values() const { return m_values; }
 
 private:
     struct Part {
@@ -67,6 +85,12 @@ private:
         std::string hash;
         int64_t lit = 0;
         metrics::Hits unseen;
+        Alpha alpha_levels;
+        std::vector<std::string> exact; ///< hashes of the layers that have one
+        std::vector<metrics::FlatRun> runs;
+        metrics::ValueScan values;
+        std::array<bool, 2> border{}; ///< whether the outermost pixels equal those inside of them
+        std::vector<float> colors;    ///< of the two rows at the top and the bottom
     };
 
     void open_parts(const std::vector<const OIIO::ImageBuf*>& parts);
@@ -76,13 +100,16 @@ private:
     void scan_alpha(int y, const std::vector<float>& rgb, Row& row) const;
     void place_cells();
     Place place_of(int channel) const;
-    const OIIO::ROI& picture_window() const { return m_parts[place_of(m_choice.r).part].window; }
 
     void read_band(int begin, int end);
     metrics::ChannelRow row_of(size_t part, int y) const;
     void scan_row(int y, Row& row) const;
     void scan_picture_row(int y, Row& row) const;
     void scan_groups(int y, Row& row) const;
+    std::string layer_hash(const Layer& layer, const metrics::ChannelRow& pixels) const;
+    void scan_places(int y, const std::vector<float>& rgb, Row& row) const;
+    void add_places(int y, const Row& row);
+    void finish_places();
     void add(int y, const Row& row);
     void scan_spikes(bool last);
     void add_cells(int y, const metrics::CellRow& cells);
@@ -101,6 +128,12 @@ private:
     metrics::RangeScan m_alpha;
     int64_t m_lit = 0;
     metrics::Hits m_unseen;
+    Alpha m_alpha_levels;
+    metrics::RectangleScan m_rectangle_scan{QcPicture::kRectangles};
+    std::vector<metrics::FlatRectangle> m_rectangles;
+    Borders m_borders;
+    metrics::ValueScan m_values;
+    std::vector<float> m_row_before; ///< at the top and the bottom
     metrics::GroupScan m_group_scan;
     std::string m_hashes;
     std::vector<double> m_cells, m_peaks;

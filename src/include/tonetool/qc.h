@@ -41,8 +41,11 @@ struct QcCount {
 struct QcLayer {
     std::string name; ///< "" for plain R,G,B
     /// "picture": the beauty; "light": a light group of it; "color"; "depth", which may be
-    /// infinite; "data"
+    /// infinite; "position"; "motion"; "id", of objects; "data"
     std::string kind;
+    /// Of the values of a depth, position or id without filter: equal where camera and geometry
+    /// are.
+    std::string hash;
     bool constant = false; ///< each channel but alpha has one value
     int64_t lit = 0;       ///< pixels that are finite and not 0
     double min = 0, max = 0;
@@ -56,6 +59,19 @@ struct QcPart {
     std::string compression;
     /// All other attributes of the header; values of more than 120 characters as their hash.
     std::map<std::string, std::string> metadata;
+};
+
+/// Pixels of the beauty that have one exact colour, which the noise of a render never makes.
+struct QcRectangle {
+    int x = 0, y = 0, width = 0, height = 0;
+    std::array<float, 3> color{}; ///< as in the file, without -0 and with one kind of NaN
+    bool background = false;      ///< in 90 % of it the depth is that of nothing
+};
+
+/// The shares, in per cent, of the pixels of a border that equal the pixel inside of them: in 32
+/// parts of it, from left to right or from the top.
+struct QcBorders {
+    std::array<int, 32> left{}, right{}, top{}, bottom{};
 };
 
 /// Statistics of the beauty. A file of data (depth, normals, object IDs) has no beauty: no layer is
@@ -79,6 +95,18 @@ struct QcPicture {
     int64_t spike_count = 0;
     std::vector<QcSpot> spikes; ///< the largest fireflies, by value; at most kSpikes
     static constexpr size_t kSpikes = 32;
+    /// The largest rectangles of at least 8 x 8 pixels of one colour, by row, then column; none
+    /// that fills the picture.
+    std::vector<QcRectangle> rectangles;
+    static constexpr size_t kRectangles = 16;
+    QcBorders borders;
+    double alpha_mean = 0;  ///< of its finite alpha; 0 without an alpha
+    double alpha_clear = 0; ///< the share of pixels whose alpha is 0; 0 without an alpha
+    /// The shares of pixels that equal their right neighbour, of those in even and in odd columns:
+    /// one of them is nearly 1 and the other small where each pixel was written twice.
+    std::array<double, 2> pairs{};
+    int64_t greens = 0;          ///< pixels whose green is above 0.01 and below 1
+    int distinct = 0;            ///< different values of these, at most 1000
     int groups = 0;              ///< light groups
     double group_sum = 0;        ///< light of all groups divided by that of the beauty
     double group_difference = 0; ///< sum of the pixels' differences, divided by the same

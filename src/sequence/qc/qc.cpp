@@ -32,11 +32,17 @@ void search(QcShot& shot) {
     for (QcFrame& frame : shot.frames)
         if (frame.measured)
             find_picture_faults(shot, frame);
+    find_blank(shot);
+    find_hidden(shot);
+    find_enlarged(shot);
+    find_bands(shot);
     find_gaps(shot);
     find_odd_headers(shot);
     find_lost_layers(shot);
     find_group_faults(shot);
-    find_duplicates(shot);
+    find_holes(shot);
+    find_moments(shot);
+    find_stalls(shot);
     find_flicker(shot);
     find_fireflies(shot);
 }
@@ -114,7 +120,8 @@ std::string faults_text(const ShotResult& shot) {
 
 void QcShot::add(QcFrame& frame, const std::string& code, const std::string& sentence,
                  const QcDetail& detail) const {
-    const auto severity = m_limits.severity(code);
+    const auto severity =
+        detail.milder ? m_limits.severity(code, *detail.milder) : m_limits.severity(code);
     if (!severity)
         return;
     Fault fault;

@@ -3,6 +3,7 @@
 // metadata.
 #include <OpenImageIO/strutil.h>
 #include <algorithm>
+#include <cstring>
 #include <functional>
 #include <set>
 
@@ -231,13 +232,44 @@ bool varies_by_nature(const std::string& name) {
     for (char c : lower(name))
         word += std::isalnum(static_cast<unsigned char>(c)) ? std::string(1, c) : "";
     for (const char* part :
-         {"datetime",   "capdate",   "timecode",         "keycode",      "rendertime", "frame",
-          "worldto",    "tocamera",  "totoscreen",       "camera",       "hostname",   "memory",
-          "chunkcount", "caption",   "imagedescription", "documentname", "uuid",       "uniqueid",
-          "stats",      "thumbnail", "envmap",           "imagecounter", "history"})
+         {"datetime",  "capdate",          "timecode",     "keycode",  "rendertime", "frame",
+          "worldto",   "tocamera",         "totoscreen",   "hostname", "memory",     "chunkcount",
+          "caption",   "imagedescription", "documentname", "uuid",     "uniqueid",   "stats",
+          "thumbnail", "envmap",           "imagecounter", "history"})
         if (word.find(part) != std::string::npos && word.find("framespersecond") != 0)
             return true;
+    for (const char* end : {"host", "node", "task", "job", "ctime", "mtime", "seed", "id"})
+        if (OIIO::Strutil::ends_with(word, end))
+            return true;
     return word == "time" || word == "date" || word == "samples";
+}
+
+// How many numbers a value consists of; 0 if it is text.
+size_t numbers_in(std::string value) {
+    for (char& c : value)
+        c = std::strchr(",;()[]{}", c) ? ' ' : c;
+    const std::vector<std::string> words = OIIO::Strutil::splits(value);
+    return std::all_of(words.begin(), words.end(), OIIO::Strutil::string_is_float) ? words.size()
+                                                                                   : 0;
+}
+
+// A matrix is animated, and so may be each number of a camera; its name may not.
+bool is_animated(const std::string& name, const std::string& value) {
+    constexpr size_t matrix = 8;
+    const size_t numbers = numbers_in(value);
+    const bool is_long = value.find(" characters, SHA-1 ") != std::string::npos;
+    return numbers > matrix ||
+           (lower(name).find("camera") != std::string::npos && (numbers > 0 || is_long));
+}
+
+// The tasks of a farm leave their values in chunks of frames: each value has one run.
+bool is_of_chunks(const std::vector<std::string>& values) {
+    constexpr size_t enough = 3;
+    size_t changes = 0;
+    for (size_t i = 1; i < values.size(); ++i)
+        changes += values[i] != values[i - 1];
+    return changes >= enough &&
+           std::set<std::string>(values.begin(), values.end()).size() == changes + 1;
 }
 
 void find_odd_metadata(QcShot& shot) {
@@ -250,15 +282,20 @@ void find_odd_metadata(QcShot& shot) {
     for (const std::string& name : names) {
         if (varies_by_nature(name))
             continue;
-        find_odd(
-            shot, "metadata", name,
-            [&](const QcFacts& facts) {
-                return of_parts(facts, [&](const QcPart& part) {
-                    const auto value = part.metadata.find(name);
-                    return value == part.metadata.end() ? std::string() : value->second;
-                });
-            },
-            true, Change::None);
+        const ValueOf value_of = [&](const QcFacts& facts) {
+            return of_parts(facts, [&](const QcPart& part) {
+                const auto value = part.metadata.find(name);
+                return value == part.metadata.end() ? std::string() : value->second;
+            });
+        };
+        std::vector<std::string> values;
+        bool animated = false;
+        for (const QcFrame* frame : shot.measured()) {
+            values.push_back(value_of(frame->facts));
+            animated = animated || is_animated(name, values.back());
+        }
+        if (!animated && !is_of_chunks(values))
+            find_odd(shot, "metadata", name, value_of, true, Change::None);
     }
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sequence/qc/qc_json.h"
 
+#include <algorithm>
+#include <cstring>
 #include <stdexcept>
 
 #include "sequence/results/json_text.h"
@@ -83,10 +85,43 @@ QcPart part_of(const ordered_json& from) {
     return part;
 }
 
+// Colours by their bits, as JSON has no NaN.
+ordered_json json_of(const QcRectangle& of) {
+    std::array<uint32_t, 3> bits{};
+    std::memcpy(bits.data(), of.color.data(), sizeof bits);
+    return {of.x, of.y, of.width, of.height, bits[0], bits[1], bits[2], of.background};
+}
+
+QcRectangle rectangle_of(const ordered_json& from) {
+    QcRectangle to;
+    int* const place[] = {&to.x, &to.y, &to.width, &to.height};
+    for (size_t i = 0; i < 4; ++i)
+        *place[i] = whole_number<int>(from.at(i), "rectangles");
+    std::array<uint32_t, 3> bits{};
+    for (size_t i = 0; i < 3; ++i)
+        bits[i] = whole_number<uint32_t>(from.at(4 + i), "rectangles");
+    std::memcpy(to.color.data(), bits.data(), sizeof bits);
+    from.at(7).get_to(to.background);
+    return to;
+}
+
+// Borders of a render are rarely plain, and the key is left out.
+void put(ordered_json& to, const char* key, const std::array<int, 32>& shares) {
+    if (std::any_of(shares.begin(), shares.end(), [](int share) { return share > 0; }))
+        to[key] = shares;
+}
+
+void read_shares(const ordered_json& from, const char* key, std::array<int, 32>& to) {
+    if (from.contains(key))
+        read_whole_numbers(from, key, to);
+}
+
 ordered_json json_of(const QcLayer& layer) {
     ordered_json to = {{"name", layer.name},         {"kind", layer.kind}, {"lit", layer.lit},
                        {"constant", layer.constant}, {"min", layer.min},   {"max", layer.max},
                        {"mean", layer.mean}};
+    if (!layer.hash.empty())
+        to["hash"] = layer.hash;
     put(to, "nan", layer.nan);
     put(to, "inf", layer.inf);
     put(to, "negative", layer.negative);
@@ -97,6 +132,8 @@ QcLayer layer_of(const ordered_json& from) {
     QcLayer layer;
     from.at("name").get_to(layer.name);
     from.at("kind").get_to(layer.kind);
+    if (from.contains("hash"))
+        from["hash"].get_to(layer.hash);
     read_whole(from, "lit", layer.lit);
     from.at("constant").get_to(layer.constant);
     read_real(from, "min", layer.min);
@@ -106,6 +143,48 @@ QcLayer layer_of(const ordered_json& from) {
     layer.inf = count_of(from, "inf");
     layer.negative = count_of(from, "negative");
     return layer;
+}
+
+// What records of versions before 0.2 do not have: without it the rules of places are silent.
+void put_places(ordered_json& to, const QcPicture& picture) {
+    if (picture.alpha_mean != 0 || picture.alpha_clear != 0)
+        to["alpha"] = {{"mean", picture.alpha_mean}, {"clear", picture.alpha_clear}};
+    for (const QcRectangle& rectangle : picture.rectangles)
+        to["rectangles"].push_back(json_of(rectangle));
+    if (picture.pairs != std::array<double, 2>{} || picture.greens > 0) {
+        to["values"] = {
+            {"pairs", picture.pairs}, {"greens", picture.greens}, {"distinct", picture.distinct}};
+    }
+    ordered_json borders = ordered_json::object();
+    put(borders, "left", picture.borders.left);
+    put(borders, "right", picture.borders.right);
+    put(borders, "top", picture.borders.top);
+    put(borders, "bottom", picture.borders.bottom);
+    if (!borders.empty())
+        to["borders"] = borders;
+}
+
+void read_places(const ordered_json& from, QcPicture& picture) {
+    if (from.contains("alpha")) {
+        read_real(from["alpha"], "mean", picture.alpha_mean);
+        read_real(from["alpha"], "clear", picture.alpha_clear);
+    }
+    if (from.contains("values")) {
+        const ordered_json& values = from["values"];
+        for (size_t i = 0; i < picture.pairs.size(); ++i)
+            picture.pairs[i] = finite_number(values.at("pairs").at(i), "pairs");
+        read_whole(values, "greens", picture.greens);
+        read_whole(values, "distinct", picture.distinct);
+    }
+    if (from.contains("rectangles"))
+        for (const ordered_json& rectangle : from["rectangles"])
+            picture.rectangles.push_back(rectangle_of(rectangle));
+    if (from.contains("borders")) {
+        read_shares(from["borders"], "left", picture.borders.left);
+        read_shares(from["borders"], "right", picture.borders.right);
+        read_shares(from["borders"], "top", picture.borders.top);
+        read_shares(from["borders"], "bottom", picture.borders.bottom);
+    }
 }
 
 ordered_json json_of(const QcPicture& picture) {
@@ -122,6 +201,7 @@ ordered_json json_of(const QcPicture& picture) {
         to["lit"] = picture.lit;
         put(to, "unseen", picture.unseen);
     }
+    put_places(to, picture);
     if (picture.groups > 0) {
         to["groups"] = {{"count", picture.groups},
                         {"sum", picture.group_sum},
@@ -156,6 +236,7 @@ QcPicture picture_of(const ordered_json& from) {
     if (from.contains("lit"))
         read_whole(from, "lit", picture.lit);
     picture.unseen = count_of(from, "unseen");
+    read_places(from, picture);
     if (from.contains("groups")) {
         const ordered_json& groups = from["groups"];
         read_whole(groups, "count", picture.groups);

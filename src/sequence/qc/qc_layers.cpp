@@ -43,6 +43,12 @@ void add_black_run(QcShot& shot, const std::vector<LayerFrame>& frames, size_t f
     if (!before && !after)
         return;
     const LayerFrame& at = frames[first];
+    // A light may go out for good, an object may leave, motion may stop.
+    constexpr size_t brief = 3;
+    const bool motion = at.layer->kind == "motion" || at.layer->kind == "id";
+    std::optional<Severity> milder;
+    if (!before || !after || last - first + 1 > brief || motion)
+        milder = Severity::Warning;
     at.frame->changed = true;
     if (last + 1 < frames.size())
         frames[last + 1].frame->changed = true;
@@ -50,7 +56,7 @@ void add_black_run(QcShot& shot, const std::vector<LayerFrame>& frames, size_t f
     shot.add(*at.frame, "blacklayer",
              format("{} is black in {}, but not in frame {}", layer_text(*at.layer),
                     frames_text(at.frame->number, frames[last].frame->number), neighbour),
-             {at.layer->name, {}, {}});
+             {at.layer->name, {}, {}, milder});
 }
 
 void find_black(QcShot& shot, const std::vector<LayerFrame>& frames) {

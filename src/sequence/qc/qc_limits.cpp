@@ -36,7 +36,7 @@ const QcRule& rule_of(const std::string& code) {
 } // namespace
 
 const std::vector<QcRule>& qc_rules() {
-    constexpr Severity error = Severity::Error, warning = Severity::Warning;
+    constexpr Severity error = Severity::Error, warning = Severity::Warning, info = Severity::Info;
     static const std::vector<QcRule> rules = {
         {"missing", error, {}, "", "frames that do not exist"},
         {"black", error, 0.0, "largest value", "the image is black"},
@@ -49,16 +49,24 @@ const std::vector<QcRule>& qc_rules() {
          "light groups that do not add up to the beauty"},
         {"channels", error, {}, "", "channels differ from those of other frames"},
         {"displaywindow", error, {}, "", "the display window differs from other frames'"},
+        {"hole", error, 0.0, "pixels",
+         "a block of one exact value that is not in the frames around it"},
+        {"frozen", error, 3.0, "frames", "more frames than these show one moment"},
+        {"repeat", error, {}, "", "the moment of an earlier frame again, after others"},
         {"firefly", warning, 50.0, "times the neighbourhood",
          "lone bright pixels that are neither in their neighbourhood nor in other frames"},
         {"flicker", warning, 0.2, "stops", "frames that differ from both of their neighbours"},
         {"jump", warning, 0.3, "stops", "the brightness changes at once, without a cut"},
-        {"duplicate", warning, {}, "", "a repeated frame (not in a still, not on twos)"},
+        {"duplicate",
+         warning,
+         {},
+         "",
+         "a moment that is shown twice (not in a still, not on twos)"},
         {"nearduplicate", warning, 0.1, "of the change around it",
          "a frozen frame: nothing moves, although it does before and after"},
         {"negative", warning, 0.0, "below 0", "negative values in the beauty or its light groups"},
         {"alpha", warning, 0.0, "pixels", "alpha outside [0, 1] by more than 0.001"},
-        {"alphaempty", warning, 0.9, "share of the non-black pixels",
+        {"alphaempty", error, 0.9, "share of the non-black pixels",
          "alpha is 0 where the beauty is not black, which hides it"},
         {"datawindow",
          warning,
@@ -68,6 +76,10 @@ const std::vector<QcRule>& qc_rules() {
         {"type", warning, {}, "", "channels have another data type than in other frames"},
         {"compression", warning, {}, "", "the compression differs from other frames'"},
         {"metadata", warning, {}, "", "attributes differ that are the same in other frames"},
+        {"proxy", warning, {}, "", "each pixel is there twice: a smaller picture was enlarged"},
+        {"bands", warning, 300.0, "different values",
+         "the picture has fewer different values than a render, as after 8 bits"},
+        {"bars", info, {}, "", "a bar of one value along a border in all frames"},
     };
     return rules;
 }
@@ -80,13 +92,13 @@ size_t qc_rank(const std::string& code) {
 
 void QcLimits::set(const std::string& code, const std::string& text) {
     const QcRule& rule = rule_of(code);
-    Limit limit{rule.severity, rule.threshold};
-    bool has_severity = false, has_threshold = false;
+    Limit limit{rule.severity, rule.threshold, false};
+    bool has_threshold = false;
     for (const std::string& word : OIIO::Strutil::splits(text, ",")) {
         const auto severity = severity_of_name(word);
-        if (!has_severity && (severity || word == "off")) {
+        if (!limit.has_severity && (severity || word == "off")) {
             limit.severity = severity;
-            has_severity = true;
+            limit.has_severity = true;
         } else if (!has_threshold && rule.threshold && OIIO::Strutil::string_is_float(word)) {
             limit.threshold = OIIO::Strutil::stod(word);
             has_threshold = true;
@@ -95,7 +107,7 @@ void QcLimits::set(const std::string& code, const std::string& text) {
         }
     }
     const bool valid = !limit.threshold || (*limit.threshold >= 0 && *limit.threshold < HUGE_VAL);
-    if ((!has_severity && !has_threshold) || !valid)
+    if ((!limit.has_severity && !has_threshold) || !valid)
         refuse(rule, text);
     m_changed[code] = limit;
     m_texts[code] = text;
@@ -104,6 +116,12 @@ void QcLimits::set(const std::string& code, const std::string& text) {
 std::optional<Severity> QcLimits::severity(const std::string& code) const {
     const auto changed = m_changed.find(code);
     return changed == m_changed.end() ? rule_of(code).severity : changed->second.severity;
+}
+
+std::optional<Severity> QcLimits::severity(const std::string& code, Severity milder) const {
+    const auto changed = m_changed.find(code);
+    const bool is_set = changed != m_changed.end() && changed->second.has_severity;
+    return is_set ? changed->second.severity : std::min(milder, rule_of(code).severity);
 }
 
 double QcLimits::threshold(const std::string& code) const {

@@ -30,6 +30,8 @@ public:
     /// a runtime_error for anything else, or an unknown code.
     void set(const std::string& code, const std::string& text);
     std::optional<Severity> severity(const std::string& code) const; ///< none: off
+    /// That of a case which is less severe than usual: `milder`, unless the user has set one.
+    std::optional<Severity> severity(const std::string& code, Severity milder) const;
     double threshold(const std::string& code) const;
     /// The texts that were set, by code.
     const std::map<std::string, std::string>& texts() const { return m_texts; }
@@ -38,6 +40,7 @@ private:
     struct Limit {
         std::optional<Severity> severity;
         std::optional<double> threshold;
+        bool has_severity = false; ///< set by the user
     };
     std::map<std::string, Limit> m_changed;
     std::map<std::string, std::string> m_texts;

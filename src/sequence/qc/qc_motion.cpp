@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Consecutive frames: gaps, duplicates, flicker, jumps.
+// Consecutive frames: gaps, near duplicates, flicker, jumps.
 #include <OpenImageIO/strutil.h>
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <set>
 
 #include "sequence/qc/qc_thumbnails.h"
 
@@ -32,51 +31,6 @@ int usual_step(const std::vector<QcFrame>& frames) {
         }
     }
     return 2 * most >= frames.size() - 1 ? step : 0;
-}
-
-// In a still, or in animation on twos or threes, frames repeat the one before by intent.
-bool is_held(const std::vector<QcFrame*>& frames) {
-    size_t same = 0;
-    for (size_t i = 1; i < frames.size(); ++i)
-        same += frames[i]->facts.picture.hash == frames[i - 1]->facts.picture.hash;
-    return 3 * same >= frames.size() && same > 1;
-}
-
-void find_identical(QcShot& shot, const std::vector<QcFrame*>& frames) {
-    if (is_held(frames))
-        return;
-    std::map<std::string, const QcFrame*> first;
-    for (QcFrame* frame : frames) {
-        const auto [same, is_new] = first.emplace(frame->facts.picture.hash, frame);
-        if (!is_new) {
-            shot.add(*frame, "duplicate",
-                     format("the same pixels as frame {}", same->second->number));
-        }
-    }
-}
-
-// A frozen frame: the change to it is a small part of the changes before and after it. A hold that
-// lasts to the end of the shot is no fault.
-void find_stalls(QcShot& shot, const std::vector<QcFrame*>& frames,
-                 const std::vector<Thumbnail>& thumbnails) {
-    constexpr double visible = 0.005; // stops; less is no motion
-    std::vector<double> change{0};
-    for (size_t i = 1; i < frames.size(); ++i)
-        change.push_back(distance(thumbnails[i - 1], thumbnails[i]));
-    // Beside a flash all motion is small, so the usual change of the shot counts, too.
-    const double usual = usual_step_of(thumbnails);
-    for (size_t i = 2; i + 1 < frames.size(); ++i) {
-        const double around = std::min({change[i - 1], change[i + 1], 2 * usual});
-        const bool identical = frames[i]->facts.picture.hash == frames[i - 1]->facts.picture.hash;
-        const double share = around > 0 ? change[i] / around : 1;
-        if (!identical && around > visible && share < shot.threshold("nearduplicate")) {
-            shot.add(*frames[i], "nearduplicate",
-                     format("nearly the same picture as frame {}: the change is {:.2g} of that "
-                            "around it",
-                            frames[i - 1]->number, share),
-                     {"", {}, share});
-        }
-    }
 }
 
 class Flicker {
@@ -235,11 +189,30 @@ void find_gaps(QcShot& shot) {
     }
 }
 
-void find_duplicates(QcShot& shot) {
+// A frozen frame without layers that tell it: the change to it is a small part of the changes
+// before and after it. A hold that lasts to the end of the shot is no fault.
+void find_stalls(QcShot& shot) {
+    constexpr double visible = 0.005; // stops; less is no motion
     const std::vector<QcFrame*> frames = shot.pictures();
-    find_identical(shot, frames);
-    if (frames.size() > 3)
-        find_stalls(shot, frames, thumbnails_of(frames));
+    if (frames.size() < 4)
+        return;
+    const std::vector<Thumbnail> thumbnails = thumbnails_of(frames);
+    std::vector<double> change{0};
+    for (size_t i = 1; i < frames.size(); ++i)
+        change.push_back(distance(thumbnails[i - 1], thumbnails[i]));
+    // Beside a flash all motion is small, so the usual change of the shot counts, too.
+    const double usual = usual_step_of(thumbnails);
+    for (size_t i = 2; i + 1 < frames.size(); ++i) {
+        const double around = std::min({change[i - 1], change[i + 1], 2 * usual});
+        const double share = around > 0 ? change[i] / around : 1;
+        if (!frames[i]->held && around > visible && share < shot.threshold("nearduplicate")) {
+            shot.add(*frames[i], "nearduplicate",
+                     format("nearly the same picture as frame {}: the change is {:.2g} of that "
+                            "around it",
+                            frames[i - 1]->number, share),
+                     {"", {}, share, {}});
+        }
+    }
 }
 
 void find_flicker(QcShot& shot) {

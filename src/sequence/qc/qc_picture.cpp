@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The faults that a single image shows: black, constant, NaN, Inf, negative, alpha.
+// The faults that a single image shows: black, constant, NaN, Inf, negative, alpha; black and
+// hidden ones are judged by the frames around them.
 #include <OpenImageIO/strutil.h>
+#include <cmath>
 
 #include "sequence/qc/qc_shot.h"
 
@@ -11,7 +13,7 @@ namespace {
 using OIIO::Strutil::fmt::format;
 
 QcDetail detail_of(const QcLayer& layer, const QcCount& count, double value) {
-    QcDetail detail{layer.name, {}, value};
+    QcDetail detail{layer.name, {}, value, {}};
     if (!count.first.empty())
         detail.position = Position{count.first.front().x, count.first.front().y};
     return detail;
@@ -26,7 +28,10 @@ std::string places(const QcCount& count) {
     return text;
 }
 
+// Ids are bits, which need not be numbers.
 void find_bad_values(const QcShot& shot, QcFrame& frame, const QcLayer& layer) {
+    if (layer.kind == "id")
+        return;
     const double nan = double(layer.nan.pixels), inf = double(layer.inf.pixels);
     if (nan > shot.threshold("nan")) {
         shot.add(frame, "nan", layer_text(layer) + " is not a number in " + places(layer.nan),
@@ -54,16 +59,43 @@ void find_alpha(const QcShot& shot, QcFrame& frame, const QcCount& count, const 
     }
 }
 
-void find_unseen(const QcShot& shot, QcFrame& frame) {
-    const QcPicture& picture = frame.facts.picture;
-    const double share = picture.lit > 0 ? double(picture.unseen.pixels) / double(picture.lit) : 0;
-    if (share > shot.threshold("alphaempty")) {
-        shot.add(frame, "alphaempty",
-                 format("alpha is 0 in {} of the {} lit pixels, which nobody sees where alpha is "
-                        "heeded",
-                        picture.unseen.pixels, picture.lit),
-                 detail_of(picture_layer(frame.facts), picture.unseen, share));
-    }
+double share_of(int64_t pixels, int64_t all) {
+    return all > 0 ? double(pixels) / double(all) : 0;
+}
+
+// The share of the frame that is lit, but hidden by its alpha.
+double hidden_share(const QcFrame& frame) {
+    const std::array<int, 4>& window = frame.facts.parts.front().data;
+    return share_of(frame.facts.picture.unseen.pixels, int64_t(window[2]) * window[3]);
+}
+
+double light_of(const QcFrame& frame) {
+    return std::abs(picture_layer(frame.facts).mean);
+}
+
+bool is_black(const QcShot& shot, const QcFrame& frame) {
+    return frame.blank && picture_layer(frame.facts).max <= shot.threshold("black");
+}
+
+// Whether light goes out by steps up to these black frames at an end of the shot.
+bool is_fade(const std::vector<QcFrame*>& frames, size_t first, size_t last, double usual) {
+    constexpr double faded = 0.6;
+    const size_t count = frames.size();
+    const auto falls = [&](size_t near, size_t far) {
+        return light_of(*frames[near]) < faded * usual &&
+               light_of(*frames[far]) > light_of(*frames[near]);
+    };
+    const bool out = last + 1 == count && first >= 2 && falls(first - 1, first - 2);
+    const bool in = first == 0 && last + 2 < count && falls(last + 1, last + 2);
+    return out || in;
+}
+
+// An element that is not in the picture yet has no alpha; without any alpha nobody knows.
+std::optional<Severity> severity_of_black(const QcPicture& picture, bool fade) {
+    const bool has_alpha = picture.alpha_mean != 0 || picture.alpha_clear != 0;
+    if (fade || (has_alpha && picture.alpha_mean <= 0))
+        return Severity::Info;
+    return has_alpha ? std::nullopt : std::optional(Severity::Warning);
 }
 
 } // namespace
@@ -81,20 +113,69 @@ bool is_blank(const QcFacts& facts, const QcLimits& limits) {
     return finite && (picture.constant || picture.max <= limits.threshold("black"));
 }
 
-void find_picture_faults(const QcShot& shot, QcFrame& frame) {
-    const QcLayer& picture = picture_layer(frame.facts);
-    if (frame.blank && picture.max <= shot.threshold("black")) {
-        shot.add(frame, "black", "the picture is black", {picture.name, {}, picture.max});
-    } else if (frame.blank) {
-        shot.add(frame, "constant",
-                 format("the picture is one colour (largest component {:.4g})", picture.max),
-                 {picture.name, {}, {}});
+void find_blank(QcShot& shot) {
+    const std::vector<QcFrame*> frames = shot.measured();
+    std::vector<double> lights;
+    for (const QcFrame* frame : frames)
+        if (!frame->blank)
+            lights.push_back(light_of(*frame));
+    const double usual = median(std::move(lights));
+    for (size_t first = 0; first < frames.size(); ++first) {
+        QcFrame& frame = *frames[first];
+        if (frame.blank && !is_black(shot, frame)) {
+            const QcLayer& picture = picture_layer(frame.facts);
+            shot.add(frame, "constant",
+                     format("the picture is one colour (largest component {:.4g})", picture.max),
+                     {picture.name, {}, {}, {}});
+        }
+        size_t last = first;
+        while (last < frames.size() && is_black(shot, *frames[last]))
+            ++last;
+        if (last == first)
+            continue;
+        const bool fade = is_fade(frames, first, last - 1, usual);
+        for (; first < last; ++first) {
+            const QcFacts& facts = frames[first]->facts;
+            const QcLayer& picture = picture_layer(facts);
+            shot.add(*frames[first], "black",
+                     fade ? "the picture is black at the end of a fade" : "the picture is black",
+                     {picture.name, {}, picture.max, severity_of_black(facts.picture, fade)});
+        }
+        --first;
     }
+}
+
+// Alpha that hides most of one frame is lost; where it does so in all frames, they are made like
+// that.
+void find_hidden(QcShot& shot) {
+    constexpr double much = 0.5, little = 0.25;
+    const std::vector<QcFrame*> frames = shot.measured();
+    std::vector<double> shares;
+    for (const QcFrame* frame : frames)
+        shares.push_back(hidden_share(*frame));
+    const double usual = median(shares);
+    for (size_t i = 0; i < frames.size(); ++i) {
+        const QcPicture& picture = frames[i]->facts.picture;
+        const double share = share_of(picture.unseen.pixels, picture.lit);
+        const bool odd = shares[i] > much && usual < little;
+        if (!odd && share <= shot.threshold("alphaempty"))
+            continue;
+        QcDetail detail = detail_of(picture_layer(frames[i]->facts), picture.unseen, share);
+        if (!odd)
+            detail.milder = Severity::Warning;
+        shot.add(*frames[i], "alphaempty",
+                 format("alpha is 0 in {} of the {} lit pixels{}, which nobody sees where alpha is "
+                        "heeded",
+                        picture.unseen.pixels, picture.lit, odd ? ", unlike in other frames" : ""),
+                 detail);
+    }
+}
+
+void find_picture_faults(const QcShot& shot, QcFrame& frame) {
     for (const QcLayer& layer : frame.facts.layers)
         find_bad_values(shot, frame, layer);
     find_alpha(shot, frame, frame.facts.picture.alpha_low, "below 0");
     find_alpha(shot, frame, frame.facts.picture.alpha_high, "above 1");
-    find_unseen(shot, frame);
 }
 
 } // namespace tonetool::sequence

@@ -17,6 +17,7 @@ struct QcFrame {
     QcFacts facts;
     bool measured = false; ///< --qc has measured the frame
     bool blank = false;    ///< black or one colour all over: not compared with other frames
+    bool held = false;     ///< shows the moment of the frame before
     bool changed = false;  ///< a fault of windows or layers begins here, or has ended
 };
 
@@ -25,6 +26,8 @@ struct QcDetail {
     std::string layer{};
     std::optional<Position> position{};
     std::optional<double> value{};
+    /// A case that is less severe than the fault usually is; a severity of the user's stands.
+    std::optional<Severity> milder{};
 };
 
 class QcShot {
@@ -67,11 +70,17 @@ double median(std::vector<double> values);
 
 // The searches. Their files say which faults each adds.
 void find_picture_faults(const QcShot& shot, QcFrame& frame);
+void find_blank(QcShot& shot);
+void find_hidden(QcShot& shot);
+void find_enlarged(QcShot& shot);
+void find_bands(QcShot& shot);
 void find_gaps(QcShot& shot);
 void find_odd_headers(QcShot& shot);
 void find_lost_layers(QcShot& shot);
 void find_group_faults(QcShot& shot);
-void find_duplicates(QcShot& shot);
+void find_holes(QcShot& shot);
+void find_moments(QcShot& shot);
+void find_stalls(QcShot& shot);
 void find_flicker(QcShot& shot);
 void find_fireflies(QcShot& shot);
 

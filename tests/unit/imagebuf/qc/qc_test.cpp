@@ -2,9 +2,11 @@
 #include "tonetool/qc.h"
 
 #include <OpenImageIO/filesystem.h>
+#include <cmath>
 #include <filesystem>
 #include <gmock/gmock.h>
 #include <limits>
+#include <map>
 
 #include "images.h"
 
@@ -202,6 +204,79 @@ TEST(QcFacts, CountLitPixelsThatAlphaHides) {
     EXPECT_EQ(facts.picture.lit, 31);
     EXPECT_EQ(facts.picture.unseen.pixels, 30);
     EXPECT_EQ(facts.picture.unseen.first[0].x, 1);
+}
+
+TEST(QcFacts, APlaceOfOneColourIsARectangle) {
+    ImageBuf image = noise(make_spec(64, 48, {"R", "G", "B", "A", "Z"}), 3);
+    for (int y = 0; y < 48; ++y)
+        for (int x = 0; x < 64; ++x) {
+            set(image, x, y, 3, y < 12 ? 0.0f : 1.0f);
+            set(image, x, y, 4, y < 24 ? 5.0f : 1e10f);
+        }
+    const auto fill = [&](int left, int top, float value) {
+        for (int y = top; y < top + 10; ++y)
+            for (int x = left; x < left + 16; ++x)
+                for (int c = 0; c < 3; ++c)
+                    set(image, x, y, c, value);
+    };
+    fill(20, 8, kNan);
+    fill(48, 30, 0.25f);
+    for (const int threads : {1, 3}) {
+        const QcPicture picture = facts_of(image, threads).picture;
+        ASSERT_EQ(picture.rectangles.size(), 2U);
+        const QcRectangle &bad = picture.rectangles[0], &sky = picture.rectangles[1];
+        EXPECT_THAT((std::vector<int>{bad.x, bad.y, bad.width, bad.height}),
+                    ElementsAre(20, 8, 16, 10));
+        EXPECT_TRUE(std::isnan(bad.color[1]));
+        EXPECT_FALSE(bad.background);
+        EXPECT_THAT(sky.color, ElementsAre(0.25f, 0.25f, 0.25f));
+        EXPECT_TRUE(sky.background);
+        // Rows 30 to 39 at the right: the parts of 1.5 rows each that hold them.
+        EXPECT_THAT(std::vector<int>(picture.borders.right.begin() + 19,
+                                     picture.borders.right.begin() + 28),
+                    ElementsAre(0, 100, 100, 100, 100, 100, 100, 0, 0));
+        EXPECT_THAT(picture.borders.left, testing::Each(0));
+        EXPECT_EQ(picture.alpha_clear, 0.25);
+        EXPECT_EQ(picture.alpha_mean, 0.75);
+    }
+}
+
+TEST(QcFacts, ValuesThatRepeat) {
+    ImageBuf image = noise(make_spec(64, 48, {"R", "G", "B"}), 3);
+    EXPECT_THAT(facts_of(image).picture.pairs, ElementsAre(0, 0));
+    EXPECT_EQ(facts_of(image).picture.distinct, 1000);
+    for (int y = 0; y < 48; ++y)
+        for (int x = 0; x < 64; ++x)
+            for (int c = 0; c < 3; ++c)
+                set(image, x, y, c, 0.1f + 0.01f * float(x / 2));
+    for (const int threads : {1, 3}) {
+        const QcPicture picture = facts_of(image, threads).picture;
+        EXPECT_THAT(picture.pairs, ElementsAre(1, 0));
+        EXPECT_EQ(picture.distinct, 32);
+        EXPECT_EQ(picture.greens, 64 * 48);
+    }
+}
+
+TEST(QcFacts, LayersWithoutNoiseHaveAHash) {
+    const std::vector<std::string> channels = {
+        "R",   "G",   "B",      "Z",        "P.X",      "P.Y",      "P.Z",       "N.X",
+        "N.Y", "N.Z", "mist.Z", "vector.X", "vector.Y", "vector.Z", "objectid.X"};
+    ImageBuf image = noise(make_spec(20, 12, channels), 4);
+    const auto hashes = [&](int threads) {
+        std::map<std::string, std::string> found;
+        for (const QcLayer& layer : facts_of(image, threads).layers)
+            if (!layer.hash.empty())
+                found[layer.kind] = layer.hash;
+        return found;
+    };
+    const auto before = hashes(1);
+    EXPECT_THAT(before, testing::UnorderedElementsAre(testing::Key("depth"), testing::Key("id"),
+                                                      testing::Key("position")));
+    EXPECT_EQ(hashes(3), before);
+    set(image, 19, 11, 6, 2);
+    const auto after = hashes(1);
+    EXPECT_NE(after.at("position"), before.at("position"));
+    EXPECT_EQ(after.at("depth"), before.at("depth"));
 }
 
 TEST(QcFacts, LongMetadataAreKeptByTheirHash) {
