@@ -127,7 +127,7 @@ inline bool resize(OIIO::ImageBuf& dst, const OIIO::ImageBuf& src, const std::st
 }
 
 /// Whether two names of a configuration mean one space, as far as the version knows.
-inline bool same_space(const OIIO::ColorConfig& config, const std::string& one,
+inline bool same_space([[maybe_unused]] const OIIO::ColorConfig& config, const std::string& one,
                        const std::string& other) {
 #if OIIO_VERSION >= 20500
     if (config.equivalent(one, other))
