@@ -102,9 +102,9 @@ def test_a_gap_on_the_disk_is_a_fault(tonetool, tmp_path):
 
 def test_few_values_are_bands_unless_the_file_has_no_more(tonetool, make_image, tmp_path):
     ramp = np.random.default_rng(1).random((80, 100, 3)).astype(np.float32)
-    make_image("fine.exr", pixels=ramp)
+    make_image("fine.exr", 100, 80, pixels=ramp)
     assert "bands" not in tonetool("fine.exr", "--qc").out
-    make_image("coarse.exr", pixels=np.round(ramp * 255) / 255)
+    make_image("coarse.exr", 100, 80, pixels=np.round(ramp * 255) / 255)
     ran = tonetool("coarse.exr", "--qc", "--warnings-exit", status=2)
     assert "warning bands: " in ran.out
     assert "bands" not in tonetool("coarse.exr", "--qc:bands=200").out
