@@ -37,6 +37,14 @@ def exported_lut():
 
 
 # One of each class, some with arrays and some with ImageBufs.
+def with_a_hole():
+    pixels = np.random.default_rng(1).random((32, 48, 3), np.float32)
+    pixels[8:24, 8:24] = 0.5
+    image = oiio.ImageBuf(oiio.ImageSpec(48, 32, 3, "float"))
+    image.set_pixels(oiio.ROI(0, 48, 0, 32), pixels)
+    return image
+
+
 MAKERS = {
     "hdr_flip of arrays": hdr_of_arrays,
     "hdr_flip of images": lambda: tonetool.hdr_flip(*cornell(), want_exposure_map=True),
@@ -55,6 +63,7 @@ MAKERS = {
     "luminance_stats": lambda: tonetool.luminance_stats(cornell()[0]),
     "find_color": lambda: tonetool.find_color(cornell()[0]),
     "qc_facts": lambda: tonetool.qc_facts(cornell()[0]),
+    "qc_facts of a place of one colour": lambda: tonetool.qc_facts(with_a_hole()),
     "tone_curve": lambda: next(curve for curve in tonetool.tone_curves() if len(curve.parameters) > 2),
     "light_index": lambda: tonetool.light_index(cornell()[0]),
     "panorama_stats": lambda: tonetool.panorama_stats(oiio.ImageBuf(str(TESTIMAGES / "gallery_pano.exr"))),
