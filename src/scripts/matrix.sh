@@ -4,7 +4,7 @@
 #   matrix.sh bookworm|trixie|sid [-DNAME=VALUE...] [ARGUMENT OF CTEST...]
 # The system is made in build/chroots at the first run (see chroots.sh), and so is its build; later
 # runs build what has changed. A compiler of another name than g++ is in CXX, its package in
-# TONETOOL_PACKAGES. TONETOOL_JOBS is the number of compilers and tests at a time.
+# TONETOOL_PACKAGES.
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/chroots.sh"
 
