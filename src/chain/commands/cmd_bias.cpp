@@ -93,23 +93,18 @@ std::string evidence_text(const BiasResult& r) {
     for (size_t c = 0; c < kBiasChannels; ++c)
         if (r.gain[c].rejected)
             overall += std::string(" ") + kBiasChannelNames[c];
-    found.push_back("overall" + (overall.empty() ? " none" : overall));
-    bool means = false, structures = false;
-    for (const BiasScale& scale : r.scales) {
-        if (scale.rejected > 0)
-            found.push_back(
-                format("mean {}: {} of {}", scale.block, scale.rejected, scale.blocks()));
-        means = means || scale.rejected > 0;
-    }
-    for (const BiasScale& scale : r.scales) {
-        if (scale.structures > 0)
-            found.push_back(
-                format("structure {}: {} of {}", scale.block, scale.structures, scale.blocks()));
-        structures = structures || scale.structures > 0;
-    }
-    if (!means)
+    const std::string overall_word = "overall";
+    found.push_back(overall_word + (overall.empty() ? " none" : overall));
+    for (const std::string& one : ToneAlgo::bias_evidence(r))
+        if (one.compare(0, overall_word.size(), overall_word) != 0)
+            found.push_back(one);
+    const auto any = [&](int64_t BiasScale::*count) {
+        return std::any_of(r.scales.begin(), r.scales.end(),
+                           [count](const BiasScale& scale) { return scale.*count > 0; });
+    };
+    if (!any(&BiasScale::rejected))
         found.emplace_back("mean none");
-    if (!structures)
+    if (!any(&BiasScale::structures))
         found.emplace_back(r.correlated ? "structure not tested" : "structure none");
     found.push_back(format("untested {} of {}", r.untested, r.tested));
     return join(found, "; ");

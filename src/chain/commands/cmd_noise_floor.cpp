@@ -51,8 +51,7 @@ Modifiers measuring_modifiers() {
 class Meter {
 public:
     Meter(Session& session, const Call& call)
-        : m_session(session),
-          m_call(call),
+        : m_call(call),
           m_command(call.choice("command", kFloorCommands).value_or(kFloorCommands.front())) {
         check_keys();
         if (m_command == "errormap")
@@ -74,7 +73,7 @@ public:
     SizePolicy size() const { return m_command == "errormap" ? m_error.size : m_flip.size; }
 
     /// 0 to 1, so that a limit of 1 would hold nothing.
-    bool bounded(const std::string&) const {
+    bool bounded() const {
         return m_command != "errormap" ||
                metrics::find_error_metric(m_error.metric)->has(metrics::kBounded);
     }
@@ -155,7 +154,6 @@ private:
         return *further;
     }
 
-    Session& m_session;
     const Call& m_call;
     std::string m_command;
     HdrFlipOptions m_flip;
@@ -164,7 +162,7 @@ private:
 };
 
 // All images of the stack: the reference and the seeds.
-Images take_all(Session& session, const Call& call) {
+Images take_all(Session& session) {
     Images all = session.stack.pop(session.stack.images.size());
     if (all.size() < 5) {
         throw CommandError("needs a reference and 4 or more renders of the approved version, the "
@@ -178,7 +176,7 @@ Images take_all(Session& session, const Call& call) {
         image->used = image->worked_on = true;
         session.note_format(*image);
         if (image->is_result)
-            throw CommandError("\"" + image->name() + "\" is what " + "a comparison has made");
+            throw CommandError("\"" + image->name() + "\" is what a comparison has made");
         for (const ImagePtr& other : all)
             if (other != image && same_file(*image, 0, *other, 0)) {
                 throw CommandError("\"" + image->name() + "\" and \"" + other->name() +
@@ -186,7 +184,6 @@ Images take_all(Session& session, const Call& call) {
                                    "independent renders");
             }
     }
-    (void)call;
     return all;
 }
 
@@ -196,7 +193,7 @@ public:
         : m_session(session),
           m_call(call),
           m_meter(session, call),
-          m_images(take_all(session, call)) {
+          m_images(take_all(session)) {
         read_options(call, m_kept.options);
         m_kept.command = m_meter.command();
         m_kept.modifiers = m_meter.modifiers();
@@ -272,7 +269,7 @@ private:
 
     void add(const std::string& quantity, std::vector<double> values) {
         NoiseFloorOptions options = m_kept.options;
-        options.below_one = m_meter.bounded(quantity);
+        options.below_one = m_meter.bounded();
         KeptLimit limit{quantity, {}, std::move(values)};
         std::string why;
         if (!ToneAlgo::noise_floor(limit.floor, limit.values, options, why))

@@ -75,12 +75,6 @@ Digest digest_of(const ColorPlanes& planes) {
     return digest;
 }
 
-void make_nonfinite_nan(ColorPlanes& planes) {
-    for (size_t i = 0; planes.counts.nonfinite > 0 && i < planes.nonfinite.size(); ++i)
-        for (size_t p = 0; planes.nonfinite[i] && p < 3; ++p)
-            planes.plane[p][i] = std::numeric_limits<float>::quiet_NaN();
-}
-
 // The seeds of one side: one that stays in memory, or the sums of several.
 class SideReader {
 public:
@@ -88,7 +82,7 @@ public:
 
     void add(ColorPlanes&& planes, size_t count, BiasSummary& summary) {
         note(planes, summary);
-        make_nonfinite_nan(planes);
+        fill_nonfinite(planes, std::numeric_limits<float>::quiet_NaN());
         if (count == 1) {
             m_planes = std::move(planes);
             m_side.emplace(m_planes.view());
@@ -101,7 +95,7 @@ public:
         m_side->add(planes.view(), make_parallel(m_nthreads));
         if (m_seeds > 1)
             refuse_other_version(planes);
-        m_planes = std::move(planes); // for the next one
+        m_planes = m_seeds < int(count) ? std::move(planes) : ColorPlanes(); // for the next one
     }
     const BiasSide& side() const { return *m_side; }
     const FlipSide& found() const { return m_found; }

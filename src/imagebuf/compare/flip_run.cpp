@@ -205,7 +205,7 @@ private:
                 from < to)
                 evaluate(t, step, from, to, maps);
             if (m_tests.size() > 1)
-                blacken_nonfinite(m_reference.planes);
+                fill_nonfinite(m_reference.planes, 0); // black again
         }
     }
 

@@ -311,10 +311,10 @@ NonfiniteBoth substitute_nonfinite(ColorPlanes& r, ColorPlanes& t, int begin, in
     return both;
 }
 
-void blacken_nonfinite(ColorPlanes& planes) {
+void fill_nonfinite(ColorPlanes& planes, float value) {
     for (size_t i = 0; planes.counts.nonfinite > 0 && i < planes.nonfinite.size(); ++i)
         for (size_t p = 0; planes.nonfinite[i] && p < 3; ++p)
-            planes.plane[p][i] = 0;
+            planes.plane[p][i] = value;
 }
 
 } // namespace tonetool

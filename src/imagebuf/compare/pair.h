@@ -91,7 +91,7 @@ bool nonfinite_alike(const ColorPlanes& reference, size_t at, const ColorPlanes&
 /// counts the latter; once more it changes nothing.
 NonfiniteBoth substitute_nonfinite(ColorPlanes& reference, ColorPlanes& test, int begin, int end);
 
-/// Makes the non-finite pixels of such an image black again.
-void blacken_nonfinite(ColorPlanes& planes);
+/// Gives the non-finite pixels of an image this value in R, G and B.
+void fill_nonfinite(ColorPlanes& planes, float value);
 
 } // namespace tonetool
