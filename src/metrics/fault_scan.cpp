@@ -178,23 +178,30 @@ double GroupScan::difference() const {
 }
 
 PictureRow scan_picture(const float* rgb, int64_t width, const double (&weights)[3],
-                        const int* cell_of, size_t cells) {
+                        const CellColumns& columns) {
     PictureRow out;
     out.largest.resize(size_t(width));
-    out.cells.sum.resize(cells);
-    out.cells.largest.resize(cells);
-    out.cells.missing.resize(cells);
-    for (int64_t x = 0; x < width; ++x) {
+    out.light.resize(size_t(width));
+    out.cells.light.resize(columns.cells);
+    out.cells.color.resize(3 * columns.cells);
+    out.cells.peaks.resize(columns.peaks);
+    out.cells.missing.resize(columns.cells);
+    for (size_t x = 0; x < size_t(width); ++x) {
         const float* v = rgb + 3 * x;
-        const float largest = std::max({v[0], v[1], v[2]});
         const double light = weights[0] * v[0] + weights[1] * v[1] + weights[2] * v[2];
         const bool finite = std::isfinite(light);
-        out.largest[size_t(x)] = finite ? std::max(largest, 0.0f) : 0.0f;
-        if (cell_of[x] < 0)
+        if (finite) {
+            out.largest[x] = std::max({v[0], v[1], v[2], 0.0f});
+            out.light[x] = float(std::max(light, 0.0));
+        }
+        if (columns.cell[x] < 0)
             continue;
-        const auto cell = size_t(cell_of[x]);
-        out.cells.sum[cell] += finite ? std::max(light, 0.0) : 0;
-        out.cells.largest[cell] = std::max(out.cells.largest[cell], out.largest[size_t(x)]);
+        const auto cell = size_t(columns.cell[x]);
+        out.cells.light[cell] += finite ? std::max(light, 0.0) : 0;
+        for (size_t c = 0; finite && c < 3; ++c)
+            out.cells.color[3 * cell + c] += double(v[c]);
+        float& peak = out.cells.peaks[size_t(columns.peak[x])];
+        peak = std::max(peak, out.largest[x]);
         out.cells.missing[cell] += !finite;
     }
     return out;

@@ -106,20 +106,28 @@ private:
     Sums m_below, m_at;
 };
 
+/// The columns of cells that the pixels of a row fall into, or -1: of the thumbnail, and of the
+/// peaks.
+struct CellColumns {
+    std::vector<int> cell, peak;
+    size_t cells = 0, peaks = 0;
+};
+
 /// Sums over the cells that one row of a thumbnail crosses.
 struct CellRow {
-    std::vector<double> sum;
-    std::vector<float> largest;
-    std::vector<int64_t> missing; ///< pixels that are not finite
+    std::vector<double> light, color; ///< of colours the red, green and blue of each cell
+    std::vector<float> peaks;         ///< the largest components
+    std::vector<int64_t> missing;     ///< pixels that are not finite
 };
 
 /// The beauty as the thumbnail sees it.
 struct PictureRow {
     std::vector<float> largest; ///< component of each pixel, 0 where it is not finite
+    std::vector<float> light;   ///< luminance of each pixel, 0 where it is not finite
     CellRow cells;
 };
-/// Adds a row of interleaved colours. `cell_of` gives the cell of each pixel, or -1.
+/// Adds a row of interleaved colours.
 PictureRow scan_picture(const float* rgb, int64_t width, const double (&weights)[3],
-                        const int* cell_of, size_t cells);
+                        const CellColumns& columns);
 
 } // namespace tonetool::metrics

@@ -14,6 +14,27 @@ bool is_lit(const float* color) {
     return color[0] > dark || color[1] > dark || color[2] > dark;
 }
 
+// A value that is rounded to the half float before or after 1.
+bool is_beside_one(float value) {
+    constexpr float before = 0x1p-11f, after = 0x1p-10f;
+    return (value > 1 - 1.5f * before && value < 1 - 0.5f * before) ||
+           (value > 1 + 0.5f * after && value < 1 + 1.5f * after);
+}
+
+void scan_clamps(const float* color, ValueScan& out) {
+    constexpr float largest_half = 65504;
+    int ones = 0, beside = 0, largest = 0, lit = 0;
+    for (int c = 0; c < 3; ++c) {
+        ones += color[c] == 1;
+        beside += is_beside_one(color[c]);
+        largest += color[c] == largest_half;
+        lit += color[c] > 0;
+    }
+    out.at_one += lit == 3 && ones > 0 && ones < 3;
+    out.beside_one += beside > 0;
+    out.at_largest_half += largest > 0;
+}
+
 void keep_different(std::vector<float>& values) {
     std::sort(values.begin(), values.end());
     values.erase(std::unique(values.begin(), values.end()), values.end());
@@ -27,6 +48,9 @@ void ValueScan::add(const ValueScan& later) {
     pixels += later.pixels;
     lit += later.lit;
     greens += later.greens;
+    at_one += later.at_one;
+    beside_one += later.beside_one;
+    at_largest_half += later.at_largest_half;
     for (size_t i = 0; i < 2; ++i) {
         pairs[i] += later.pairs[i];
         same[i] += later.same[i];
@@ -55,6 +79,7 @@ ValueScan scan_values(const float* rgb, int64_t width, bool values) {
     for (int64_t x = 0; x < width; ++x) {
         const float* color = rgb + 3 * x;
         out.lit += is_lit(color);
+        scan_clamps(color, out);
         if (color[1] > 0.01f && color[1] < 1) {
             ++out.greens;
             if (values)

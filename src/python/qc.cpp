@@ -42,8 +42,8 @@ void add_layers(Module& module) {
     ResultClass<L>(module, "QcLayer", "The values of a layer.")
         .field("name", &L::name, "\"\" for the plain R, G, B.")
         .field("kind", &L::kind,
-               "\"picture\", \"light\", \"color\", \"depth\", \"position\", \"motion\", \"id\" or "
-               "\"data\".")
+               "\"picture\", \"light\", \"color\", \"albedo\", \"depth\", \"position\", "
+               "\"normal\", \"motion\", \"id\" or \"data\".")
         .field("hash", &L::hash,
                "Of the values of a depth, position or id without filter, else \"\".")
         .field("constant", &L::constant, "Each channel but alpha has one value.")
@@ -62,6 +62,16 @@ void add_layers(Module& module) {
         .field("display", &P::display, "Display window: x, y, width, height.")
         .field("compression", &P::compression, "As the header says it.")
         .field("metadata", &P::metadata, "All the rest; long values by their hash.")
+        .finish();
+}
+
+void add_guides(Module& module) {
+    using G = QcGuide;
+    ResultClass<G>(module, "QcGuide", "A layer without noise in 32 x 18 cells.")
+        .field("layer", &G::layer, "Its name.")
+        .field("channels", &G::channels, "How many it has.")
+        .field("cells", &G::cells,
+               "Means of each channel of each cell x, as sign(x) log2(1 + 1000 |x|) in 1/1000.")
         .finish();
 }
 
@@ -92,12 +102,16 @@ void add_picture(Module& module) {
     picture
         .field("thumbnail", &P::thumbnail,
                "Mean luminance of 32 x 18 cells of the display window, in 1/1000 stop.")
-        .field("peaks", &P::peaks, "Largest component of the same cells, in the same unit.")
+        .field("red", &P::red, "Red over green of the same cells, in 1/32 stop.")
+        .field("blue", &P::blue, "Blue over green of the same cells, in 1/32 stop.")
+        .field("peaks", &P::peaks, "Largest component of 64 x 36 cells, in 1/8 stop.")
+        .field("fingerprints", &P::fingerprints,
+               "16 bits that tell 4 x 4 pixels in the middle of each of these; 0: of one colour.")
         .field("hash", &P::hash, "Of the values of its pixels.")
         .field("alpha_low", &P::alpha_low, "Alpha below 0, or NaN.")
         .field("alpha_high", &P::alpha_high, "Alpha above 1.")
         .field("spike_count", &P::spike_count, "Pixels 8 times as large as all 3 pixels away.")
-        .field("spikes", &P::spikes, "The largest of them, at most 32.")
+        .field("spikes", &P::spikes, "The largest of them, at most 64.")
         .field("rectangles", &P::rectangles,
                "The largest of one exact colour, at least 8 x 8 pixels; at most 16.")
         .field("borders", &P::borders, "How plain the picture is at its borders.")
@@ -107,6 +121,17 @@ void add_picture(Module& module) {
                "Shares of pixels that equal their right neighbour, in even and in odd columns.")
         .field("greens", &P::greens, "Pixels whose green is above 0.01 and below 1.")
         .field("distinct", &P::distinct, "Different values of these, at most 1000.")
+        .field("fine", &P::fine,
+               "Median distance of lit pixels from the mean of their four neighbours, in stops.")
+        .field("coarse", &P::coarse, "The same of means of 2 x 2 pixels.")
+        .field("across", &P::across, "Median distance from the pixel to the left, in stops.")
+        .field("down", &P::down, "Median distance from the pixel above, in stops.")
+        .field("at_one", &P::at_one, "Pixels with all channels lit, one exactly 1 and another not.")
+        .field("beside_one", &P::beside_one,
+               "Pixels with a channel at one of the half floats beside 1.")
+        .field("at_largest_half", &P::at_largest_half, "Pixels with a channel at 65504.")
+        .field("magenta", &P::magenta, "Share of an albedo that is magenta.")
+        .field("speed", &P::speed, "95th percentile of the absolute values of a motion layer.")
         .field("groups", &P::groups, "Number of light groups.")
         .field("group_sum", &P::group_sum, "Light of all groups over that of the picture.")
         .field("group_difference", &P::group_difference,
@@ -118,6 +143,7 @@ void add_picture(Module& module) {
         .field("parts", &F::parts, "One each.")
         .field("channels", &F::channels, "Data type by name, as in the file.")
         .field("layers", &F::layers, "One each.")
+        .field("guides", &F::guides, "Layers without noise, which tell what moves: at most two.")
         .field("picture", &F::picture, "What a viewer looks at.")
         .finish();
 }
@@ -127,6 +153,7 @@ void add_picture(Module& module) {
 void add_qc(Module& module) {
     add_counts(module);
     add_layers(module);
+    add_guides(module);
     add_places(module);
     add_picture(module);
     define(module,

@@ -224,7 +224,7 @@ FAULTS = {
     "inf": ("inf", 12, 12, patch("Combined", np.inf)),
     "negative": ("negative", 4, 4, negative),
     "firefly": ("firefly", 13, 13, firefly),
-    "jump": ("jump", 11, 20, lambda frame: light(frame, 1.6)),
+    "light": ("light", 11, 20, lambda frame: light(frame, 1.6)),
     "flicker": ("flicker", 5, 5, lambda frame: light(frame, 0.7)),
     "flicker-two": ("flicker", 5, 6, lambda frame: light(frame, 1.5)),
     "data-window": ("datawindow", 10, 10, crop),

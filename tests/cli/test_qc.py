@@ -68,14 +68,14 @@ def test_an_alpha_that_is_no_number(tonetool, make_image, value, code, alpha):
 
 
 def test_severities_and_thresholds(check, tonetool, tmp_path):
-    make_shot.make_shot(tmp_path, "jump")
-    assert check(3, "--qc:jump=error")[1] == [(11, "jump")]
-    assert check(0, "--qc:jump=0.9")[1] == []
-    assert check(0, "--qc:jump=off")[1] == []
-    assert check(0, "--qc:jump=info")[1] == [(11, "jump")]
+    make_shot.make_shot(tmp_path, "light")
+    assert check(3, "--qc:light=error")[1] == [(11, "light")]
+    assert check(0, "--qc:light=0.9:layerlight=off")[1] == []
+    assert check(0, "--qc:light=off:layerlight=off")[1] == []
+    assert check(0, "--qc:light=info")[1] == [(11, "light")]
     for value, text in (("loud", "must be off, info"), ("-1", "must be off"), ("", "has no value")):
-        assert text in tonetool("shot.0001.exr", f"--qc:jump={value}", status=1).err
-    assert "jmp" in tonetool("shot.0001.exr", "--qc:jmp=1", status=1).err
+        assert text in tonetool("shot.0001.exr", f"--qc:light={value}", status=1).err
+    assert "lihgt" in tonetool("shot.0001.exr", "--qc:lihgt=1", status=1).err
 
 
 def test_any_split_gives_the_bytes_of_the_whole(tonetool, tmp_path):

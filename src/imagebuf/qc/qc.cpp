@@ -3,6 +3,7 @@
 #include "tonetool/qc.h"
 
 #include <OpenImageIO/strutil.h>
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 
@@ -46,7 +47,30 @@ QcLayer layer_of(const QcScan::Layer& from) {
 int thousandths_of_stops(double luminance) {
     if (!(luminance > 0))
         return QcPicture::kDark;
-    return std::max(int(std::lround(1000 * std::log2(luminance))), QcPicture::kDark);
+    return std::clamp(int(std::lround(1000 * std::log2(luminance))), QcPicture::kDark, 32767);
+}
+
+// In parts of a stop, within the range of a byte.
+int eighths_of_stops(double luminance) {
+    if (!(luminance > 0))
+        return QcPicture::kPeakDark;
+    return std::clamp(int(std::lround(8 * std::log2(luminance))), QcPicture::kPeakDark,
+                      QcPicture::kPeakBright);
+}
+
+// A colour over green in 1/32 stop; where there is neither, they are equal.
+int tint_of(double color, double green) {
+    constexpr double dark = 1e-9;
+    const double stops = std::log2((std::max(color, 0.0) + dark) / (std::max(green, 0.0) + dark));
+    return int(std::clamp<long>(std::lround(32 * stops), -128, 127));
+}
+
+QcGuide guide_of(const QcScan& scan, const QcScan::Guide& from) {
+    const QcScan::Layer& layer = scan.layers()[from.layer];
+    QcGuide guide{layer.name, int(layer.channels.size()), {}};
+    for (const double mean : from.means(layer.channels.size()))
+        guide.cells.push_back(QcGuide::code(mean));
+    return guide;
 }
 
 QcRectangle rectangle_of(const metrics::FlatRectangle& from) {
@@ -74,14 +98,39 @@ void fill_places(const QcScan& scan, QcPicture& picture) {
     picture.alpha_clear = alpha.pixels > 0 ? double(alpha.clear) / double(alpha.pixels) : 0;
 }
 
+void fill_statistics(const QcScan& scan, QcPicture& picture) {
+    const metrics::DetailScan& detail = scan.detail();
+    picture.fine = detail.fine();
+    picture.coarse = detail.coarse();
+    picture.across = detail.across();
+    picture.down = detail.down();
+    const metrics::ValueScan& values = scan.values();
+    picture.at_one = values.at_one;
+    picture.beside_one = values.beside_one;
+    picture.at_largest_half = values.at_largest_half;
+    picture.magenta = scan.magenta();
+    picture.speed = scan.speed();
+}
+
+void fill_cells(const QcScan& scan, QcPicture& picture) {
+    for (double mean : scan.cell_means())
+        picture.thumbnail.push_back(thousandths_of_stops(mean));
+    const std::vector<double>& colors = scan.cell_colors();
+    for (size_t i = 0; i < colors.size(); i += 3) {
+        picture.red.push_back(tint_of(colors[i], colors[i + 1]));
+        picture.blue.push_back(tint_of(colors[i + 2], colors[i + 1]));
+    }
+    for (double peak : scan.cell_peaks())
+        picture.peaks.push_back(eighths_of_stops(peak));
+    picture.fingerprints = scan.fingerprints();
+}
+
 void fill_picture(const QcScan& scan, QcPicture& picture) {
     picture.layer = scan.choice().layer;
     picture.space = scan.choice().space;
     picture.hash = scan.hash();
-    for (double mean : scan.cell_means())
-        picture.thumbnail.push_back(thousandths_of_stops(mean));
-    for (double peak : scan.cell_peaks())
-        picture.peaks.push_back(thousandths_of_stops(peak));
+    fill_cells(scan, picture);
+    fill_statistics(scan, picture);
     picture.alpha_low = count_of(scan.alpha().below);
     picture.alpha_high = count_of(scan.alpha().above);
     picture.lit = scan.lit();
@@ -112,6 +161,8 @@ void measure(QcFacts& facts, const std::vector<const ImageBuf*>& parts, const Qc
     facts.channels = channel_facts(scan.spec(), parts);
     for (const QcScan::Layer& layer : scan.layers())
         facts.layers.push_back(layer_of(layer));
+    for (const QcScan::Guide& guide : scan.guides())
+        facts.guides.push_back(guide_of(scan, guide));
     fill_picture(scan, facts.picture);
 }
 

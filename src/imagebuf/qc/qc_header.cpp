@@ -32,6 +32,10 @@ const char* kind_by_name(const AovLayer& layer) {
         return "depth";
     case AovKind::Position:
         return layer.triple() ? "position" : "";
+    case AovKind::Normal:
+        return layer.triple() ? "normal" : "";
+    case AovKind::Albedo:
+        return layer.has_rgb() ? "albedo" : "";
     case AovKind::Motion:
         return "motion";
     case AovKind::Id:

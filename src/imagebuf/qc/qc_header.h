@@ -20,7 +20,7 @@ OIIO::ImageSpec joined_spec(const std::vector<const OIIO::ImageBuf*>& parts);
 std::vector<std::pair<std::string, std::string>>
 channel_facts(const OIIO::ImageSpec& joined, const std::vector<const OIIO::ImageBuf*>& parts);
 
-/// "picture", "light", "color", "depth", "position", "motion", "id", "data".
+/// "picture", "light", "color", "albedo", "depth", "position", "normal", "motion", "id", "data".
 std::string layer_kind(const AovLayer& layer, const ColorChoice& picture,
                        const std::vector<LightGroup>& groups);
 

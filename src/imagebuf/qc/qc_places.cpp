@@ -33,7 +33,7 @@ void QcScan::scan_places(int y, const std::vector<float>& rgb, Row& row) const {
         row.border = {metrics::same_color(&rgb[0], &rgb[3]),
                       metrics::same_color(&rgb[rgb.size() - 3], &rgb[rgb.size() - 6])};
     }
-    if (y < window.ybegin + 2 || y >= window.yend - 2)
+    if (y < window.ybegin + 2 || y >= window.yend - 2 || m_fingerprints.wants(y))
         row.colors = rgb;
 }
 
@@ -55,6 +55,8 @@ void QcScan::add_places(int y, const Row& row) {
         compare(m_borders[2]);
     if (y == window.yend - 1 && y > window.ybegin)
         compare(m_borders[3]);
+    if (!row.colors.empty() && m_fingerprints.wants(y))
+        m_fingerprints.add_row(y, row.colors, window.xbegin);
     m_row_before = row.colors;
 }
 

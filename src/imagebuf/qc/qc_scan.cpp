@@ -47,8 +47,9 @@ void QcScan::open(const std::vector<const ImageBuf*>& parts, const QcOptions& op
             m_weights[c] += kernels::kLuminance[p] * m_space.to_rec709[p][c];
     list_layers();
     place_cells();
+    choose_guides();
     if (has_picture())
-        m_largest_begin = m_spikes_done = picture_window().ybegin;
+        m_held_begin = m_searched = picture_window().ybegin;
 }
 
 void QcScan::open_parts(const std::vector<const ImageBuf*>& parts) {
@@ -134,7 +135,7 @@ void QcScan::run() {
         for (int y = begin; y < end; ++y)
             add(y, rows[size_t(y - begin)]);
         if (has_picture())
-            scan_spikes(end == last);
+            scan_neighbourhoods(end == last);
         begin = end;
     }
     if (has_picture())
@@ -181,6 +182,9 @@ void QcScan::scan_row(int y, Row& row) const {
             row.alpha = scan_range(pixels, alpha.channel, -QcPicture::kAlphaSlack,
                                    1 + QcPicture::kAlphaSlack);
     }
+    scan_guides(y, row);
+    scan_albedo(y, row);
+    scan_motion(y, row);
     if (has_picture())
         scan_picture_row(y, row);
 }
@@ -204,8 +208,8 @@ void QcScan::scan_picture_row(int y, Row& row) const {
     if (m_space.encoded() || m_space.scale != 1)
         for (float& v : rgb)
             v = float(m_space.light(double(v), 1));
-    row.picture = metrics::scan_picture(rgb.data(), pixels.width, m_weights, m_cell_of.data(),
-                                        size_t(QcPicture::kWide));
+    row.picture = metrics::scan_picture(rgb.data(), pixels.width, m_weights, m_columns);
+    row.light = metrics::light_row(std::move(row.picture.light));
 }
 
 // The levels of alpha; lit pixels, and those of them that alpha hides.
@@ -257,10 +261,11 @@ void QcScan::add(int y, const Row& row) {
     m_unseen.add(row.unseen);
     m_alpha_levels.add(row.alpha_levels);
     add_places(y, row);
+    add_guides(y, row);
     m_group_scan.add(row.groups);
     m_hashes += row.hash;
     if (!row.picture.largest.empty()) {
-        m_largest.push_back(row.picture.largest);
+        m_held.push_back({row.picture.largest, row.light});
         add_cells(y, row.picture.cells);
     }
 }
@@ -289,58 +294,86 @@ std::string QcScan::hash() const {
     return fingerprint(m_hashes.data(), m_hashes.size());
 }
 
-void QcScan::scan_spikes(bool last) {
+// The fireflies and the detail of the rows whose neighbours are there.
+void QcScan::scan_neighbourhoods(bool last) {
+    constexpr int radius = Spike::kRadius;
+    static_assert(radius == metrics::DetailScan::kRadius, "both look at the same rows");
     const ROI& window = picture_window();
-    const int held = m_largest_begin + int(m_largest.size());
-    const int end = last ? held : held - Spike::kRadius;
-    std::vector<std::vector<Spike>> found(size_t(std::max(end - m_spikes_done, 0)));
-    make_parallel(m_nthreads)(int64_t(found.size()), [&](int64_t i) {
-        const int y = m_spikes_done + int(i);
-        const float* rows[2 * Spike::kRadius + 1];
-        for (int dy = -Spike::kRadius; dy <= Spike::kRadius; ++dy) {
-            const int at = y + dy;
-            rows[dy + Spike::kRadius] = at >= m_largest_begin && at < held
-                                            ? m_largest[size_t(at - m_largest_begin)].data()
-                                            : nullptr;
+    const int held = m_held_begin + int(m_held.size());
+    const int end = last ? held : held - radius;
+    const auto count = size_t(std::max(end - m_searched, 0));
+    std::vector<std::vector<Spike>> found(count);
+    std::vector<metrics::DetailRow> details(count);
+    make_parallel(m_nthreads)(int64_t(count), [&](int64_t i) {
+        const int y = m_searched + int(i);
+        const float* largest[2 * radius + 1] = {};
+        const metrics::LightRow* light[2 * radius + 1] = {};
+        for (int at = std::max(y - radius, m_held_begin); at < std::min(y + radius + 1, held);
+             ++at) {
+            const Held& row = m_held[size_t(at - m_held_begin)];
+            largest[at - y + radius] = row.largest.data();
+            light[at - y + radius] = &row.light;
         }
-        metrics::find_spikes(rows, window.width(), window.xbegin, y, found[size_t(i)]);
+        metrics::find_spikes(largest, window.width(), window.xbegin, y, found[size_t(i)]);
+        details[size_t(i)] = metrics::DetailScan::scan(light, y - window.ybegin);
     });
-    for (const std::vector<Spike>& row : found) {
-        m_spike_count += int64_t(row.size());
-        m_spikes.insert(m_spikes.end(), row.begin(), row.end());
+    for (size_t i = 0; i < count; ++i) {
+        m_spike_count += int64_t(found[i].size());
+        m_spikes.insert(m_spikes.end(), found[i].begin(), found[i].end());
+        m_detail.add(details[i]);
     }
     metrics::keep_largest(m_spikes, QcPicture::kSpikes);
-    m_spikes_done = std::max(end, m_spikes_done);
-    while (!m_largest.empty() && m_largest_begin < m_spikes_done - Spike::kRadius) {
-        m_largest.pop_front();
-        ++m_largest_begin;
+    m_searched = std::max(end, m_searched);
+    while (!m_held.empty() && m_held_begin < m_searched - radius) {
+        m_held.pop_front();
+        ++m_held_begin;
     }
 }
 
-void QcScan::place_cells() {
-    m_cells.assign(size_t(QcPicture::kWide) * QcPicture::kHigh, 0);
-    m_peaks.assign(m_cells.size(), 0);
-    m_missing.assign(m_cells.size(), 0);
-    if (!has_picture())
-        return;
-    const ROI& window = picture_window();
+// The cell of each column of a data window, of `cells` in the display window, or -1.
+std::vector<int> QcScan::columns_of(const ROI& window, int cells) const {
+    std::vector<int> columns;
     for (int x = window.xbegin; x < window.xend; ++x) {
         const int64_t at = int64_t(x) - m_spec.full_x;
         const bool inside = at >= 0 && at < m_spec.full_width;
-        m_cell_of.push_back(inside ? int(at * QcPicture::kWide / m_spec.full_width) : -1);
+        columns.push_back(inside ? int(at * cells / m_spec.full_width) : -1);
     }
+    return columns;
+}
+
+void QcScan::place_cells() {
+    constexpr int wide = QcPicture::kWide, peaks = QcPicture::kPeaksWide;
+    m_columns.cells = size_t(wide);
+    m_columns.peaks = size_t(peaks);
+    m_cells.assign(size_t(wide) * QcPicture::kHigh, 0);
+    m_colors.assign(3 * m_cells.size(), 0);
+    m_peaks.assign(size_t(peaks) * QcPicture::kPeaksHigh, 0);
+    m_missing.assign(m_cells.size(), 0);
+    m_fingerprints = {m_spec.full_x,      m_spec.full_y, m_spec.full_width,
+                      m_spec.full_height, size_t(peaks), size_t(QcPicture::kPeaksHigh)};
+    if (!has_picture())
+        return;
+    m_columns.cell = columns_of(picture_window(), wide);
+    m_columns.peak = columns_of(picture_window(), peaks);
 }
 
 void QcScan::add_cells(int y, const metrics::CellRow& cells) {
     const int64_t at = int64_t(y) - m_spec.full_y;
     if (at < 0 || at >= m_spec.full_height)
         return;
-    const auto first = size_t(at * QcPicture::kHigh / m_spec.full_height) * QcPicture::kWide;
-    for (size_t x = 0; x < size_t(QcPicture::kWide); ++x) {
-        m_cells[first + x] += cells.sum[x];
-        m_peaks[first + x] = std::max(m_peaks[first + x], double(cells.largest[x]));
+    const auto row = [&](int wide, int high) {
+        return size_t(at * high / m_spec.full_height) * size_t(wide);
+    };
+    const size_t first = row(QcPicture::kWide, QcPicture::kHigh);
+    for (size_t x = 0; x < m_columns.cells; ++x) {
+        m_cells[first + x] += cells.light[x];
         m_missing[first + x] += cells.missing[x];
+        for (size_t c = 0; c < 3; ++c)
+            m_colors[3 * (first + x) + c] += cells.color[3 * x + c];
     }
+    const size_t first_peak = row(QcPicture::kPeaksWide, QcPicture::kPeaksHigh);
+    for (size_t x = 0; x < m_columns.peaks; ++x)
+        m_peaks[first_peak + x] = std::max(m_peaks[first_peak + x], double(cells.peaks[x]));
 }
 
 // How many columns (or rows) of `size` fall into a cell of `cells`.

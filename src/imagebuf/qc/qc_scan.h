@@ -11,7 +11,9 @@
 #include "imagebuf/aov/light_groups.h"
 #include "imagebuf/color/color_source.h"
 #include "imagebuf/pixels/row_source.h"
+#include "metrics/detail_scan.h"
 #include "metrics/fault_scan.h"
+#include "metrics/fingerprints.h"
 #include "metrics/rectangle_scan.h"
 #include "metrics/value_scan.h"
 #include "tonetool/qc.h"
@@ -30,6 +32,14 @@ public:
         bool exact = false;   ///< its values are hashed
         std::string hashes{}; ///< of its rows
         std::string hash() const;
+    };
+    /// Sums of a layer without noise over the cells of the thumbnail.
+    struct Guide {
+        size_t layer = 0;         ///< among layers()
+        std::vector<int> columns; ///< cells of the columns of its part, or -1
+        std::vector<double> sums; ///< of each cell those of its channels
+        std::vector<int64_t> pixels;
+        std::vector<double> means(size_t channels) const;
     };
     /// Left, right, top, bottom.
     using Borders = std::array<metrics::BorderScan, 4>;
@@ -54,7 +64,14 @@ public:
     int64_t spike_count() const { return m_spike_count; }
     std::string hash() const;
     std::vector<double> cell_means() const;
+    /// Red, green and blue of each cell.
+    const std::vector<double>& cell_colors() const { return m_colors; }
     const std::vector<double>& cell_peaks() const { return m_peaks; }
+    const std::vector<Guide>& guides() const { return m_guides; }
+    std::vector<int> fingerprints() const { return m_fingerprints.codes(); }
+    const metrics::DetailScan& detail() const { return m_detail; }
+    double magenta() const;
+    double speed() const { return m_speed.quantile(0.95); }
     bool has_picture() const { return m_choice.r >= 0; }
     const OIIO::ROI& picture_window() const { return m_parts[place_of(m_choice.r).part].window; }
     /// Pixels of the picture that are lit, and those of them whose alpha is 0.
@@ -77,10 +94,18 @@ private:
         size_t part = 0;
         int channel = 0;
     };
+    struct Share {
+        int64_t some = 0, all = 0;
+    };
+    struct GuideRow {
+        std::vector<double> sums;
+        std::vector<int64_t> pixels;
+    };
     struct Row {
         std::vector<metrics::LayerScan> layers;
         metrics::RangeScan alpha;
         metrics::PictureRow picture;
+        metrics::LightRow light;
         metrics::GroupScan groups;
         std::string hash;
         int64_t lit = 0;
@@ -90,7 +115,10 @@ private:
         std::vector<metrics::FlatRun> runs;
         metrics::ValueScan values;
         std::array<bool, 2> border{}; ///< whether the outermost pixels equal those inside of them
-        std::vector<float> colors;    ///< of the two rows at the top and the bottom
+        std::vector<float> colors;    ///< of the rows at the top, at the bottom, of fingerprints
+        std::vector<GuideRow> guides;
+        Share magenta;
+        std::vector<metrics::StepHistogram::Code> speeds;
     };
 
     void open_parts(const std::vector<const OIIO::ImageBuf*>& parts);
@@ -99,6 +127,12 @@ private:
     Layer lone_layer(int channel) const;
     void scan_alpha(int y, const std::vector<float>& rgb, Row& row) const;
     void place_cells();
+    std::vector<int> columns_of(const OIIO::ROI& window, int cells) const;
+    void choose_guides();
+    void scan_guides(int y, Row& row) const;
+    void scan_albedo(int y, Row& row) const;
+    void scan_motion(int y, Row& row) const;
+    void add_guides(int y, const Row& row);
     Place place_of(int channel) const;
 
     void read_band(int begin, int end);
@@ -111,7 +145,7 @@ private:
     void add_places(int y, const Row& row);
     void finish_places();
     void add(int y, const Row& row);
-    void scan_spikes(bool last);
+    void scan_neighbourhoods(bool last);
     void add_cells(int y, const metrics::CellRow& cells);
     int64_t display_pixels(int cell_x, int cell_y) const;
 
@@ -122,7 +156,9 @@ private:
     double m_weights[3] = {0, 0, 0};
     std::vector<LightGroup> m_groups;
     std::vector<Layer> m_layers;
-    std::vector<int> m_cell_of; ///< of the columns of the picture's data window
+    metrics::CellColumns m_columns; ///< of the picture's data window
+    std::vector<Guide> m_guides;
+    int m_albedo = -1, m_motion = -1; ///< among the layers
     int m_nthreads = 0;
 
     metrics::RangeScan m_alpha;
@@ -133,14 +169,22 @@ private:
     std::vector<metrics::FlatRectangle> m_rectangles;
     Borders m_borders;
     metrics::ValueScan m_values;
-    std::vector<float> m_row_before; ///< at the top and the bottom
+    std::vector<float> m_row_before; ///< if it was kept
     metrics::GroupScan m_group_scan;
     std::string m_hashes;
-    std::vector<double> m_cells, m_peaks;
+    std::vector<double> m_cells, m_colors, m_peaks;
     std::vector<int64_t> m_missing;
-    std::deque<std::vector<float>> m_largest; ///< rows of the picture that spikes may still need
-    int m_largest_begin = 0;                  ///< the first of them
-    int m_spikes_done = 0;                    ///< the first row that was not searched
+    metrics::FingerprintScan m_fingerprints;
+    Share m_magenta;
+    metrics::StepHistogram m_speed;
+    metrics::DetailScan m_detail;
+    struct Held {
+        std::vector<float> largest;
+        metrics::LightRow light;
+    };
+    std::deque<Held> m_held; ///< rows of the picture that later ones may still need
+    int m_held_begin = 0;    ///< the first of them
+    int m_searched = 0;      ///< the first row whose neighbourhood was not looked at
     std::vector<metrics::Spike> m_spikes;
     int64_t m_spike_count = 0;
 };

@@ -40,8 +40,8 @@ struct QcCount {
 
 struct QcLayer {
     std::string name; ///< "" for plain R,G,B
-    /// "picture": the beauty; "light": a light group of it; "color"; "depth", which may be
-    /// infinite; "position"; "motion"; "id", of objects; "data"
+    /// "picture": the beauty; "light": a light group of it; "color"; "albedo"; "depth", which may
+    /// be infinite; "position"; "normal"; "motion"; "id", of objects; "data"
     std::string kind;
     /// Of the values of a depth, position or id without filter: equal where camera and geometry
     /// are.
@@ -51,6 +51,18 @@ struct QcLayer {
     double min = 0, max = 0;
     double mean = 0; ///< of the luminance if the layer is a colour, else of all its values
     QcCount nan, inf, negative;
+};
+
+/// A layer without noise in the cells of QcPicture's thumbnail, which tells what moves.
+struct QcGuide {
+    std::string layer;
+    int channels = 0;
+    /// Of each cell the means of the channels, by code(); what is beyond 1e9, or not finite, counts
+    /// as 0.
+    std::vector<int> cells;
+    /// sign(x) log2(1 + 1000 |x|) in 1/1000: relative above 0.001, linear below, in 16 bits.
+    TONETOOL_API static int code(double value);
+    TONETOOL_API static double value(int code);
 };
 
 struct QcPart {
@@ -83,10 +95,17 @@ struct QcPicture {
     /// read back.
     std::vector<int> thumbnail;
     static constexpr int kWide = 32, kHigh = 18, kDark = -30000;
-    std::vector<int> peaks; ///< the largest components in the same cells, in the same units
-    std::string hash;       ///< hash of its pixel values
-    QcCount alpha_low;      ///< below 0 by more than kAlphaSlack, or NaN
-    QcCount alpha_high;     ///< above 1 by as much
+    /// Of the mean colours of the same cells: red and blue over green in 1/32 stop, -128 to 127.
+    std::vector<int> red, blue;
+    /// The largest components in kPeaksWide x kPeaksHigh cells, in 1/8 stop, at least kPeakDark.
+    std::vector<int> peaks;
+    static constexpr int kPeaksWide = 64, kPeaksHigh = 36, kPeakDark = -112, kPeakBright = 143;
+    /// In the middle of these finer cells: 16 bits that tell 4 x 4 pixels, 0 where they have one
+    /// colour.
+    std::vector<int> fingerprints;
+    std::string hash;   ///< hash of its pixel values
+    QcCount alpha_low;  ///< below 0 by more than kAlphaSlack, or NaN
+    QcCount alpha_high; ///< above 1 by as much
     /// Rounding of filter weights that are added up in half float.
     static constexpr double kAlphaSlack = 1e-3;
     int64_t lit = 0; ///< non-black pixels, counted only where there is an alpha
@@ -94,7 +113,7 @@ struct QcPicture {
     /// Fireflies: pixels 8 times as large as all at a distance of 3 pixels.
     int64_t spike_count = 0;
     std::vector<QcSpot> spikes; ///< the largest fireflies, by value; at most kSpikes
-    static constexpr size_t kSpikes = 32;
+    static constexpr size_t kSpikes = 64;
     /// The largest rectangles of at least 8 x 8 pixels of one colour, by row, then column; none
     /// that fills the picture.
     std::vector<QcRectangle> rectangles;
@@ -105,9 +124,17 @@ struct QcPicture {
     /// The shares of pixels that equal their right neighbour, of those in even and in odd columns:
     /// one of them is nearly 1 and the other small where each pixel was written twice.
     std::array<double, 2> pairs{};
-    int64_t greens = 0;          ///< pixels whose green is above 0.01 and below 1
-    int distinct = 0;            ///< different values of these, at most 1000
-    int groups = 0;              ///< light groups
+    int64_t greens = 0; ///< pixels whose green is above 0.01 and below 1
+    int distinct = 0;   ///< different values of these, at most 1000
+    /// Medians over lit pixels, in stops: the distance from the mean of the four neighbours, the
+    /// same of means of 2 x 2 pixels, the distances from the pixel to the left and from that above.
+    double fine = 0, coarse = 0, across = 0, down = 0;
+    /// Pixels with all channels lit, one exactly 1 and another not, as a clamp leaves them; with a
+    /// channel at one of the two half floats beside 1, by chance; with a channel at 65504.
+    int64_t at_one = 0, beside_one = 0, at_largest_half = 0;
+    double magenta = 0; ///< share of an albedo that is magenta, as where a texture lacks
+    double speed = 0; ///< of a motion layer: the 95th percentile of its absolute values, in pixels
+    int groups = 0;   ///< light groups
     double group_sum = 0;        ///< light of all groups divided by that of the beauty
     double group_difference = 0; ///< sum of the pixels' differences, divided by the same
     QcSpot group_worst;          ///< the pixel with the largest difference, and that difference
@@ -117,6 +144,8 @@ struct QcFacts {
     std::vector<QcPart> parts;
     std::vector<std::pair<std::string, std::string>> channels; ///< name and type, as in the file
     std::vector<QcLayer> layers;
+    /// The first two that there are of a depth, a normal, a position, an albedo.
+    std::vector<QcGuide> guides;
     QcPicture picture;
 };
 

@@ -28,6 +28,18 @@ void take_record(QcFrame& frame, QcRecord record) {
     frame.blank = is_blank(frame.facts, record.limits);
 }
 
+// A part of a shot may be so short, and is judged anew when it is merged with others.
+void find_few(QcShot& shot) {
+    const std::vector<QcFrame*> frames = shot.pictures();
+    if (frames.size() > 1 && frames.size() < kEnoughFrames) {
+        shot.add(*frames.front(), "fewframes",
+                 OIIO::Strutil::fmt::format(
+                     "{} frames are too few for the rules that need {}: places, moments, motion "
+                     "and statistics were not judged",
+                     frames.size(), kEnoughFrames));
+    }
+}
+
 void search(QcShot& shot) {
     for (QcFrame& frame : shot.frames)
         if (frame.measured)
@@ -40,11 +52,17 @@ void search(QcShot& shot) {
     find_odd_headers(shot);
     find_lost_layers(shot);
     find_group_faults(shot);
+    find_clamped(shot);
+    find_magenta(shot);
     find_holes(shot);
+    find_stale_buckets(shot);
     find_moments(shot);
     find_stalls(shot);
+    find_odd_motion(shot);
     find_flicker(shot);
     find_fireflies(shot);
+    find_odd_statistics(shot);
+    find_few(shot);
 }
 
 bool is_found_here(const Fault& fault) {
@@ -130,6 +148,7 @@ void QcShot::add(QcFrame& frame, const std::string& code, const std::string& sen
     fault.sentence = sentence;
     fault.layer = detail.layer;
     fault.position = detail.position;
+    fault.rectangle = detail.rectangle;
     fault.value = detail.value;
     if (detail.value)
         fault.threshold = threshold(code);
@@ -181,6 +200,14 @@ const QcLayer& picture_layer(const QcFacts& facts) {
     const auto found = std::find_if(facts.layers.begin(), facts.layers.end(),
                                     [](const QcLayer& layer) { return layer.kind == "picture"; });
     return found == facts.layers.end() ? no_layer() : *found;
+}
+
+bool same_windows(const QcFrame& a, const QcFrame& b) {
+    const auto same = [](const QcPart& x, const QcPart& y) {
+        return x.data == y.data && x.display == y.display;
+    };
+    const std::vector<QcPart>&parts = a.facts.parts, &others = b.facts.parts;
+    return std::equal(parts.begin(), parts.end(), others.begin(), others.end(), same);
 }
 
 std::string frames_text(int first, int last) {

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Fireflies: lone bright pixels that are neither in their neighbourhood nor in other frames.
+// Fireflies: lone bright pixels that are neither in their neighbourhood nor in other frames; and
+// hot pixels, which are in all frames, whatever moves.
 #include <OpenImageIO/strutil.h>
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <set>
 
 #include "sequence/qc/qc_thumbnails.h"
 
@@ -18,8 +21,10 @@ constexpr size_t kFew = 9;
 constexpr double kNoise = 4;
 // The factor by which a small lamp may change as it moves over the pixels.
 constexpr double kSameLight = 4;
-// The distance, in cells of the thumbnail, that a lamp may move in a frame: 6 % of the width.
-constexpr int kMoves = 2;
+// The distance that a lamp may move in a frame where no layer tells it, in cells of the peaks: 6 %
+// of the width.
+constexpr int kMoves = 4;
+constexpr int kWide = QcPicture::kPeaksWide, kHigh = QcPicture::kPeaksHigh;
 
 // A candidate that no neighbouring frame has.
 struct Lone {
@@ -38,6 +43,10 @@ double luminance_of(int cell) {
     return cell > QcPicture::kDark ? std::exp2(cell / 1000.0) : 0;
 }
 
+double peak_of(int cell) {
+    return cell > QcPicture::kPeakDark ? std::exp2(cell / 8.0) : 0;
+}
+
 double mean_luminance(const QcFacts& facts) {
     double sum = 0;
     for (int cell : facts.picture.thumbnail)
@@ -51,31 +60,41 @@ struct Cell {
 
 Cell cell_of(const QcFacts& facts, const QcSpot& spike) {
     const std::array<int, 4>& window = facts.parts.front().display;
-    const double x = double(spike.x - window[0]) / window[2] * QcPicture::kWide;
-    const double y = double(spike.y - window[1]) / window[3] * QcPicture::kHigh;
+    const double x = double(spike.x - window[0]) / window[2] * kWide;
+    const double y = double(spike.y - window[1]) / window[3] * kHigh;
     return {int(std::floor(x)), int(std::floor(y))};
 }
 
 // Nobody sees what is outside of the display window.
 bool is_inside(const Cell& cell) {
-    return cell.x >= 0 && cell.y >= 0 && cell.x < QcPicture::kWide && cell.y < QcPicture::kHigh;
+    return cell.x >= 0 && cell.y >= 0 && cell.x < kWide && cell.y < kHigh;
 }
 
-bool is_at_border(const Cell& cell) {
-    return cell.x < kMoves || cell.y < kMoves || cell.x >= QcPicture::kWide - kMoves ||
-           cell.y >= QcPicture::kHigh - kMoves;
+bool is_at_border(const Cell& cell, int reach) {
+    return cell.x < reach || cell.y < reach || cell.x >= kWide - reach || cell.y >= kHigh - reach;
+}
+
+// How far a lamp may move to the next frame, in cells of the peaks: as far as most pixels do.
+int reach_of(const QcFacts& facts) {
+    constexpr double margin = 1.5;
+    if (std::none_of(facts.layers.begin(), facts.layers.end(),
+                     [](const QcLayer& layer) { return layer.kind == "motion"; }))
+        return kMoves;
+    const double width = facts.parts.front().display[2];
+    const double cells = std::ceil(margin * facts.picture.speed / width * kWide);
+    return 1 + int(std::min(cells, double(kWide)));
 }
 
 // A lamp or a glint is there in the next frame, too, not far away.
-bool is_seen_in(const QcFacts& other, const QcSpot& spike) {
+bool is_seen_in(const QcFacts& other, const QcSpot& spike, int reach) {
     const Cell cell = cell_of(other, spike);
-    const int right = std::min(cell.x + kMoves, QcPicture::kWide - 1);
-    const int bottom = std::min(cell.y + kMoves, QcPicture::kHigh - 1);
+    const int right = std::min(cell.x + reach, kWide - 1);
+    const int bottom = std::min(cell.y + reach, kHigh - 1);
     double most = 0;
-    for (int y = std::max(cell.y - kMoves, 0); y <= bottom; ++y) {
-        for (int x = std::max(cell.x - kMoves, 0); x <= right; ++x) {
-            const size_t at = size_t(y) * QcPicture::kWide + size_t(x);
-            most = std::max(most, luminance_of(other.picture.peaks[at]));
+    for (int y = std::max(cell.y - reach, 0); y <= bottom; ++y) {
+        for (int x = std::max(cell.x - reach, 0); x <= right; ++x) {
+            const size_t at = size_t(y) * size_t(kWide) + size_t(x);
+            most = std::max(most, peak_of(other.picture.peaks[at]));
         }
     }
     return most * kSameLight >= spike.value;
@@ -88,13 +107,16 @@ using Neighbours = std::vector<const QcFrame*>;
 // or be about to leave.
 Spikes spikes_of(QcFrame& frame, const Neighbours& neighbours, double usual_mean) {
     Spikes spikes{&frame, {}};
+    const int reach = reach_of(frame.facts);
     for (const QcSpot& spot : frame.facts.picture.spikes) {
         const Cell cell = cell_of(frame.facts, spot);
         const double around = std::max(spot.around, kFloor * usual_mean);
         const bool known =
-            std::any_of(neighbours.begin(), neighbours.end(),
-                        [&](const QcFrame* other) { return is_seen_in(other->facts, spot); });
-        const bool unsure = neighbours.empty() || (neighbours.size() < 2 && is_at_border(cell));
+            std::any_of(neighbours.begin(), neighbours.end(), [&](const QcFrame* other) {
+                return is_seen_in(other->facts, spot, reach);
+            });
+        const bool unsure =
+            neighbours.empty() || (neighbours.size() < 2 && is_at_border(cell, reach));
         if (is_inside(cell) && !known && !unsure && around > 0)
             spikes.lone.push_back({&spot, spot.value / around});
     }
@@ -103,14 +125,19 @@ Spikes spikes_of(QcFrame& frame, const Neighbours& neighbours, double usual_mean
     return spikes;
 }
 
-void judge_frame(QcShot& shot, const std::vector<Spikes>& all, size_t i) {
+// How large, in units of its neighbourhood, a spike of frame i must be.
+double limit_of(const QcShot& shot, const std::vector<Spikes>& all, size_t i) {
     std::vector<double> largest;
     for (size_t k = 0; k < all.size(); ++k)
         if (k != i)
             largest.push_back(all[k].largest());
+    return std::max(shot.threshold("firefly"),
+                    kNoise * std::max(all[i].noise(), median(std::move(largest))));
+}
+
+void judge_frame(QcShot& shot, const std::vector<Spikes>& all, size_t i) {
     const std::vector<Lone>& lone = all[i].lone;
-    const double limit = std::max(shot.threshold("firefly"),
-                                  kNoise * std::max(all[i].noise(), median(std::move(largest))));
+    const double limit = limit_of(shot, all, i);
     const auto end =
         std::find_if(lone.begin(), lone.end(), [&](const Lone& at) { return at.ratio <= limit; });
     const auto count = end - lone.begin();
@@ -124,6 +151,40 @@ void judge_frame(QcShot& shot, const std::vector<Spikes>& all, size_t i) {
                 count, count == 1 ? "firefly" : "fireflies", worst.x, worst.y, worst.value,
                 worst.around),
             {all[i].frame->facts.picture.layer, Position{worst.x, worst.y}, lone.front().ratio});
+        all[i].frame->changed = true;
+        if (i + 1 < all.size())
+            all[i + 1].frame->changed = true;
+    }
+}
+
+// Fireflies of a fixed seed are at the same pixels in all frames.
+void find_hot_pixels(QcShot& shot, const std::vector<QcFrame*>& frames, double usual_mean) {
+    constexpr double mostly = 0.6;
+    std::map<std::pair<int, int>, size_t> count; // by row, then column
+    std::set<std::string> moments;
+    for (const QcFrame* frame : frames) {
+        moments.insert(moment_of(frame->facts));
+        for (const QcSpot& spot : frame->facts.picture.spikes)
+            if (spot.value >
+                shot.threshold("hotpixel") * std::max(spot.around, kFloor * usual_mean))
+                ++count[{spot.y, spot.x}];
+    }
+    const bool moves = 2 * moments.size() > frames.size();
+    size_t hot = 0;
+    Position first;
+    for (const auto& [at, times] : count) {
+        if (double(times) <= mostly * double(frames.size()))
+            continue;
+        if (hot++ == 0)
+            first = {at.second, at.first};
+    }
+    if (frames.size() >= kEnoughFrames && moves && hot > 0) {
+        shot.add(*frames.front(), "hotpixel",
+                 OIIO::Strutil::fmt::format(
+                     "{} {} lone and bright in most frames, the first at ({}, {}), though the "
+                     "camera or the scene moves",
+                     hot, hot == 1 ? "pixel is" : "pixels are", first.x, first.y),
+                 {frames.front()->facts.picture.layer, first, {}, {}});
     }
 }
 
@@ -147,8 +208,12 @@ void find_fireflies(QcShot& shot) {
             neighbours.push_back(frames[i + 1]);
         all.push_back(spikes_of(*frames[i], neighbours, usual_mean));
     }
+    size_t sparks = 0;
     for (size_t i = 0; i < all.size(); ++i)
+        sparks += all[i].largest() > limit_of(shot, all, i);
+    for (size_t i = 0; i < all.size() && sparks <= std::max<size_t>(2, all.size() / 4); ++i)
         judge_frame(shot, all, i);
+    find_hot_pixels(shot, frames, usual_mean);
 }
 
 } // namespace tonetool::sequence

@@ -5,6 +5,7 @@
 #include <cstring>
 #include <stdexcept>
 
+#include "sequence/qc/qc_cells.h"
 #include "sequence/results/json_text.h"
 
 namespace tonetool {
@@ -145,7 +146,53 @@ QcLayer layer_of(const ordered_json& from) {
     return layer;
 }
 
-// What records of versions before 0.2 do not have: without it the rules of places are silent.
+// Numbers of the picture, by their names.
+template <class Picture, class Visit>
+void visit_statistics(Picture& picture, const Visit& visit) {
+    visit("fine", picture.fine);
+    visit("coarse", picture.coarse);
+    visit("across", picture.across);
+    visit("down", picture.down);
+    visit("magenta", picture.magenta);
+    visit("speed", picture.speed);
+}
+
+template <class Picture, class Visit>
+void visit_clamps(Picture& picture, const Visit& visit) {
+    visit("at_one", picture.at_one);
+    visit("beside_one", picture.beside_one);
+    visit("at_largest_half", picture.at_largest_half);
+}
+
+// Those that are 0 are left out.
+void put_statistics(ordered_json& to, const QcPicture& picture) {
+    ordered_json statistics = ordered_json::object();
+    visit_statistics(picture, [&](const char* name, double value) {
+        if (value != 0)
+            statistics[name] = value;
+    });
+    visit_clamps(picture, [&](const char* name, int64_t pixels) {
+        if (pixels > 0)
+            statistics[name] = pixels;
+    });
+    if (!statistics.empty())
+        to["statistics"] = statistics;
+}
+
+void read_statistics(const ordered_json& from, QcPicture& picture) {
+    if (!from.contains("statistics"))
+        return;
+    const ordered_json& statistics = from["statistics"];
+    visit_statistics(picture, [&](const char* name, double& value) {
+        if (statistics.contains(name))
+            read_real(statistics, name, value);
+    });
+    visit_clamps(picture, [&](const char* name, int64_t& pixels) {
+        if (statistics.contains(name))
+            read_whole(statistics, name, pixels);
+    });
+}
+
 void put_places(ordered_json& to, const QcPicture& picture) {
     if (picture.alpha_mean != 0 || picture.alpha_clear != 0)
         to["alpha"] = {{"mean", picture.alpha_mean}, {"clear", picture.alpha_clear}};
@@ -191,8 +238,6 @@ ordered_json json_of(const QcPicture& picture) {
     ordered_json to = {{"layer", picture.layer},
                        {"space", picture.space},
                        {"hash", picture.hash},
-                       {"thumbnail", picture.thumbnail},
-                       {"peaks", picture.peaks},
                        {"spike_count", picture.spike_count},
                        {"spikes", json_of(picture.spikes)}};
     put(to, "alpha_low", picture.alpha_low);
@@ -202,6 +247,7 @@ ordered_json json_of(const QcPicture& picture) {
         put(to, "unseen", picture.unseen);
     }
     put_places(to, picture);
+    put_statistics(to, picture);
     if (picture.groups > 0) {
         to["groups"] = {{"count", picture.groups},
                         {"sum", picture.group_sum},
@@ -211,24 +257,11 @@ ordered_json json_of(const QcPicture& picture) {
     return to;
 }
 
-std::vector<int> cells_of(const ordered_json& from, const char* key) {
-    std::vector<int> cells;
-    read_whole_numbers(from, key, cells);
-    if (cells.size() != size_t(QcPicture::kWide) * QcPicture::kHigh) {
-        throw std::runtime_error(std::string(key) + " has " + std::to_string(cells.size()) +
-                                 " values, not " + std::to_string(QcPicture::kWide) + " x " +
-                                 std::to_string(QcPicture::kHigh));
-    }
-    return cells;
-}
-
 QcPicture picture_of(const ordered_json& from) {
     QcPicture picture;
     from.at("layer").get_to(picture.layer);
     from.at("space").get_to(picture.space);
     from.at("hash").get_to(picture.hash);
-    picture.thumbnail = cells_of(from, "thumbnail");
-    picture.peaks = cells_of(from, "peaks");
     read_whole(from, "spike_count", picture.spike_count);
     picture.spikes = spots_of(from.at("spikes"));
     picture.alpha_low = count_of(from, "alpha_low");
@@ -237,6 +270,7 @@ QcPicture picture_of(const ordered_json& from) {
         read_whole(from, "lit", picture.lit);
     picture.unseen = count_of(from, "unseen");
     read_places(from, picture);
+    read_statistics(from, picture);
     if (from.contains("groups")) {
         const ordered_json& groups = from["groups"];
         read_whole(groups, "count", picture.groups);
@@ -255,6 +289,15 @@ ordered_json list_of(const std::vector<Item>& items) {
     return list;
 }
 
+// Each channel takes 1152 bytes of the cells.
+int channels_of_guide(const ordered_json& guide) {
+    constexpr int most = 16;
+    const int channels = whole_number<int>(guide.at(1), "guides");
+    if (channels < 1 || channels > most)
+        throw std::runtime_error("a guide of " + std::to_string(channels) + " channels");
+    return channels;
+}
+
 QcFacts facts_of(const ordered_json& from) {
     QcFacts facts;
     for (const ordered_json& part : from.at("parts"))
@@ -266,6 +309,9 @@ QcFacts facts_of(const ordered_json& from) {
     for (const ordered_json& layer : from.at("layers"))
         facts.layers.push_back(layer_of(layer));
     facts.picture = picture_of(from.at("picture"));
+    for (const ordered_json& guide : from.at("guides"))
+        facts.guides.push_back({guide.at(0).get<std::string>(), channels_of_guide(guide), {}});
+    sequence::read_cells(from.at("cells").get<std::string>(), facts);
     if (facts.parts.empty())
         throw std::runtime_error("no part of a file");
     return facts;
@@ -280,8 +326,13 @@ std::string to_json(const QcRecord& record) {
     ordered_json channels = ordered_json::array();
     for (const auto& [name, type] : facts.channels)
         channels.push_back({name, type});
+    ordered_json guides = ordered_json::array();
+    for (const QcGuide& guide : facts.guides)
+        guides.push_back({guide.layer, guide.channels});
     ordered_json to = {{"limits", record.limits.texts()},
                        {"picture", json_of(facts.picture)},
+                       {"guides", guides},
+                       {"cells", cells_text(facts)},
                        {"layers", list_of(facts.layers)},
                        {"channels", channels},
                        {"parts", list_of(facts.parts)}};

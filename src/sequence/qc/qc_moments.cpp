@@ -44,12 +44,20 @@ std::set<std::string> layers_of(const QcFacts& facts) {
     return names;
 }
 
+} // namespace
+
+std::string moment_of(const QcFacts& facts) {
+    return geometry_of(facts, false);
+}
+
+namespace {
+
 // With a fixed camera, geometry may stand still while the picture does not.
 Keys keys_of(const Frames& frames) {
     Keys geometry, pictures;
     bool all = true;
     for (const QcFrame* frame : frames) {
-        geometry.push_back(geometry_of(frame->facts, false));
+        geometry.push_back(moment_of(frame->facts));
         pictures.push_back(hash_of(*frame));
         all = all && !geometry.back().empty() &&
               layers_of(frame->facts) == layers_of(frames.front()->facts);
@@ -139,6 +147,7 @@ void find_held(QcShot& shot, const Frames& frames, const std::vector<Run>& runs,
             add_frozen(shot, frames, run);
         else
             add_duplicate(shot, frames, run);
+        mark_change(frames, run.first + 1, run.last);
     }
 }
 

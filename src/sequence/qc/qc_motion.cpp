@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Consecutive frames: gaps, near duplicates, flicker, jumps.
+// Consecutive frames: gaps, near duplicates, flicker.
 #include <OpenImageIO/strutil.h>
 #include <algorithm>
 #include <cmath>
@@ -42,8 +42,6 @@ public:
           m_gains{0} {
         for (size_t i = 1; i < m_frames.size(); ++i)
             m_gains.push_back(gain(m_thumbnails[i - 1], m_thumbnails[i]));
-        for (const QcFrame* frame : m_frames)
-            m_explained.push_back(frame->changed);
         m_usual_step = usual_step_of(m_thumbnails);
     }
 
@@ -51,7 +49,6 @@ public:
         find_alternation();
         for (size_t length = 1; length <= 3; ++length)
             find_runs(length);
-        find_jumps();
     }
 
 private:
@@ -61,16 +58,13 @@ private:
     double there_and_back(size_t first, size_t last) const;
     void find_runs(size_t length);
     void find_alternation();
-    bool is_jump(size_t i) const;
-    void find_jumps();
 
     QcShot& m_shot;
     std::vector<QcFrame*> m_frames;
     std::vector<Thumbnail> m_thumbnails;
-    std::vector<double> m_gains;   ///< stops by which each frame is brighter than the one before
-    std::vector<bool> m_explained; ///< whether a fault already explains that step
-    double m_usual_step = 0;       ///< usual distance of consecutive thumbnails in stops
-    double m_unusual = 0;          ///< detours up to this are usual
+    std::vector<double> m_gains; ///< stops by which each frame is brighter than the one before
+    double m_usual_step = 0;     ///< usual distance of consecutive thumbnails in stops
+    double m_unusual = 0;        ///< detours up to this are usual
 };
 
 // The median change of brightness over all steps but one.
@@ -106,13 +100,13 @@ void Flicker::find_runs(size_t length) {
     m_unusual = std::max(m_unusual, kUnusual * median(detours));
     for (size_t i = 1; i + length < m_frames.size(); ++i) {
         const size_t last = i + length - 1;
-        if (m_explained[i] || m_explained[last + 1])
+        if (m_frames[i]->changed || m_frames[last + 1]->changed)
             continue;
         const double off = detours[i - 1] > m_unusual ? detours[i - 1] : 0;
         const double stops = std::max(off, there_and_back(i, last));
         if (stops <= m_shot.threshold("flicker"))
             continue;
-        m_explained[i] = m_explained[last + 1] = true;
+        mark_change(m_frames, i, last);
         m_shot.add(*m_frames[i], "flicker",
                    format("{} unlike frames {} and {} by {:.2f} stops more than these differ from "
                           "each other",
@@ -134,8 +128,8 @@ void Flicker::find_alternation() {
                std::abs(m_gains[last + 1]) > limit && m_gains[last] * m_gains[last + 1] < 0)
             ++last;
         if (last - first + 1 >= enough) {
-            std::fill(m_explained.begin() + std::ptrdiff_t(first),
-                      m_explained.begin() + std::ptrdiff_t(last + 1), true);
+            for (size_t i = first; i <= last; ++i)
+                m_frames[i]->changed = true;
             m_shot.add(*m_frames[first], "flicker",
                        format("{} are brighter and darker by turns, by {:.2f} stops at first",
                               frames_text(m_frames[first - 1]->number, m_frames[last]->number),
@@ -143,30 +137,6 @@ void Flicker::find_alternation() {
                        {"", {}, std::abs(m_gains[first])});
         }
         first = last;
-    }
-}
-
-// A jump is much larger than the usual change, and than the steps beside it, which are alike in a
-// fade. A cut changes more than the brightness.
-bool Flicker::is_jump(size_t i) const {
-    constexpr double alone = 3, alike = 0.9;
-    const double step = std::abs(m_gains[i]);
-    const bool first = i == 1, last = i + 1 == m_gains.size();
-    return step > m_shot.threshold("jump") && step > kUnusual * usual_gain(i) &&
-           (first || m_explained[i - 1] || step > alone * std::abs(m_gains[i - 1])) &&
-           (last || m_explained[i + 1] || step > alone * std::abs(m_gains[i + 1])) &&
-           correlation(m_thumbnails[i - 1], m_thumbnails[i]) > alike;
-}
-
-void Flicker::find_jumps() {
-    for (size_t i = 1; i < m_frames.size(); ++i) {
-        if (!m_explained[i] && is_jump(i)) {
-            m_shot.add(*m_frames[i], "jump",
-                       format("{:.2f} stops {} than frame {}, of the same picture",
-                              std::abs(m_gains[i]), m_gains[i] > 0 ? "brighter" : "darker",
-                              m_frames[i - 1]->number),
-                       {"", {}, std::abs(m_gains[i])});
-        }
     }
 }
 

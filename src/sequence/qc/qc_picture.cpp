@@ -65,8 +65,7 @@ double share_of(int64_t pixels, int64_t all) {
 
 // The share of the frame that is lit, but hidden by its alpha.
 double hidden_share(const QcFrame& frame) {
-    const std::array<int, 4>& window = frame.facts.parts.front().data;
-    return share_of(frame.facts.picture.unseen.pixels, int64_t(window[2]) * window[3]);
+    return double(frame.facts.picture.unseen.pixels) / pixels_of(frame.facts);
 }
 
 double light_of(const QcFrame& frame) {
@@ -92,16 +91,24 @@ bool is_fade(const std::vector<QcFrame*>& frames, size_t first, size_t last, dou
 
 // An element that is not in the picture yet has no alpha; without any alpha nobody knows.
 std::optional<Severity> severity_of_black(const QcPicture& picture, bool fade) {
-    const bool has_alpha = picture.alpha_mean != 0 || picture.alpha_clear != 0;
-    if (fade || (has_alpha && picture.alpha_mean <= 0))
+    if (fade || (has_alpha(picture) && picture.alpha_mean <= 0))
         return Severity::Info;
-    return has_alpha ? std::nullopt : std::optional(Severity::Warning);
+    return has_alpha(picture) ? std::nullopt : std::optional(Severity::Warning);
 }
 
 } // namespace
 
 bool has_picture(const QcFacts& facts) {
     return &picture_layer(facts) != &no_layer();
+}
+
+double pixels_of(const QcFacts& facts) {
+    const std::array<int, 4>& window = facts.parts.front().data;
+    return double(window[2]) * window[3];
+}
+
+bool has_alpha(const QcPicture& picture) {
+    return picture.alpha_mean != 0 || picture.alpha_clear != 0;
 }
 
 // Non-finite pixels have no known value, so an image that has some is neither black nor constant.
@@ -168,6 +175,8 @@ void find_hidden(QcShot& shot) {
                         "heeded",
                         picture.unseen.pixels, picture.lit, odd ? ", unlike in other frames" : ""),
                  detail);
+        if (odd)
+            mark_change(frames, i, i);
     }
 }
 

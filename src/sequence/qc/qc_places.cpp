@@ -14,9 +14,6 @@ namespace {
 using OIIO::Strutil::fmt::format;
 using Frames = std::vector<QcFrame*>;
 
-// With fewer frames nobody knows what is usual.
-constexpr size_t kEnough = 5;
-
 bool same_place(const QcRectangle& a, const QcRectangle& b) {
     return a.x == b.x && a.y == b.y && a.width == b.width && a.height == b.height;
 }
@@ -36,15 +33,6 @@ bool has_value(const QcFrame& frame, const QcRectangle& rectangle) {
     const std::vector<QcRectangle>& all = frame.facts.picture.rectangles;
     return std::any_of(all.begin(), all.end(),
                        [&](const QcRectangle& other) { return same_value(other, rectangle); });
-}
-
-// Places of frames with other windows are not the same.
-bool same_windows(const QcFrame& a, const QcFrame& b) {
-    const auto same = [](const QcPart& x, const QcPart& y) {
-        return x.data == y.data && x.display == y.display;
-    };
-    const std::vector<QcPart>&parts = a.facts.parts, &others = b.facts.parts;
-    return std::equal(parts.begin(), parts.end(), others.begin(), others.end(), same);
 }
 
 // The frames around frame k that have the rectangle, and all between them.
@@ -166,7 +154,8 @@ void add_holes(QcShot& shot, const Frames& frames, size_t k) {
                     worst.background ? "; nothing is behind them" : "", more),
              {picture_layer(frames[k]->facts).name, Position{worst.x, worst.y},
               double(worst.width) * worst.height,
-              worst.background ? std::optional(Severity::Warning) : std::nullopt});
+              worst.background ? std::optional(Severity::Warning) : std::nullopt,
+              std::array<int, 4>{worst.x, worst.y, worst.width, worst.height}});
     mark_change(frames, k, k);
 }
 
@@ -181,7 +170,11 @@ void find_bars(QcShot& shot, const Frames& frames) {
             shot.add(*frames.front(), "bars",
                      format("{}x{} pixels at ({}, {}) are all {} in all frames", r.width, r.height,
                             r.x, r.y, value_text(r)),
-                     {picture_layer(facts).name, Position{r.x, r.y}, {}, {}});
+                     {picture_layer(facts).name,
+                      Position{r.x, r.y},
+                      {},
+                      {},
+                      std::array<int, 4>{r.x, r.y, r.width, r.height}});
         }
     }
 }
@@ -190,7 +183,7 @@ void find_bars(QcShot& shot, const Frames& frames) {
 
 void find_holes(QcShot& shot) {
     const Frames frames = shot.pictures();
-    if (frames.size() < kEnough)
+    if (frames.size() < kEnoughFrames)
         return;
     find_bars(shot, frames);
     for (size_t k = 0; k < frames.size(); ++k)

@@ -2,6 +2,7 @@
 // The frames of one view while their faults are searched for, and the searches.
 #pragma once
 
+#include <array>
 #include <map>
 #include <string>
 #include <vector>
@@ -28,6 +29,7 @@ struct QcDetail {
     std::optional<double> value{};
     /// A case that is less severe than the fault usually is; a severity of the user's stands.
     std::optional<Severity> milder{};
+    std::optional<std::array<int, 4>> rectangle{}; ///< x, y, width, height
 };
 
 class QcShot {
@@ -58,7 +60,15 @@ const QcLayer* find_layer(const QcFacts& facts, const std::string& name);
 const QcLayer& picture_layer(const QcFacts& facts);
 const QcLayer& no_layer();
 bool has_picture(const QcFacts& facts);
+double pixels_of(const QcFacts& facts); ///< of the data window
+bool has_alpha(const QcPicture& picture);
+/// Places of frames with other windows are not the same.
+bool same_windows(const QcFrame& a, const QcFrame& b);
+/// With fewer frames nobody knows what is usual.
+constexpr size_t kEnoughFrames = 5;
 bool is_blank(const QcFacts& facts, const QcLimits& limits);
+/// What the layers without noise tell of the moment of a frame; empty without such layers.
+std::string moment_of(const QcFacts& facts);
 /// Marks consecutive frames that have a fault: it explains a change of brightness at the first of
 /// them and after the last.
 void mark_change(const std::vector<QcFrame*>& frames, size_t first, size_t last);
@@ -78,10 +88,15 @@ void find_gaps(QcShot& shot);
 void find_odd_headers(QcShot& shot);
 void find_lost_layers(QcShot& shot);
 void find_group_faults(QcShot& shot);
+void find_clamped(QcShot& shot);
+void find_magenta(QcShot& shot);
 void find_holes(QcShot& shot);
+void find_stale_buckets(QcShot& shot);
 void find_moments(QcShot& shot);
 void find_stalls(QcShot& shot);
+void find_odd_motion(QcShot& shot);
 void find_flicker(QcShot& shot);
+void find_odd_statistics(QcShot& shot);
 void find_fireflies(QcShot& shot);
 
 } // namespace tonetool::sequence

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Pictures whose values repeat exactly: enlarged ones, and those that went through few bits.
+// Pictures whose values repeat exactly: enlarged ones, those that went through few bits, clamped
+// ones, and albedos of one colour.
 #include <OpenImageIO/strutil.h>
 #include <algorithm>
 #include <functional>
@@ -12,7 +13,8 @@ namespace {
 
 using OIIO::Strutil::fmt::format;
 
-// Each run of frames of which it is true is told once, at its first.
+// Each run of frames of which it is true is told once, at its first, and explains what changes with
+// it.
 void each_run(const std::vector<QcFrame*>& frames,
               const std::function<bool(const QcFacts& facts)>& is_odd,
               const std::function<void(QcFrame& frame, const std::string& which)>& tell) {
@@ -25,6 +27,8 @@ void each_run(const std::vector<QcFrame*>& frames,
         tell(*frames[first],
              end == first + 1 ? std::string()
                               : frames_text(frames[first]->number, frames[end - 1]->number) + ": ");
+        if (first > 0 || end < frames.size())
+            mark_change(frames, first, end - 1);
         first = end;
     }
 }
@@ -70,6 +74,47 @@ void find_bands(QcShot& shot) {
                  format("{}{} pixels have only {} different values of green", which, picture.greens,
                         picture.distinct),
                  {picture.layer, {}, double(picture.distinct), {}});
+    });
+}
+
+// A clamp of each channel leaves pixels at 1 that are not white; others are there by chance.
+void find_clamped(QcShot& shot) {
+    constexpr double chance = 8;
+    constexpr int64_t enough = 10;
+    const auto at_one = [&](const QcFacts& facts) {
+        const double pixels = double(facts.picture.at_one);
+        return facts.picture.at_one >= enough &&
+               pixels > std::max(shot.threshold("clip") * pixels_of(facts),
+                                 chance * double(facts.picture.beside_one) / 2);
+    };
+    const auto is_odd = [&](const QcFacts& facts) {
+        return at_one(facts) || facts.picture.at_largest_half >= enough;
+    };
+    each_run(shot.pictures(), is_odd, [&](QcFrame& frame, const std::string& which) {
+        const QcPicture& picture = frame.facts.picture;
+        const bool one = at_one(frame.facts);
+        const double share = double(picture.at_one) / pixels_of(frame.facts);
+        shot.add(frame, "clip",
+                 one ? format("{}in {:.3g} % of the pixels one channel is exactly 1 and another is "
+                              "not: the picture was clamped",
+                              which, 100 * share)
+                     : format("{}{} pixels are at 65504, the largest half float: they were clamped",
+                              which, picture.at_largest_half),
+                 {picture.layer, {}, one ? std::optional(share) : std::nullopt, {}});
+    });
+}
+
+void find_magenta(QcShot& shot) {
+    const auto is_odd = [&](const QcFacts& facts) {
+        return facts.picture.magenta > shot.threshold("magenta");
+    };
+    each_run(shot.measured(), is_odd, [&](QcFrame& frame, const std::string& which) {
+        const double share = frame.facts.picture.magenta;
+        shot.add(frame, "magenta",
+                 format("{}{:.3g} % of the albedo is pure magenta, as where a texture was not "
+                        "found",
+                        which, 100 * share),
+                 {"", {}, share, {}});
     });
 }
 

@@ -6,6 +6,7 @@
 // bytes however they were split.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
 #include <utility>
@@ -51,7 +52,8 @@ struct Fault {
     std::string sentence; ///< the message for people
     std::string layer;    ///< layer or channel; empty: the whole image
     std::optional<Position> position;
-    std::optional<double> value, threshold; ///< the measured value and its limit
+    std::optional<double> value, threshold;        ///< the measured value and its limit
+    std::optional<std::array<int, 4>> rectangle{}; ///< x, y, width, height of a place
 };
 
 /// A threshold of one quantity.

@@ -126,6 +126,8 @@ ordered_json json_of(const Fault& fault) {
     put(to, "sentence", fault.sentence);
     put(to, "layer", fault.layer);
     put(to, "position", fault.position);
+    if (fault.rectangle)
+        to["rectangle"] = *fault.rectangle;
     put(to, "value", fault.value);
     put(to, "threshold", fault.threshold);
     return to;
@@ -141,6 +143,11 @@ Fault fault_of(const ordered_json& from) {
     fault.sentence = text(from, "sentence");
     fault.layer = text(from, "layer");
     fault.position = maybe_position(from, "position");
+    if (from.contains("rectangle")) {
+        fault.rectangle.emplace();
+        for (size_t i = 0; i < fault.rectangle->size(); ++i)
+            (*fault.rectangle)[i] = whole_number<int>(from["rectangle"].at(i), "rectangle");
+    }
     fault.value = maybe_number(from, "value");
     fault.threshold = maybe_number(from, "threshold");
     return fault;

@@ -11,7 +11,7 @@
 namespace tonetool::sequence {
 
 inline constexpr char kResultsFormat[] = "tonetool-check";
-inline constexpr int kResultsVersion = 1;
+inline constexpr int kResultsVersion = 2;
 
 /// The text of --json: {"format", "version", "check", "verdict", "sentence", "counts",
 /// "exposures", "worst", "frames"}, with "worst" as frame numbers. Ends with a line break.

@@ -31,8 +31,14 @@ QcFacts facts_of(int number, double stops = 0) {
         for (int x = 0; x < QcPicture::kWide; ++x) {
             const double wall = std::sin(0.9 * x + 0.05 * number) + std::sin(0.7 * y - 0.3 * x);
             facts.picture.thumbnail.push_back(int(std::lround(1000 * (wall + stops))));
-            facts.picture.peaks.push_back(facts.picture.thumbnail.back() + 500);
         }
+    }
+    facts.picture.red.assign(facts.picture.thumbnail.size(), 8);
+    facts.picture.blue.assign(facts.picture.thumbnail.size(), -4);
+    std::mt19937 noise(unsigned(number) + 1);
+    for (int i = 0; i < QcPicture::kPeaksWide * QcPicture::kPeaksHigh; ++i) {
+        facts.picture.peaks.push_back(20);
+        facts.picture.fingerprints.push_back(int(noise() % 65535) + 1);
     }
     facts.picture.groups = 1;
     facts.picture.group_sum = 1;
@@ -90,7 +96,7 @@ TEST(Qc, FindsWhatIsOddInAFrame) {
     EXPECT_THAT(codes_of(shot_with(4, 4, without_key)), ElementsAre("4 blacklayer"));
     EXPECT_THAT(codes_of(shot_with(6, 6, brighter)), ElementsAre("6 flicker"));
     EXPECT_THAT(codes_of(shot_with(6, 7, brighter)), ElementsAre("6 flicker"));
-    EXPECT_THAT(codes_of(shot_with(7, 12, brighter)), ElementsAre("7 jump"));
+    EXPECT_THAT(codes_of(shot_with(7, 12, brighter)), ElementsAre("7 light"));
     EXPECT_THAT(codes_of(shot_with(5, 5, [](QcFacts& f) { f.layers[0].nan.pixels = 1; })),
                 ElementsAre("5 nan"));
     EXPECT_THAT(codes_of(shot_with(5, 8, [](QcFacts& f) { f.parts[0].compression = "none"; })),
@@ -237,7 +243,7 @@ TEST(Qc, AHoldByIntentMayBeMadeAnError) {
 TEST(Qc, AFireflyIsAloneInTimeToo) {
     const Change firefly = [](QcFacts& facts) {
         facts.picture.spikes = {{300, 200, 1000, 0.5}};
-        facts.picture.peaks[size_t(10 * QcPicture::kWide + 15)] = 9966;
+        facts.picture.peaks[size_t(20 * QcPicture::kPeaksWide + 30)] = 80;
     };
     EXPECT_THAT(codes_of(shot_with(5, 5, firefly)), ElementsAre("5 firefly"));
     EXPECT_THAT(codes_of(shot_with(5, 6, firefly)), IsEmpty());
@@ -395,11 +401,11 @@ TEST(Qc, LimitsRefuseWhatTheyCannotBe) {
     QcLimits limits;
     EXPECT_THROW(limits.set("jmp", "1"), std::runtime_error);
     for (const char* text : {"", "-1", "1,2", "loud", "off,off", "nan", "inf", "1,error,off"})
-        EXPECT_THROW(limits.set("jump", text), std::runtime_error) << text;
+        EXPECT_THROW(limits.set("light", text), std::runtime_error) << text;
     EXPECT_THROW(limits.set("missing", "1"), std::runtime_error);
-    limits.set("jump", "error,2");
-    EXPECT_EQ(limits.threshold("jump"), 2);
-    EXPECT_EQ(limits.severity("jump"), Severity::Error);
+    limits.set("light", "error,2");
+    EXPECT_EQ(limits.threshold("light"), 2);
+    EXPECT_EQ(limits.severity("light"), Severity::Error);
 }
 
 // The order in which frames come, and whether parts of the shot were judged before, do not matter.
@@ -439,6 +445,15 @@ TEST(Qc, ARecordThatIsNoneIsRefused) {
     places.layers[1].hash = "c0ffee";
     places.picture.pairs = {0.25, 0.5};
     places.picture.distinct = 77;
+    places.picture.fine = 0.1;
+    places.picture.at_largest_half = 12;
+    places.picture.peaks[7] = QcPicture::kPeakBright;
+    places.picture.peaks[8] = QcPicture::kPeakDark;
+    places.picture.red[9] = -128;
+    places.picture.thumbnail[10] = QcPicture::kDark;
+    places.picture.fingerprints[11] = 65535;
+    places.guides = {{"Depth.Z", 1, std::vector<int>(QcPicture::kWide * QcPicture::kHigh, -32767)},
+                     {"Normal", 3, std::vector<int>(3 * QcPicture::kWide * QcPicture::kHigh, 5)}};
     const std::string more = to_json(QcRecord{places, {}});
     const QcRecord read = qc_from_json(more);
     EXPECT_EQ(to_json(read), more);
@@ -446,7 +461,15 @@ TEST(Qc, ARecordThatIsNoneIsRefused) {
     EXPECT_EQ(read.facts.picture.borders.top[7], 60);
     EXPECT_EQ(read.facts.layers[1].hash, "c0ffee");
     EXPECT_EQ(read.facts.picture.distinct, 77);
-    text.replace(text.find("\"thumbnail\":["), 13, "\"thumbnail\":[1,");
+    EXPECT_EQ(read.facts.picture.fine, 0.1);
+    EXPECT_EQ(read.facts.picture.at_largest_half, 12);
+    EXPECT_EQ(read.facts.picture.peaks, places.picture.peaks);
+    EXPECT_EQ(read.facts.picture.red, places.picture.red);
+    EXPECT_EQ(read.facts.picture.thumbnail, places.picture.thumbnail);
+    EXPECT_EQ(read.facts.picture.fingerprints, places.picture.fingerprints);
+    EXPECT_EQ(read.facts.guides[0].cells, places.guides[0].cells);
+    EXPECT_EQ(read.facts.guides[1].cells, places.guides[1].cells);
+    text.replace(text.find("\"cells\":\"") + 20, 4, "AAAA");
     EXPECT_THROW(qc_from_json(text), std::runtime_error);
 }
 

@@ -191,9 +191,12 @@ std::string qc_text() {
     record.facts.parts[0].metadata["1/3"] = "0.333";
     record.facts.picture.group_sum = 1.0 / 3;
     record.facts.picture.groups = 1;
-    record.facts.picture.thumbnail.resize(size_t(QcPicture::kWide) * QcPicture::kHigh, -2474);
-    record.facts.picture.peaks = record.facts.picture.thumbnail;
-    record.limits.set("jump", "0.1,error");
+    QcPicture& picture = record.facts.picture;
+    picture.thumbnail.resize(size_t(QcPicture::kWide) * QcPicture::kHigh, -2474);
+    picture.red = picture.blue = std::vector<int>(picture.thumbnail.size());
+    picture.peaks.resize(size_t(QcPicture::kPeaksWide) * QcPicture::kPeaksHigh);
+    picture.fingerprints = picture.peaks;
+    record.limits.set("light", "0.1,error");
     return to_json(record);
 }
 
@@ -239,10 +242,10 @@ TEST(Json, RefusesWhatIsNoResultAndSaysWhy) {
     EXPECT_THAT(refusal("[]"), HasSubstr("tonetool-check"));
     EXPECT_THAT(refusal("{"), HasSubstr("parse error"));
     EXPECT_THAT(refusal(R"({"format":"tonetool-check","version":9})"), HasSubstr("version 9"));
-    EXPECT_THAT(refusal(R"({"format":"tonetool-check","version":1,"check":[],
+    EXPECT_THAT(refusal(R"({"format":"tonetool-check","version":2,"check":[],
         "frames":[{"frame":1,"status":"fine"}]})"),
                 HasSubstr("\"fine\""));
-    EXPECT_THAT(refusal(R"({"format":"tonetool-check","version":1,"check":[],
+    EXPECT_THAT(refusal(R"({"format":"tonetool-check","version":2,"check":[],
         "frames":[{"status":"passed"}]})"),
                 HasSubstr("'frame'"));
 }
