@@ -49,7 +49,7 @@ void QcScan::choose_guides() {
             continue;
         Guide& guide = m_guides.emplace_back();
         guide.layer = size_t(layer);
-        guide.columns = columns_of(m_parts[m_layers[guide.layer].part].window, QcPicture::kWide);
+        guide.columns = columns_of(m_reader.window(m_layers[guide.layer].part), QcPicture::kWide);
         guide.pixels.resize(m_cells.size());
         guide.sums.resize(m_cells.size() * m_layers[guide.layer].channels.size());
     }
@@ -60,7 +60,7 @@ void QcScan::scan_guides(int y, Row& row) const {
     for (size_t i = 0; i < m_guides.size(); ++i) {
         const Guide& guide = m_guides[i];
         const std::vector<int>& channels = m_layers[guide.layer].channels;
-        const metrics::ChannelRow pixels = row_of(m_layers[guide.layer].part, y);
+        const metrics::ChannelRow pixels = m_reader.row_of(m_layers[guide.layer].part, y);
         if (!pixels.pixels)
             continue;
         GuideRow& sums = row.guides[i];
@@ -83,7 +83,7 @@ void QcScan::scan_albedo(int y, Row& row) const {
     if (m_albedo < 0)
         return;
     const Layer& layer = m_layers[size_t(m_albedo)];
-    const metrics::ChannelRow pixels = row_of(layer.part, y);
+    const metrics::ChannelRow pixels = m_reader.row_of(layer.part, y);
     for (int64_t x = 0; pixels.pixels && x < pixels.width; ++x) {
         ++row.magenta.all;
         row.magenta.some += is_magenta(pixels.pixels + x * pixels.stride, layer.channels);
@@ -94,7 +94,7 @@ void QcScan::scan_motion(int y, Row& row) const {
     if (m_motion < 0)
         return;
     const Layer& layer = m_layers[size_t(m_motion)];
-    const metrics::ChannelRow pixels = row_of(layer.part, y);
+    const metrics::ChannelRow pixels = m_reader.row_of(layer.part, y);
     for (int64_t x = 0; pixels.pixels && x < pixels.width; ++x)
         for (const int channel : layer.channels) {
             const float value = pixels.pixels[x * pixels.stride + channel];
@@ -107,11 +107,11 @@ void QcScan::add_guides(int y, const Row& row) {
     m_magenta.some += row.magenta.some;
     m_magenta.all += row.magenta.all;
     m_speed.add(row.speeds);
-    const int64_t at = int64_t(y) - m_spec.full_y;
-    if (at < 0 || at >= m_spec.full_height)
+    const int64_t at = int64_t(y) - spec().full_y;
+    if (at < 0 || at >= spec().full_height)
         return;
     const auto first =
-        size_t(at * QcPicture::kHigh / m_spec.full_height) * size_t(QcPicture::kWide);
+        size_t(at * QcPicture::kHigh / spec().full_height) * size_t(QcPicture::kWide);
     for (size_t i = 0; i < m_guides.size(); ++i) {
         Guide& guide = m_guides[i];
         const size_t channels = m_layers[guide.layer].channels.size();

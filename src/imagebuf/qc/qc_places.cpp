@@ -24,7 +24,7 @@ void QcScan::scan_places(int y, const std::vector<float>& rgb, Row& row) const {
     const auto depth = std::find_if(m_layers.begin(), m_layers.end(),
                                     [](const Layer& layer) { return layer.kind == "depth"; });
     if (depth != m_layers.end() && !row.runs.empty()) {
-        const metrics::RowChannel values{row_of(depth->part, y), depth->channels.front()};
+        const metrics::RowChannel values{m_reader.row_of(depth->part, y), depth->channels.front()};
         for (metrics::FlatRun& run : row.runs)
             for (int64_t x = run.x; x < run.x + run.width; ++x)
                 run.background += !(values.at(x) < kNothing);

@@ -29,106 +29,20 @@ std::string fingerprint(const void* data, size_t bytes) {
 void QcScan::open(const std::vector<const ImageBuf*>& parts, const QcOptions& options,
                   int nthreads) {
     m_nthreads = nthreads;
-    m_spec = joined_spec(parts);
-    try {
-        find_picture(m_spec, options.pixels, m_choice, m_space);
-    } catch (const Refusal&) {
-        // Layers of data are looked at without one.
-        if (!options.pixels.layer.empty() || !holds_only_data(m_spec))
-            throw;
-        m_choice = {};
-        m_space = {};
-    }
-    if (has_picture())
-        m_groups = choose_light_groups(m_spec, m_choice.layer, options.groups);
-    open_parts(parts);
-    for (size_t c = 0; c < 3; ++c)
-        for (size_t p = 0; p < 3; ++p)
-            m_weights[c] += kernels::kLuminance[p] * m_space.to_rec709[p][c];
-    list_layers();
+    m_reader.open(parts, options);
+    for (const LayerReader::Layer& layer : m_reader.layers())
+        m_layers.push_back({layer, {}, {}});
     place_cells();
     choose_guides();
     if (has_picture())
         m_held_begin = m_searched = picture_window().ybegin;
 }
 
-void QcScan::open_parts(const std::vector<const ImageBuf*>& parts) {
-    for (const ImageBuf* image : parts) {
-        Part& part = m_parts.emplace_back();
-        part.window = image->roi();
-        part.channels = image->nchannels();
-        part.source.open(*image, {{0, part.channels}});
-    }
-    if (!has_picture())
-        return;
-    const size_t picture = place_of(m_choice.r).part;
-    if (place_of(m_choice.g).part != picture || place_of(m_choice.b).part != picture)
-        throw Refusal("red, green and blue of the picture are in different parts of the file");
-}
-
-QcScan::Place QcScan::place_of(int channel) const {
-    Place place{0, channel};
-    while (place.channel >= m_parts[place.part].channels)
-        place.channel -= m_parts[place.part++].channels;
-    return place;
-}
-
-// Whether a channel is part of what its layer is about: beside R, G, B, and beside the one channel
-// of a grey picture, other channels are layers of their own. "Z" is no colour.
-bool QcScan::belongs(const AovLayer& layer, int channel) const {
-    if (layer.has_rgb())
-        return std::find(layer.rgb, layer.rgb + 3, channel) != layer.rgb + 3;
-    const auto& all = layer.channels;
-    const bool grey = std::find(all.begin(), all.end(), m_choice.r) != all.end();
-    return !grey || channel == m_choice.r;
-}
-
-void QcScan::list_layers() {
-    for (const AovLayer& from : aov_layers(m_spec)) {
-        Layer layer{from.plain && from.has_rgb() ? "" : from.name,
-                    layer_kind(from, m_choice, m_groups),
-                    place_of(from.first).part,
-                    {},
-                    {},
-                    {}};
-        const auto is_alpha = [&](int channel) { return channel == from.alpha && from.count > 1; };
-        for (int channel : from.channels) {
-            if (is_alpha(channel) && place_of(channel).part == layer.part)
-                layer.alpha = place_of(channel).channel;
-            if (is_alpha(channel) || !belongs(from, channel))
-                continue;
-            const auto* color = std::find(from.rgb, from.rgb + 3, channel);
-            layer.channels.push_back(place_of(channel).channel);
-            layer.weights.push_back(from.has_rgb() ? m_weights[color - from.rgb] : 1.0);
-        }
-        for (double& weight : layer.weights)
-            weight /= from.has_rgb() ? 1.0 : double(layer.weights.size());
-        layer.exact = is_exact(layer.kind, layer.name);
-        m_layers.push_back(std::move(layer));
-        for (int channel : from.channels)
-            if (!is_alpha(channel) && !belongs(from, channel))
-                m_layers.push_back(lone_layer(channel));
-    }
-}
-
-QcScan::Layer QcScan::lone_layer(int channel) const {
-    const std::string name(m_spec.channel_name(channel));
-    OIIO::ImageSpec one(1, 1, 1, OIIO::TypeFloat);
-    one.channelnames = {name};
-    const Place place = place_of(channel);
-    return {name, layer_kind(aov_layers(one).front(), {}, {}), place.part, {place.channel}, {1.0},
-            {}};
-}
-
 void QcScan::run() {
-    int first = m_parts[0].window.ybegin, last = m_parts[0].window.yend;
-    for (const Part& part : m_parts) {
-        first = std::min(first, part.window.ybegin);
-        last = std::max(last, part.window.yend);
-    }
+    const int first = m_reader.first_row(), last = m_reader.end_row();
     for (int begin = first; begin < last;) {
-        const int end = std::min(begin + m_parts[0].source.rows_at_once(begin), last);
-        read_band(begin, end);
+        const int end = std::min(begin + m_reader.rows_at_once(begin), last);
+        m_reader.read_band(begin, end);
         std::vector<Row> rows(size_t(end - begin));
         make_parallel(m_nthreads)(end - begin,
                                   [&](int64_t i) { scan_row(begin + int(i), rows[size_t(i)]); });
@@ -142,42 +56,21 @@ void QcScan::run() {
         finish_places();
 }
 
-void QcScan::read_band(int begin, int end) {
-    for (Part& part : m_parts) {
-        part.begin = std::clamp(begin, part.window.ybegin, part.window.yend);
-        part.end = std::clamp(end, part.begin, part.window.yend);
-        const size_t row = size_t(part.window.width()) * size_t(part.channels);
-        part.pixels.resize(row * size_t(part.end - part.begin));
-        if (part.begin < part.end)
-            part.source.read(part.begin, part.end, 0, part.pixels.data());
-    }
-}
-
-// Null where the part has no such row.
-metrics::ChannelRow QcScan::row_of(size_t which, int y) const {
-    const Part& part = m_parts[which];
-    if (y < part.begin || y >= part.end)
-        return {};
-    const size_t row = size_t(part.window.width()) * size_t(part.channels);
-    return {part.pixels.data() + row * size_t(y - part.begin), part.channels, part.window.width(),
-            part.window.xbegin, y};
-}
-
 void QcScan::scan_row(int y, Row& row) const {
     row.layers.resize(m_layers.size());
     row.exact.resize(m_layers.size());
     for (size_t i = 0; i < m_layers.size(); ++i) {
         const Layer& layer = m_layers[i];
-        const metrics::ChannelRow pixels = row_of(layer.part, y);
+        const metrics::ChannelRow pixels = m_reader.row_of(layer.part, y);
         if (!pixels.pixels)
             continue;
         row.layers[i] = scan_layer(pixels, layer.channels, layer.weights, layer.alpha);
         if (layer.exact)
             row.exact[i] = layer_hash(layer, pixels);
     }
-    if (m_choice.a >= 0) {
-        const Place alpha = place_of(m_choice.a);
-        const metrics::ChannelRow pixels = row_of(alpha.part, y);
+    if (choice().a >= 0) {
+        const LayerReader::Place alpha = m_reader.place_of(choice().a);
+        const metrics::ChannelRow pixels = m_reader.row_of(alpha.part, y);
         if (pixels.pixels)
             row.alpha = scan_range(pixels, alpha.channel, -QcPicture::kAlphaSlack,
                                    1 + QcPicture::kAlphaSlack);
@@ -190,34 +83,34 @@ void QcScan::scan_row(int y, Row& row) const {
 }
 
 void QcScan::scan_picture_row(int y, Row& row) const {
-    const Place place = place_of(m_choice.r);
-    const metrics::ChannelRow pixels = row_of(place.part, y);
+    const LayerReader::Place place = m_reader.place_of(choice().r);
+    const metrics::ChannelRow pixels = m_reader.row_of(place.part, y);
     if (!pixels.pixels)
         return;
-    const int channels[3] = {place.channel, place_of(m_choice.g).channel,
-                             place_of(m_choice.b).channel};
+    const int channels[3] = {place.channel, m_reader.place_of(choice().g).channel,
+                             m_reader.place_of(choice().b).channel};
     std::vector<float> rgb(size_t(pixels.width) * 3);
     for (size_t x = 0; x < size_t(pixels.width); ++x)
         for (size_t c = 0; c < 3; ++c)
             rgb[3 * x + c] = pixels.pixels[x * size_t(pixels.stride) + size_t(channels[c])];
     row.hash = fingerprint(rgb.data(), rgb.size() * sizeof(float));
-    if (!m_groups.empty() && !m_space.encoded())
+    if (!groups().empty() && !space().encoded())
         scan_groups(y, row);
     scan_alpha(y, rgb, row);
     scan_places(y, rgb, row);
-    if (m_space.encoded() || m_space.scale != 1)
+    if (space().encoded() || space().scale != 1)
         for (float& v : rgb)
-            v = float(m_space.light(double(v), 1));
-    row.picture = metrics::scan_picture(rgb.data(), pixels.width, m_weights, m_columns);
+            v = float(space().light(double(v), 1));
+    row.picture = metrics::scan_picture(rgb.data(), pixels.width, m_reader.weights(), m_columns);
     row.light = metrics::light_row(std::move(row.picture.light));
 }
 
 // The levels of alpha; lit pixels, and those of them that alpha hides.
 void QcScan::scan_alpha(int y, const std::vector<float>& rgb, Row& row) const {
-    if (m_choice.a < 0)
+    if (choice().a < 0)
         return;
-    const Place place = place_of(m_choice.a);
-    const metrics::RowChannel alpha{row_of(place.part, y), place.channel};
+    const LayerReader::Place place = m_reader.place_of(choice().a);
+    const metrics::RowChannel alpha{m_reader.row_of(place.part, y), place.channel};
     const metrics::ChannelRow& there = alpha.row;
     const int64_t left = picture_window().xbegin;
     for (int64_t x = 0; 3 * size_t(x) < rgb.size(); ++x) {
@@ -241,14 +134,14 @@ void QcScan::scan_alpha(int y, const std::vector<float>& rgb, Row& row) const {
 // Where a group has no pixel it has no light.
 void QcScan::scan_groups(int y, Row& row) const {
     const auto at = [&](int channel) {
-        const Place place = place_of(channel);
-        return metrics::RowChannel{row_of(place.part, y), place.channel};
+        const LayerReader::Place place = m_reader.place_of(channel);
+        return metrics::RowChannel{m_reader.row_of(place.part, y), place.channel};
     };
-    std::vector<metrics::RowChannel> groups;
-    for (const LightGroup& group : m_groups)
+    std::vector<metrics::RowChannel> channels;
+    for (const LightGroup& group : groups())
         for (const int channel : group.channel)
-            groups.push_back(at(channel));
-    row.groups.add_row({at(m_choice.r), at(m_choice.g), at(m_choice.b)}, groups);
+            channels.push_back(at(channel));
+    row.groups.add_row({at(choice().r), at(choice().g), at(choice().b)}, channels);
 }
 
 void QcScan::add(int y, const Row& row) {
@@ -334,9 +227,9 @@ void QcScan::scan_neighbourhoods(bool last) {
 std::vector<int> QcScan::columns_of(const ROI& window, int cells) const {
     std::vector<int> columns;
     for (int x = window.xbegin; x < window.xend; ++x) {
-        const int64_t at = int64_t(x) - m_spec.full_x;
-        const bool inside = at >= 0 && at < m_spec.full_width;
-        columns.push_back(inside ? int(at * cells / m_spec.full_width) : -1);
+        const int64_t at = int64_t(x) - spec().full_x;
+        const bool inside = at >= 0 && at < spec().full_width;
+        columns.push_back(inside ? int(at * cells / spec().full_width) : -1);
     }
     return columns;
 }
@@ -349,8 +242,8 @@ void QcScan::place_cells() {
     m_colors.assign(3 * m_cells.size(), 0);
     m_peaks.assign(size_t(peaks) * QcPicture::kPeaksHigh, 0);
     m_missing.assign(m_cells.size(), 0);
-    m_fingerprints = {m_spec.full_x,      m_spec.full_y, m_spec.full_width,
-                      m_spec.full_height, size_t(peaks), size_t(QcPicture::kPeaksHigh)};
+    m_fingerprints = {spec().full_x,      spec().full_y, spec().full_width,
+                      spec().full_height, size_t(peaks), size_t(QcPicture::kPeaksHigh)};
     if (!has_picture())
         return;
     m_columns.cell = columns_of(picture_window(), wide);
@@ -358,11 +251,11 @@ void QcScan::place_cells() {
 }
 
 void QcScan::add_cells(int y, const metrics::CellRow& cells) {
-    const int64_t at = int64_t(y) - m_spec.full_y;
-    if (at < 0 || at >= m_spec.full_height)
+    const int64_t at = int64_t(y) - spec().full_y;
+    if (at < 0 || at >= spec().full_height)
         return;
     const auto row = [&](int wide, int high) {
-        return size_t(at * high / m_spec.full_height) * size_t(wide);
+        return size_t(at * high / spec().full_height) * size_t(wide);
     };
     const size_t first = row(QcPicture::kWide, QcPicture::kHigh);
     for (size_t x = 0; x < m_columns.cells; ++x) {
@@ -383,8 +276,8 @@ static int64_t in_cell(int cell, int64_t size, int64_t cells) {
 }
 
 int64_t QcScan::display_pixels(int cell_x, int cell_y) const {
-    return in_cell(cell_x, m_spec.full_width, QcPicture::kWide) *
-           in_cell(cell_y, m_spec.full_height, QcPicture::kHigh);
+    return in_cell(cell_x, spec().full_width, QcPicture::kWide) *
+           in_cell(cell_y, spec().full_height, QcPicture::kHigh);
 }
 
 std::vector<double> QcScan::cell_means() const {

@@ -7,10 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "imagebuf/aov/aov_layers.h"
-#include "imagebuf/aov/light_groups.h"
-#include "imagebuf/color/color_source.h"
-#include "imagebuf/pixels/row_source.h"
+#include "imagebuf/qc/layer_reader.h"
 #include "metrics/detail_scan.h"
 #include "metrics/fault_scan.h"
 #include "metrics/fingerprints.h"
@@ -22,15 +19,9 @@ namespace tonetool {
 
 class QcScan {
 public:
-    struct Layer {
-        std::string name, kind;
-        size_t part = 0;
-        std::vector<int> channels; ///< in the part, without alpha
-        std::vector<double> weights;
+    struct Layer : LayerReader::Layer {
         metrics::LayerScan scan;
-        int alpha = -1;       ///< in the part; -1 if it has none
-        bool exact = false;   ///< its values are hashed
-        std::string hashes{}; ///< of its rows
+        std::string hashes; ///< of its rows
         std::string hash() const;
     };
     /// Sums of a layer without noise over the cells of the thumbnail.
@@ -54,10 +45,10 @@ public:
               int nthreads);
     void run();
 
-    const OIIO::ImageSpec& spec() const { return m_spec; } ///< of all parts together
-    const ColorChoice& choice() const { return m_choice; }
+    const OIIO::ImageSpec& spec() const { return m_reader.spec(); } ///< of all parts together
+    const ColorChoice& choice() const { return m_reader.choice(); }
     const std::vector<Layer>& layers() const { return m_layers; }
-    const std::vector<LightGroup>& groups() const { return m_groups; }
+    const std::vector<LightGroup>& groups() const { return m_reader.groups(); }
     const metrics::RangeScan& alpha() const { return m_alpha; }
     const metrics::GroupScan& group_scan() const { return m_group_scan; }
     const std::vector<metrics::Spike>& spikes() const { return m_spikes; }
@@ -72,8 +63,8 @@ public:
     const metrics::DetailScan& detail() const { return m_detail; }
     double magenta() const;
     double speed() const { return m_speed.quantile(0.95); }
-    bool has_picture() const { return m_choice.r >= 0; }
-    const OIIO::ROI& picture_window() const { return m_parts[place_of(m_choice.r).part].window; }
+    bool has_picture() const { return m_reader.has_picture(); }
+    const OIIO::ROI& picture_window() const { return m_reader.picture_window(); }
     /// Pixels of the picture that are lit, and those of them whose alpha is 0.
     int64_t lit() const { return m_lit; }
     const metrics::Hits& unseen() const { return m_unseen; }
@@ -83,17 +74,6 @@ public:
     const metrics::ValueScan& values() const { return m_values; }
 
 private:
-    struct Part {
-        RowSource source;
-        OIIO::ROI window;
-        int channels = 0;
-        int begin = 0, end = 0; ///< rows that are held
-        std::vector<float> pixels;
-    };
-    struct Place {
-        size_t part = 0;
-        int channel = 0;
-    };
     struct Share {
         int64_t some = 0, all = 0;
     };
@@ -121,10 +101,6 @@ private:
         std::vector<metrics::StepHistogram::Code> speeds;
     };
 
-    void open_parts(const std::vector<const OIIO::ImageBuf*>& parts);
-    void list_layers();
-    bool belongs(const AovLayer& layer, int channel) const;
-    Layer lone_layer(int channel) const;
     void scan_alpha(int y, const std::vector<float>& rgb, Row& row) const;
     void place_cells();
     std::vector<int> columns_of(const OIIO::ROI& window, int cells) const;
@@ -133,10 +109,8 @@ private:
     void scan_albedo(int y, Row& row) const;
     void scan_motion(int y, Row& row) const;
     void add_guides(int y, const Row& row);
-    Place place_of(int channel) const;
+    const ColorSpace& space() const { return m_reader.space(); }
 
-    void read_band(int begin, int end);
-    metrics::ChannelRow row_of(size_t part, int y) const;
     void scan_row(int y, Row& row) const;
     void scan_picture_row(int y, Row& row) const;
     void scan_groups(int y, Row& row) const;
@@ -149,12 +123,7 @@ private:
     void add_cells(int y, const metrics::CellRow& cells);
     int64_t display_pixels(int cell_x, int cell_y) const;
 
-    std::deque<Part> m_parts;
-    OIIO::ImageSpec m_spec;
-    ColorChoice m_choice;
-    ColorSpace m_space;
-    double m_weights[3] = {0, 0, 0};
-    std::vector<LightGroup> m_groups;
+    LayerReader m_reader;
     std::vector<Layer> m_layers;
     metrics::CellColumns m_columns; ///< of the picture's data window
     std::vector<Guide> m_guides;
