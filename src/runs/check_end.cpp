@@ -7,11 +7,11 @@
 
 #include "runs/loop.h"
 #include "sequence/frames/file_stamp.h"
-#include "sequence/qc/qc.h"
 #include "sequence/report/report_files.h"
 #include "sequence/results/check_files.h"
 #include "sequence/results/shot_exposures.h"
 #include "sequence/results/tables.h"
+#include "sequence/verdict/fault_lines.h"
 #include "sequence/verdict/merge.h"
 #include "text/error.h"
 #include "text/printable.h"

@@ -50,8 +50,8 @@ private:
         note_what_is_judged(word);
         if (!manner)
             keep(word.at, with_numbers(word.row->names.front(), with_shot_exposures(word.token)));
-        // What --qc looks for is part of what comes of the line.
-        if (check || word.is("qc"))
+        // What these look for is part of what comes of the line.
+        if (check || word.is("qc") || word.is("against"))
             take_check(word);
         for (const size_t argument : word.arguments)
             take_argument(word, manner, argument);

@@ -4,6 +4,7 @@
 
 #include "chain/commands/color_input.h"
 #include "chain/commands/commands.h"
+#include "chain/commands/fault_args.h"
 #include "chain/commands/flip_args.h"
 #include "chain/commands/frame_pictures.h"
 #include "sequence/qc/qc.h"
@@ -15,34 +16,6 @@
 namespace tonetool::chain {
 
 namespace {
-
-sequence::QcLimits limits_of(const Call& call) {
-    sequence::QcLimits limits;
-    for (const sequence::QcRule& rule : sequence::qc_rules()) {
-        if (const auto text = call.text(rule.code)) {
-            try {
-                limits.set(rule.code, *text);
-            } catch (const std::runtime_error& problem) {
-                throw CommandError(problem.what());
-            }
-        }
-    }
-    return limits;
-}
-
-// Only the stack still knows the channel types of files that were read before.
-void take_types(const Image& image, QcFacts& facts) {
-    size_t channel = 0;
-    for (const PartPtr& part : image.parts()) {
-        for (int c = 0; c < part->header().nchannels; ++c, ++channel) {
-            if (const auto& format = part->format()) {
-                const bool own = size_t(c) < format->of_channel.size();
-                facts.channels.at(channel).second =
-                    (own ? format->of_channel[size_t(c)] : format->type).c_str();
-            }
-        }
-    }
-}
 
 bool has_picture(const QcFacts& facts) {
     return std::any_of(facts.layers.begin(), facts.layers.end(),
@@ -75,7 +48,7 @@ void run_qc(Session& session, const Call& call) {
                            "\" is what a comparison has made, no render (valid: "
                            "--qc before the comparison)");
     }
-    sequence::QcRecord record{{}, limits_of(call)};
+    sequence::QcRecord record{{}, fault_limits(call, sequence::qc_rules())};
     session.stack.push(call.images[0]);
     session.outcome.produced = true;
     if (!session.check.result)
@@ -92,25 +65,11 @@ void run_qc(Session& session, const Call& call) {
     std::string why;
     if (!ToneAlgo::qc_facts(record.facts, pointers, why, options))
         throw CommandError("\"" + image.name() + "\": " + why);
-    take_types(image, record.facts);
+    take_types(image, record.facts.channels);
     if (has_picture(record.facts) && !session.check.painter) // which reads the image itself
         tell_encoding(session, call, image, image.part().header(), options.pixels);
     session.check.result->qc = sequence::to_json(record);
     show_faults(session, call, record);
-}
-
-Modifiers modifiers() {
-    Modifiers all = pixel_modifiers();
-    all.push_back({"groups", "NAME,...", "light groups that must add up to the beauty (all)"});
-    for (const sequence::QcRule& rule : sequence::qc_rules()) {
-        std::string usual = severity_name(rule.severity);
-        if (rule.threshold)
-            usual = format_number(*rule.threshold) + "," + usual;
-        all.push_back(
-            {rule.code, rule.threshold ? "X,SEVERITY" : "SEVERITY",
-             rule.help + (rule.threshold ? "; X: " + rule.measures : "") + " (" + usual + ")"});
-    }
-    return all;
 }
 
 } // namespace
@@ -120,7 +79,10 @@ Rows qc_commands() {
                     "Look for faults that need no reference; severities: off, info, warning, error",
                     run_qc)
                 .images(1, 1)
-                .modifiers(modifiers())};
+                .modifiers(pixel_modifiers())
+                .modifier("groups", "NAME,...",
+                          "light groups that must add up to the beauty (all)")
+                .modifiers(fault_modifiers(sequence::qc_rules()))};
 }
 
 } // namespace tonetool::chain

@@ -29,6 +29,7 @@ void add_measuring_commands() {
     add_commands(Group::Compare, bias_commands(), own);
     add_commands(Group::Compare, noise_floor_commands(), own);
     add_commands(Group::Measure, qc_commands(), own);
+    add_commands(Group::Measure, against_commands(), own);
     add_commands(Group::Color, exposure_commands(), own);
     add_commands(Group::Color, tone_commands(), own);
     add_commands(Group::Color, cgtmo_commands(), own);

@@ -31,6 +31,7 @@ Rows compare_commands();
 Rows bias_commands();
 Rows noise_floor_commands();
 Rows qc_commands();
+Rows against_commands();
 Rows exposure_commands();
 Rows tone_commands();
 Rows cgtmo_commands();

@@ -76,6 +76,8 @@ LayerReader::Layer LayerReader::layer_of(const AovLayer& from) const {
     const bool ids = layer.kind == "id";
     for (const int channel : from.channels) {
         const bool alpha = is_alpha(from, layer.kind, channel);
+        if (alpha || ids || belongs(from, channel))
+            layer.names.emplace_back(m_spec.channel_name(channel));
         if (alpha && place_of(channel).part == layer.part)
             layer.alpha = place_of(channel).channel;
         if (alpha || (!ids && !belongs(from, channel)))
@@ -106,8 +108,8 @@ LayerReader::Layer LayerReader::lone_layer(int channel) const {
     OIIO::ImageSpec one(1, 1, 1, OIIO::TypeFloat);
     one.channelnames = {name};
     const Place place = place_of(channel);
-    return {name, layer_kind(aov_layers(one).front(), {}, {}), place.part, {place.channel}, {1.0},
-            {}};
+    const std::string kind = layer_kind(aov_layers(one).front(), {}, {});
+    return {name, kind, place.part, {place.channel}, {1.0}, {name}};
 }
 
 int LayerReader::first_row() const {

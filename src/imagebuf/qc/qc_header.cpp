@@ -47,6 +47,11 @@ const char* kind_by_name(const AovLayer& layer) {
 
 } // namespace
 
+std::string fingerprint(const void* data, size_t bytes) {
+    const auto hash = OIIO::farmhash::Fingerprint128(static_cast<const char*>(data), bytes);
+    return OIIO::Strutil::fmt::format("{:016x}{:016x}", hash.first, hash.second);
+}
+
 QcPart part_facts(const ImageBuf& image) {
     const ImageSpec& spec = image.spec();
     QcPart part;

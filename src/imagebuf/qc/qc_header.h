@@ -11,6 +11,9 @@
 
 namespace tonetool {
 
+/// A hash of 128 bits, in hexadecimal digits.
+std::string fingerprint(const void* data, size_t bytes);
+
 QcPart part_facts(const OIIO::ImageBuf& image);
 
 /// The channels of all parts in one header: those of later parts that have plain names, or names

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "imagebuf/qc/qc_scan.h"
 
-#include <OpenImageIO/hash.h>
-#include <OpenImageIO/strutil.h>
 #include <algorithm>
 #include <cmath>
 
@@ -18,11 +16,6 @@ namespace {
 using metrics::Spike;
 using OIIO::ImageBuf;
 using OIIO::ROI;
-
-std::string fingerprint(const void* data, size_t bytes) {
-    const auto hash = OIIO::farmhash::Fingerprint128(static_cast<const char*>(data), bytes);
-    return OIIO::Strutil::fmt::format("{:016x}{:016x}", hash.first, hash.second);
-}
 
 } // namespace
 

@@ -16,7 +16,7 @@ namespace {
 // Sorts faults by severity, then in the order of the rules.
 void sort_faults(std::vector<Fault>& faults) {
     const auto key = [](const Fault& fault) {
-        return std::make_tuple(-int(fault.severity), qc_rank(fault.code));
+        return std::make_tuple(-int(fault.severity), rank_of(qc_rules(), fault.code));
     };
     std::stable_sort(faults.begin(), faults.end(),
                      [&](const Fault& a, const Fault& b) { return key(a) < key(b); });
@@ -66,11 +66,11 @@ void search(QcShot& shot) {
 }
 
 bool is_found_here(const Fault& fault) {
-    return qc_rank(fault.code) < qc_rules().size();
+    return fault.command.empty() && rank_of(qc_rules(), fault.code) < qc_rules().size();
 }
 
 void judge_view(const std::vector<FrameResult*>& frames) {
-    QcLimits limits;
+    FaultLimits limits(qc_rules());
     std::vector<QcFrame> found;
     for (FrameResult* result : frames) {
         QcFrame& frame = found.emplace_back();
@@ -121,19 +121,6 @@ void judge_qc(std::vector<FrameResult>& frames) {
         views[frame.view].push_back(&frame);
     for (const auto& [view, of_view] : views)
         judge_view(of_view);
-}
-
-std::string faults_text(const ShotResult& shot) {
-    std::string text;
-    for (const FrameResult& frame : shot.frames) {
-        for (const Fault& fault : frame.faults) {
-            text += OIIO::Strutil::fmt::format("qc: frame {}{}{}: {} {}: {}\n", frame.frame,
-                                               frame.view.empty() ? "" : " ", printable(frame.view),
-                                               severity_name(fault.severity), fault.code,
-                                               printable(fault.sentence));
-        }
-    }
-    return text;
 }
 
 void QcShot::add(QcFrame& frame, const std::string& code, const std::string& sentence,

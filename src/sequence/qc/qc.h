@@ -20,7 +20,4 @@ std::vector<Fault> picture_faults(const QcRecord& record);
 /// are sorted by number, then view. Throws a runtime_error where a record cannot be read.
 void judge_qc(std::vector<FrameResult>& frames);
 
-/// A line for each fault, in the order of the frames: "qc: frame 5: error blacklayer: ...".
-std::string faults_text(const ShotResult& shot);
-
 } // namespace tonetool::sequence

@@ -5,14 +5,14 @@
 
 #include <string>
 
-#include "sequence/qc/qc_limits.h"
+#include "sequence/qc/qc_rules.h"
 #include "tonetool/qc.h"
 
 namespace tonetool::sequence {
 
 struct QcRecord {
     QcFacts facts;
-    QcLimits limits;
+    FaultLimits limits{qc_rules()};
 };
 
 /// One line of JSON. Numbers are read back to the bit; invalid UTF-8 becomes U+FFFD.

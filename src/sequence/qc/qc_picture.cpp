@@ -112,7 +112,7 @@ bool has_alpha(const QcPicture& picture) {
 }
 
 // Non-finite pixels have no known value, so an image that has some is neither black nor constant.
-bool is_blank(const QcFacts& facts, const QcLimits& limits) {
+bool is_blank(const QcFacts& facts, const FaultLimits& limits) {
     if (!has_picture(facts))
         return false;
     const QcLayer& picture = picture_layer(facts);

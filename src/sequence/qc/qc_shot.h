@@ -34,7 +34,7 @@ struct QcDetail {
 
 class QcShot {
 public:
-    explicit QcShot(QcLimits limits) : m_limits(std::move(limits)) {}
+    explicit QcShot(FaultLimits limits) : m_limits(std::move(limits)) {}
 
     std::vector<QcFrame> frames; ///< sorted by number
 
@@ -52,7 +52,7 @@ public:
     std::vector<QcFrame*> measured();
 
 private:
-    QcLimits m_limits;
+    FaultLimits m_limits;
 };
 
 const QcLayer* find_layer(const QcFacts& facts, const std::string& name);
@@ -66,7 +66,7 @@ bool has_alpha(const QcPicture& picture);
 bool same_windows(const QcFrame& a, const QcFrame& b);
 /// With fewer frames nobody knows what is usual.
 constexpr size_t kEnoughFrames = 5;
-bool is_blank(const QcFacts& facts, const QcLimits& limits);
+bool is_blank(const QcFacts& facts, const FaultLimits& limits);
 /// What the layers without noise tell of the moment of a frame; empty without such layers.
 std::string moment_of(const QcFacts& facts);
 /// Marks consecutive frames that have a fault: it explains a change of brightness at the first of

@@ -159,6 +159,7 @@ void trim(ordered_json& result, const Kept& kept, const PageLimits& limits) {
     size_t index = 0;
     for (ordered_json& frame : result["frames"]) {
         frame.erase("qc");
+        frame.erase("against");
         const bool whole = !many || kept.full.count(index++) > 0;
         for (ordered_json& measured : frame["measurements"]) {
             for (const char* key : {"histogram", "parameters", "settings"})

@@ -10,6 +10,7 @@
 #include <tuple>
 
 #include "sequence/frames/file_sequence.h"
+#include "sequence/against/against.h"
 #include "sequence/qc/qc.h"
 #include "sequence/results/measuring.h"
 #include "tonetool/bias.h"
@@ -243,18 +244,19 @@ void judge(FrameResult& frame) {
     if (frame.status > Status::Failed)
         return;
     frame.message.clear();
-    if (frame.measurements.empty() && frame.faults.empty() && frame.qc.empty()) {
+    const bool searched = !frame.qc.empty() || !frame.against.empty();
+    if (frame.measurements.empty() && frame.faults.empty() && !searched) {
         frame.status = Status::Error;
         frame.message = kNothingMeasured;
         return;
     }
-    // A frame passes if --qc found nothing or a threshold held; measurements alone do not pass it.
+    // A frame passes if --qc and --against found nothing or a threshold held; measurements alone do not pass it.
     const auto any = [&](auto is) { return std::any_of(found.begin(), found.end(), is); };
     const auto open = [](const Found& one) {
         return one.status == Status::Measured && !one.message.empty();
     };
     const bool tested = any([](const Found& one) { return one.status == Status::Passed; });
-    frame.status = !any(open) && (tested || !frame.qc.empty()) ? Status::Passed : Status::Measured;
+    frame.status = !any(open) && (tested || searched) ? Status::Passed : Status::Measured;
     for (const Found& one : found) {
         if (open(one) && frame.status == Status::Measured && frame.message.empty())
             frame.message = one.message;
@@ -302,6 +304,7 @@ double badness(const FrameResult& frame) {
 void conclude(ShotResult& shot) {
     sort_frames(shot.frames);
     judge_qc(shot.frames);
+    judge_against(shot.frames);
     shot.worst = by_badness(shot.frames);
     if (shot.frames.empty()) {
         shot.verdict = Status::Error;

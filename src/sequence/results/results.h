@@ -45,7 +45,7 @@ struct Position {
     bool operator==(const Position& o) const { return x == o.x && y == o.y; }
 };
 
-/// A fault of an image (--qc). The severity Error fails the frame, Warning gives it a warning.
+/// A fault of an image (--qc, --against). The severity Error fails the frame, Warning gives it a warning.
 struct Fault {
     std::string code; ///< "nan", "firefly", "blacklayer", ...
     Severity severity = Severity::Error;
@@ -54,6 +54,7 @@ struct Fault {
     std::optional<Position> position;
     std::optional<double> value, threshold;        ///< the measured value and its limit
     std::optional<std::array<int, 4>> rectangle{}; ///< x, y, width, height of a place
+    std::string command{};                         ///< that found it, if it is not --qc
 };
 
 /// A threshold of one quantity.
@@ -102,7 +103,8 @@ struct FrameResult {
     std::vector<Fault> faults;
     /// Warnings of the run; a frame with a warning has not passed.
     std::vector<std::string> warnings;
-    std::string qc;     ///< the facts that --qc measured, as JSON; empty without --qc
+    std::string qc;      ///< the facts that --qc measured, as JSON; empty without --qc
+    std::string against; ///< the same of --against
     double seconds = 0; ///< time of the run; not part of any file
 };
 

@@ -126,6 +126,7 @@ ordered_json json_of(const Fault& fault) {
     put(to, "sentence", fault.sentence);
     put(to, "layer", fault.layer);
     put(to, "position", fault.position);
+    put(to, "command", fault.command);
     if (fault.rectangle)
         to["rectangle"] = *fault.rectangle;
     put(to, "value", fault.value);
@@ -148,6 +149,7 @@ Fault fault_of(const ordered_json& from) {
         for (size_t i = 0; i < fault.rectangle->size(); ++i)
             (*fault.rectangle)[i] = whole_number<int>(from["rectangle"].at(i), "rectangle");
     }
+    fault.command = text(from, "command");
     fault.value = maybe_number(from, "value");
     fault.threshold = maybe_number(from, "threshold");
     return fault;
@@ -235,6 +237,8 @@ ordered_json json_of(const FrameResult& frame) {
         to["warnings"] = frame.warnings;
     if (!frame.qc.empty())
         to["qc"] = parse_json<ordered_json>(frame.qc);
+    if (!frame.against.empty())
+        to["against"] = parse_json<ordered_json>(frame.against);
     return to;
 }
 
@@ -259,6 +263,7 @@ FrameResult frame_of(const ordered_json& from) {
             });
     frame.warnings = values<std::string>(from, "warnings");
     frame.qc = from.contains("qc") ? one_line(from["qc"]) : "";
+    frame.against = from.contains("against") ? one_line(from["against"]) : "";
     judge_from_numbers(frame);
     return frame;
 }

@@ -9,6 +9,7 @@
 #include <random>
 
 #include "sequence/results/results_json.h"
+#include "sequence/verdict/fault_lines.h"
 
 namespace tonetool::sequence {
 namespace {
@@ -46,7 +47,7 @@ QcFacts facts_of(int number, double stops = 0) {
     return facts;
 }
 
-FrameResult result_of(int number, const QcFacts& facts, const QcLimits& limits = {}) {
+FrameResult result_of(int number, const QcFacts& facts, const FaultLimits& limits = FaultLimits(qc_rules())) {
     FrameResult result;
     result.frame = number;
     result.status = Status::Passed;
@@ -228,7 +229,7 @@ TEST(Qc, GeometryThatStandsStillIsNoFrozenFrame) {
 }
 
 TEST(Qc, AHoldByIntentMayBeMadeAnError) {
-    QcLimits limits;
+    FaultLimits limits(qc_rules());
     EXPECT_EQ(limits.severity("frozen", Severity::Warning), Severity::Warning);
     EXPECT_EQ(limits.severity("duplicate", Severity::Error), Severity::Warning);
     limits.set("frozen", "5");
@@ -382,7 +383,7 @@ TEST(Qc, ViewsAreJudgedByThemselves) {
 
 TEST(Qc, SeveritiesAndThresholdsAreThoseThatWereAskedFor) {
     std::vector<FrameResult> frames = shot_with(6, 6, brighter);
-    QcLimits limits;
+    FaultLimits limits(qc_rules());
     limits.set("flicker", "0.1,error");
     for (FrameResult& frame : frames)
         frame.qc = to_json(QcRecord{qc_from_json(frame.qc).facts, limits});
@@ -398,7 +399,7 @@ TEST(Qc, SeveritiesAndThresholdsAreThoseThatWereAskedFor) {
 }
 
 TEST(Qc, LimitsRefuseWhatTheyCannotBe) {
-    QcLimits limits;
+    FaultLimits limits(qc_rules());
     EXPECT_THROW(limits.set("jmp", "1"), std::runtime_error);
     for (const char* text : {"", "-1", "1,2", "loud", "off,off", "nan", "inf", "1,error,off"})
         EXPECT_THROW(limits.set("light", text), std::runtime_error) << text;
@@ -436,7 +437,7 @@ TEST(Qc, AnySplitOfTheFramesGivesTheSame) {
 
 TEST(Qc, ARecordThatIsNoneIsRefused) {
     EXPECT_THROW(qc_from_json("{}"), std::runtime_error);
-    std::string text = to_json(QcRecord{facts_of(1), {}});
+    std::string text = to_json(QcRecord{facts_of(1)});
     EXPECT_EQ(to_json(qc_from_json(text)), text);
     QcFacts places = facts_of(2);
     with_rectangle(places, 160, NAN, true);
@@ -454,7 +455,7 @@ TEST(Qc, ARecordThatIsNoneIsRefused) {
     places.picture.fingerprints[11] = 65535;
     places.guides = {{"Depth.Z", 1, std::vector<int>(QcPicture::kWide * QcPicture::kHigh, -32767)},
                      {"Normal", 3, std::vector<int>(3 * QcPicture::kWide * QcPicture::kHigh, 5)}};
-    const std::string more = to_json(QcRecord{places, {}});
+    const std::string more = to_json(QcRecord{places});
     const QcRecord read = qc_from_json(more);
     EXPECT_EQ(to_json(read), more);
     EXPECT_TRUE(std::isnan(read.facts.picture.rectangles[0].color[2]));

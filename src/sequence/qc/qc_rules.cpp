@@ -1,43 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sequence/qc/qc_limits.h"
+#include "sequence/qc/qc_rules.h"
 
-#include <OpenImageIO/strutil.h>
-#include <algorithm>
-#include <cmath>
-#include <stdexcept>
-
-#include "imagebuf/pixels/names.h"
 #include "tonetool/lights.h"
 
 namespace tonetool::sequence {
 
-namespace {
-
-const QcRule& rule_of(const std::string& code) {
-    const std::vector<QcRule>& rules = qc_rules();
-    const size_t rank = qc_rank(code);
-    if (rank == rules.size()) {
-        std::vector<std::string> codes;
-        for (const QcRule& rule : rules)
-            codes.push_back(rule.code);
-        throw std::runtime_error(unknown_name("fault", code, codes));
-    }
-    return rules[rank];
-}
-
-[[noreturn]] void refuse(const QcRule& rule, const std::string& text) {
-    const std::string number =
-        rule.threshold ? ", a number of at least 0 (" + rule.measures + "), or number,severity"
-                       : "";
-    throw std::runtime_error(rule.code + " is \"" + text + "\": must be off, info, warning, error" +
-                             number);
-}
-
-} // namespace
-
-const std::vector<QcRule>& qc_rules() {
+const FaultRules& qc_rules() {
     constexpr Severity error = Severity::Error, warning = Severity::Warning, info = Severity::Info;
-    static const std::vector<QcRule> rules = {
+    static const FaultRules rules = {
         {"missing", error, {}, "", "frames that do not exist"},
         {"black", error, 0.0, "largest value", "the image is black"},
         {"constant", error, {}, "", "the image is one colour"},
@@ -106,52 +76,6 @@ const std::vector<QcRule>& qc_rules() {
         {"bars", info, {}, "", "a bar of one value along a border in all frames"},
     };
     return rules;
-}
-
-size_t qc_rank(const std::string& code) {
-    const std::vector<QcRule>& rules = qc_rules();
-    const auto same = [&](const QcRule& rule) { return rule.code == code; };
-    return size_t(std::find_if(rules.begin(), rules.end(), same) - rules.begin());
-}
-
-void QcLimits::set(const std::string& code, const std::string& text) {
-    const QcRule& rule = rule_of(code);
-    Limit limit{rule.severity, rule.threshold, false};
-    bool has_threshold = false;
-    for (const std::string& word : OIIO::Strutil::splits(text, ",")) {
-        const auto severity = severity_of_name(word);
-        if (!limit.has_severity && (severity || word == "off")) {
-            limit.severity = severity;
-            limit.has_severity = true;
-        } else if (!has_threshold && rule.threshold && OIIO::Strutil::string_is_float(word)) {
-            limit.threshold = OIIO::Strutil::stod(word);
-            has_threshold = true;
-        } else {
-            refuse(rule, text);
-        }
-    }
-    const bool valid = !limit.threshold || (*limit.threshold >= 0 && *limit.threshold < HUGE_VAL);
-    if ((!limit.has_severity && !has_threshold) || !valid)
-        refuse(rule, text);
-    m_changed[code] = limit;
-    m_texts[code] = text;
-}
-
-std::optional<Severity> QcLimits::severity(const std::string& code) const {
-    const auto changed = m_changed.find(code);
-    return changed == m_changed.end() ? rule_of(code).severity : changed->second.severity;
-}
-
-std::optional<Severity> QcLimits::severity(const std::string& code, Severity milder) const {
-    const auto changed = m_changed.find(code);
-    const bool is_set = changed != m_changed.end() && changed->second.has_severity;
-    return is_set ? changed->second.severity : std::min(milder, rule_of(code).severity);
-}
-
-double QcLimits::threshold(const std::string& code) const {
-    const auto changed = m_changed.find(code);
-    return (changed == m_changed.end() ? rule_of(code).threshold : changed->second.threshold)
-        .value_or(0);
 }
 
 } // namespace tonetool::sequence

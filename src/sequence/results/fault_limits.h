@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The faults that --qc looks for, each with its severity and threshold.
+// The faults that a command looks for, and the severities and thresholds that the user sets.
 #pragma once
 
 #include <map>
@@ -12,20 +12,23 @@
 namespace tonetool::sequence {
 
 /// A kind of fault. Faults of equal severity are listed in the order of these rules.
-struct QcRule {
+struct FaultRule {
     std::string code;
     Severity severity;
     std::optional<double> threshold; ///< none: the rule measures nothing
     std::string measures;            ///< the unit of the threshold: "stops"; or empty
     std::string help;                ///< what the rule looks for
 };
-const std::vector<QcRule>& qc_rules();
-/// The position of a rule in that list.
-size_t qc_rank(const std::string& code);
+using FaultRules = std::vector<FaultRule>;
+/// The position of a rule among these; their number if there is none.
+size_t rank_of(const FaultRules& rules, const std::string& code);
 
 /// The severities and thresholds that the user has set.
-class QcLimits {
+class FaultLimits {
 public:
+    /// The rules must live as long as this does.
+    explicit FaultLimits(const FaultRules& rules) : m_rules(&rules) {}
+
     /// `text`: "off", "info", "warning", "error", a threshold, or both separated by a comma. Throws
     /// a runtime_error for anything else, or an unknown code.
     void set(const std::string& code, const std::string& text);
@@ -42,6 +45,9 @@ private:
         std::optional<double> threshold;
         bool has_severity = false; ///< set by the user
     };
+    const FaultRule& rule_of(const std::string& code) const;
+
+    const FaultRules* m_rules;
     std::map<std::string, Limit> m_changed;
     std::map<std::string, std::string> m_texts;
 };

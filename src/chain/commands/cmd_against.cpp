@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// --against: a file compared with its approved version, layer by layer.
+#include "chain/commands/color_input.h"
+#include "chain/commands/commands.h"
+#include "chain/commands/fault_args.h"
+#include "chain/commands/flip_args.h"
+#include "chain/commands/frame_pictures.h"
+#include "sequence/against/against.h"
+#include "text/error.h"
+#include "tonetool/against.h"
+
+namespace tonetool::chain {
+
+namespace {
+
+Strings words_of(const Call& call, const std::string& key) {
+    const auto text = call.text(key);
+    return text ? split(*text, ',') : Strings();
+}
+
+// kind=LAYER=KIND,...
+void read_kinds(const Call& call, AgainstOptions& options) {
+    for (const std::string& word : words_of(call, "kind")) {
+        const size_t equals = word.rfind('=');
+        if (equals == std::string::npos || equals == 0 || equals + 1 == word.size())
+            throw CommandError("kind is \"" + word + "\": must be LAYER=KIND (valid kinds: " +
+                               OIIO::Strutil::join(ToneAlgo::against_kinds(), ", ") + ")");
+        options.kinds.emplace_back(word.substr(0, equals), word.substr(equals + 1));
+    }
+}
+
+struct Source {
+    std::vector<OIIO::ImageBuf> parts;
+    std::vector<const OIIO::ImageBuf*> pointers;
+};
+
+Source source_of(const Image& image) {
+    if (image.is_result) {
+        throw CommandError("\"" + image.name() +
+                           "\" is what a comparison has made, no render (valid: "
+                           "--against before the comparison)");
+    }
+    Source source;
+    for (const PartPtr& part : image.parts())
+        source.parts.push_back(part->color_source());
+    for (const OIIO::ImageBuf& part : source.parts)
+        source.pointers.push_back(&part);
+    return source;
+}
+
+// Marks the places of the faults in the pictures of the pair.
+void show_differences(Session& session, const Call& call, const sequence::AgainstRecord& record) {
+    if (!session.check.painter)
+        return;
+    const sequence::FrameResult before = *session.check.result;
+    std::vector<sequence::Fault> found = sequence::against_faults(record);
+    sequence::PictureRequest request;
+    for (const sequence::Fault& fault : found)
+        if (fault.position)
+            request.spots.push_back(*fault.position);
+    session.check.result->faults.insert(session.check.result->faults.end(), found.begin(),
+                                        found.end());
+    request.look.pixels = pixel_options(call);
+    const OIIO::ImageBuf approved =
+        shown_input(session, call, *call.images[0], request.look.pixels);
+    const OIIO::ImageBuf picture = shown_input(session, call, *call.images[1], request.look.pixels);
+    request.reference = &approved;
+    request.test = &picture;
+    show(session, call, std::move(request));
+    *session.check.result = before;
+}
+
+void run_against(Session& session, const Call& call) {
+    const Image &approved = *call.images[0], &image = *call.images[1];
+    const sequence::FaultLimits limits = fault_limits(call, sequence::against_rules());
+    session.stack.push(call.images[0]);
+    session.stack.push(call.images[1]);
+    session.outcome.produced = true;
+    if (!session.check.result)
+        return; // this run only measures the exposures of the shot
+    AgainstOptions options;
+    options.pixels = pixel_options(call);
+    read_kinds(call, options);
+    options.skip = words_of(call, "skip");
+    const Source theirs = source_of(approved), ours = source_of(image);
+    AgainstFacts facts;
+    std::string why;
+    if (!ToneAlgo::against_facts(facts, theirs.pointers, ours.pointers, why, options))
+        throw CommandError("\"" + approved.name() + "\", \"" + image.name() + "\": " + why);
+    take_types(approved, facts.approved.channels);
+    take_types(image, facts.file.channels);
+    sequence::AgainstRecord record =
+        sequence::record_of(facts, words_of(call, "header"));
+    record.limits = limits;
+    session.check.result->against = sequence::to_json(record);
+    show_differences(session, call, record);
+}
+
+Modifiers own_modifiers() {
+    return {{"kind", "LAYER=KIND,...",
+             "what layers hold where their names do not tell: position, normal, depth, vector, id, "
+             "albedo, color, group or data"},
+            {"skip", "LAYER,...", "layers that are not compared, with * and ?"},
+            {"header", "NAME,...", "more attributes that must agree"}};
+}
+
+} // namespace
+
+Rows against_commands() {
+    return {command("against",
+                    "Compare each layer with the approved version: approved, new -> both; "
+                    "severities: off, info, warning, error",
+                    run_against)
+                .images(2, 2)
+                .modifiers(pixel_modifiers(), own_modifiers(),
+                           fault_modifiers(sequence::against_rules()))};
+}
+
+} // namespace tonetool::chain

@@ -1,0 +1,260 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sequence/against/against.h"
+
+#include <OpenImageIO/strutil.h>
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <optional>
+#include <set>
+
+#include "imagebuf/pixels/layer_name.h"
+
+namespace tonetool::sequence {
+
+namespace {
+
+using OIIO::Strutil::fmt::format;
+
+struct Compared {
+    FrameResult* result;
+    AgainstRecord record;
+};
+using ComparedFrames = std::vector<Compared>;
+
+// ---- layers
+
+// A quantity of a layer that is beyond its limit.
+struct Beyond {
+    const AgainstQuantity* quantity;
+    double value;  ///< with its sign
+    double limit;  ///< of an error
+    double excess; ///< the size of the value in units of that limit
+    Severity severity;
+};
+
+// Error from the limit on, warning from its share on; a severity of the user's bounds both.
+std::optional<Beyond> beyond(const FaultLimits& limits, const AgainstQuantity& quantity,
+                             double value) {
+    const double limit = limits.threshold(quantity.code), size = std::abs(value);
+    const auto severity = limits.severity(quantity.code);
+    if (!severity || !(size > quantity.warning_share * limit))
+        return std::nullopt;
+    return Beyond{&quantity, value, limit, limit > 0 ? size / limit : HUGE_VAL,
+                  size > limit ? *severity : std::min(*severity, Severity::Warning)};
+}
+
+// The worst quantity of a layer, or of its alpha.
+std::optional<Beyond> worst_of(const AgainstRecord& record, const AgainstLayer& layer,
+                               const std::string& kind) {
+    std::optional<Beyond> worst;
+    for (const AgainstQuantity& quantity : against_quantities()) {
+        const auto found = layer.quantities.find(quantity.quantity);
+        if (quantity.kind != kind || found == layer.quantities.end())
+            continue;
+        const auto one = beyond(record.limits, quantity, found->second);
+        if (one && (!worst || one->severity > worst->severity ||
+                    (one->severity == worst->severity && one->excess > worst->excess)))
+            worst = one;
+    }
+    return worst;
+}
+
+std::string layer_words(const AgainstLayer& layer) {
+    return (layer.kind == "group" ? "light group " : "layer ") + shown_layer(layer.name);
+}
+
+std::string percent(double share) {
+    return format("{:.3g} %", 100 * share);
+}
+
+std::string sentence_of(const AgainstLayer& layer, const Beyond& beyond) {
+    const std::string what = layer_words(layer);
+    const std::string& quantity = beyond.quantity->quantity;
+    const double value = beyond.value;
+    std::string text;
+    if (quantity == "gain")
+        text = format("{} is {:.2g} stops {} than approved", what, std::abs(value),
+                      value > 0 ? "brighter" : "darker");
+    else if (quantity == "blocks")
+        text = format("{} differs from the approved one by more than its noise in {} of the blocks",
+                      what, percent(value));
+    else if (quantity == "median")
+        text = format("{} is {:.3g} {} off the approved one (median)", what, value,
+                      layer.kind == "normal" ? "degrees" : "pixels");
+    else if (quantity == "one")
+        text = format("{} of the pixels have a normal in only one version of {}", percent(value),
+                      what);
+    else if (quantity == "mismatch")
+        text = format("{} shows other objects in {} of the picture", what, percent(value));
+    else if (quantity == "alpha_mean")
+        return format("alpha of {} differs from the approved one by {:.3g} on average", what, value);
+    else if (quantity == "alpha_off")
+        return format("alpha of {} differs from the approved one in {} of the pixels", what,
+                      percent(value));
+    else
+        text = format("{} differs from the approved one in {} of the pixels", what, percent(value));
+    return format("{}, most at ({}, {})", text, layer.x, layer.y);
+}
+
+Fault fault_of(const AgainstLayer& layer, const Beyond& beyond) {
+    Fault fault;
+    fault.command = "against";
+    fault.code = beyond.quantity->code;
+    fault.severity = beyond.severity;
+    fault.sentence = sentence_of(layer, beyond);
+    fault.layer = layer.name;
+    if (!beyond.quantity->kind.empty())
+        fault.position = Position{layer.x, layer.y};
+    fault.value = beyond.value;
+    fault.threshold = beyond.limit;
+    return fault;
+}
+
+// Layers without noise tell which frame it looks like.
+bool tells_moment(const std::string& code) {
+    return code == "position" || code == "depth";
+}
+
+void add_layers(const AgainstRecord& record, std::vector<Fault>& faults) {
+    for (const AgainstLayer& layer : record.layers) {
+        for (const std::string& kind : {layer.kind, std::string()})
+            if (const auto worst = worst_of(record, layer, kind))
+                faults.push_back(fault_of(layer, *worst));
+        const auto off = layer.quantities.find("off");
+        const auto severity = record.limits.severity("data");
+        if (layer.kind == "data" && severity && off != layer.quantities.end() && off->second > 0) {
+            Fault fault;
+            fault.command = "against";
+            fault.code = "data";
+            fault.severity = *severity;
+            fault.layer = layer.name;
+            fault.sentence = format("{} differs from the approved one in {} of the pixels",
+                                    layer_words(layer), percent(off->second));
+            faults.push_back(std::move(fault));
+        }
+    }
+}
+
+// ---- headers
+
+void add_fault(const AgainstRecord& record, const AgainstDifference& difference,
+               std::vector<Fault>& faults) {
+    const auto severity = record.limits.severity(difference.code, difference.severity);
+    if (!severity)
+        return;
+    Fault fault;
+    fault.command = "against";
+    fault.code = difference.code;
+    fault.severity = *severity;
+    fault.layer = difference.layer;
+    fault.sentence = difference.sentence;
+    faults.push_back(std::move(fault));
+}
+
+std::string words_of(const AgainstRecord::Window& window) {
+    return format("{}x{}{:+}{:+}", window[2], window[3], window[0], window[1]);
+}
+
+// Whether a window holds the other up to 2 pixels.
+bool holds(const AgainstRecord::Window& a, const AgainstRecord::Window& b) {
+    constexpr int slack = 2;
+    return a[0] <= b[0] + slack && a[1] <= b[1] + slack && a[0] + a[2] >= b[0] + b[2] - slack &&
+           a[1] + a[3] >= b[1] + b[3] - slack;
+}
+
+// Where the approved data windows are cropped frame by frame, the new ones need only hold them.
+void add_window(const AgainstRecord& record, bool cropped, std::vector<Fault>& faults) {
+    if (record.data == record.approved_data || (cropped && holds(record.data, record.approved_data)))
+        return;
+    add_fault(record,
+              {"datawindow", "",
+               format("the data window is {}, approved is {}", words_of(record.data),
+                      words_of(record.approved_data)),
+               cropped ? Severity::Warning : Severity::Error},
+              faults);
+}
+
+std::vector<Fault> faults_of(const AgainstRecord& record, bool cropped) {
+    std::vector<Fault> faults;
+    if (!record.approved) {
+        add_fault(record,
+                  {"noapproved", "", "the approved version has no such frame", Severity::Info},
+                  faults);
+        return faults;
+    }
+    for (const AgainstDifference& difference : record.differences)
+        add_fault(record, difference, faults);
+    add_window(record, cropped, faults);
+    add_layers(record, faults);
+    std::stable_sort(faults.begin(), faults.end(), [](const Fault& a, const Fault& b) {
+        const auto key = [](const Fault& fault) {
+            return std::make_pair(-int(fault.severity), rank_of(against_rules(), fault.code));
+        };
+        return key(a) < key(b);
+    });
+    return faults;
+}
+
+// ---- the shot
+
+bool is_cropped(const ComparedFrames& frames) {
+    std::set<AgainstRecord::Window> windows;
+    for (const Compared& frame : frames)
+        if (frame.record.approved)
+            windows.insert(frame.record.approved_data);
+    return windows.size() > 1;
+}
+
+// The approved frame, at most two away, that shows the moment of frame i.
+std::optional<int> frame_alike(const ComparedFrames& frames, size_t i) {
+    constexpr int most = 2;
+    const AgainstRecord& here = frames[i].record;
+    if (here.moment.empty() || here.moment == here.approved_moment)
+        return std::nullopt;
+    for (const Compared& other : frames) {
+        const int apart = std::abs(other.result->frame - frames[i].result->frame);
+        if (apart > 0 && apart <= most && other.record.approved_moment == here.moment)
+            return other.result->frame;
+    }
+    return std::nullopt;
+}
+
+void judge_frames(ComparedFrames& frames) {
+    const bool cropped = is_cropped(frames);
+    for (size_t i = 0; i < frames.size(); ++i) {
+        std::vector<Fault> found = faults_of(frames[i].record, cropped);
+        const std::optional<int> alike = frame_alike(frames, i);
+        for (Fault& fault : found)
+            if (alike && tells_moment(fault.code))
+                fault.sentence += format("; it is the moment of approved frame {}", *alike);
+        FrameResult& result = *frames[i].result;
+        result.faults.insert(result.faults.end(), found.begin(), found.end());
+        std::stable_sort(
+            result.faults.begin(), result.faults.end(),
+            [](const Fault& a, const Fault& b) { return a.severity > b.severity; });
+        judge(result);
+    }
+}
+
+} // namespace
+
+std::vector<Fault> against_faults(const AgainstRecord& record) {
+    return faults_of(record, false);
+}
+
+void judge_against(std::vector<FrameResult>& frames) {
+    std::map<std::string, ComparedFrames> views;
+    for (FrameResult& frame : frames) {
+        if (frame.against.empty())
+            continue;
+        const auto is_found_here = [](const Fault& fault) { return fault.command == "against"; };
+        frame.faults.erase(std::remove_if(frame.faults.begin(), frame.faults.end(), is_found_here),
+                           frame.faults.end());
+        views[frame.view].push_back({&frame, against_from_json(frame.against)});
+    }
+    for (auto& [view, of_view] : views)
+        judge_frames(of_view);
+}
+
+} // namespace tonetool::sequence

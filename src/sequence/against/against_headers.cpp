@@ -1,0 +1,209 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The structure of a file compared with that of its approved version, from the headers alone.
+#include <OpenImageIO/strutil.h>
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+
+#include "imagebuf/pixels/layer_name.h"
+#include "imagebuf/pixels/names.h"
+#include "sequence/against/against_record.h"
+
+namespace tonetool::sequence {
+
+namespace {
+
+using OIIO::Strutil::fmt::format;
+using Names = std::vector<std::string>;
+using Differences = std::vector<AgainstDifference>;
+
+const AgainstName* other_of(const AgainstFile& file, const AgainstName& layer) {
+    return layer.other < 0 ? nullptr : &file.layers.at(size_t(layer.other));
+}
+
+std::string last_word(const std::string& channel) {
+    return lower(channel.substr(channel.rfind('.') + 1));
+}
+
+std::set<std::string> last_words(const Names& channels) {
+    std::set<std::string> words;
+    for (const std::string& channel : channels)
+        words.insert(last_word(channel));
+    return words;
+}
+
+std::string listed(const std::set<std::string>& names) {
+    return OIIO::Strutil::join(Names(names.begin(), names.end()), ",");
+}
+
+void compare_layers(const AgainstFile& approved, const AgainstFile& file, Differences& out) {
+    for (const AgainstName& layer : approved.layers) {
+        const AgainstName* found = other_of(file, layer);
+        if (!found) {
+            out.push_back({"layermissing", layer.name,
+                           "layer " + shown_layer(layer.name) + " of the approved version is missing",
+                           Severity::Error});
+            continue;
+        }
+        const std::set<std::string> theirs = last_words(layer.channels);
+        const std::set<std::string> ours = last_words(found->channels);
+        if (theirs != ours) {
+            out.push_back({"channels", layer.name,
+                           format("layer {} has the channels {}, approved are {}",
+                                  shown_layer(layer.name), listed(ours), listed(theirs)),
+                           Severity::Error});
+        }
+    }
+    for (const AgainstName& layer : file.layers)
+        if (layer.other < 0)
+            out.push_back({"layerextra", layer.name,
+                           "layer " + shown_layer(layer.name) + " is not in the approved version",
+                           Severity::Warning});
+}
+
+std::string window_words(const std::array<int, 4>& window) {
+    return format("{}x{}{:+}{:+}", window[2], window[3], window[0], window[1]);
+}
+
+void compare_windows(const AgainstFile& approved, const AgainstFile& file, Differences& out) {
+    const QcPart &theirs = approved.parts.front(), &ours = file.parts.front();
+    if (theirs.display != ours.display) {
+        out.push_back({"displaywindow", "",
+                       format("the display window is {}, approved is {}",
+                              window_words(ours.display), window_words(theirs.display)),
+                       Severity::Error});
+    }
+}
+
+using Types = std::map<std::string, std::string>;
+
+bool is_data(const std::string& kind) {
+    return kind == "position" || kind == "depth" || kind == "id" || kind == "vector";
+}
+
+// The types of layers that both have; a layer is told once.
+void compare_types(const AgainstFile& approved, const AgainstFile& file, Differences& out) {
+    const Types theirs(approved.channels.begin(), approved.channels.end());
+    const Types ours(file.channels.begin(), file.channels.end());
+    std::map<std::pair<std::string, std::string>, Names> layers[2]; // by types: colours, data
+    for (const AgainstName& layer : approved.layers) {
+        const AgainstName* found = other_of(file, layer);
+        if (!found || found->channels.empty() || layer.channels.empty())
+            continue;
+        const auto a = theirs.find(layer.channels.front());
+        const auto b = ours.find(found->channels.front());
+        if (a == theirs.end() || b == ours.end() || a->second == b->second)
+            continue;
+        const bool lost = is_data(layer.kind) && a->second == "float" && b->second == "half";
+        layers[lost ? 1 : 0][{a->second, b->second}].push_back(shown_layer(layer.name));
+    }
+    for (const size_t lost : {size_t(1), size_t(0)})
+        for (const auto& [types, names] : layers[lost])
+            out.push_back({"type", "",
+                           format("{} {} {}, approved {} {}{}", OIIO::Strutil::join(names, ", "),
+                                  names.size() == 1 ? "is" : "are", types.second,
+                                  names.size() == 1 ? "is" : "are", types.first,
+                                  lost ? ": data needs all of its digits" : ""),
+                           lost ? Severity::Error : Severity::Warning});
+}
+
+bool is_lossy(const std::string& compression) {
+    const std::string name = compression.substr(0, compression.find(':'));
+    return name == "dwaa" || name == "dwab" || name == "b44" || name == "b44a" ||
+           name == "pxr24" || name == "jpeg";
+}
+
+void compare_compression(const AgainstFile& approved, const AgainstFile& file, Differences& out) {
+    const std::string &theirs = approved.parts.front().compression,
+                      &ours = file.parts.front().compression;
+    if (theirs == ours)
+        return;
+    const bool lossy = is_lossy(ours) && !is_lossy(theirs);
+    const auto shown = [](const std::string& name) { return name.empty() ? "none" : name; };
+    out.push_back({"compression", "",
+                   format("the compression is {}{}, approved is {}", shown(ours),
+                          lossy ? ", which loses digits" : "", shown(theirs)),
+                   lossy ? Severity::Error : Severity::Warning});
+}
+
+// What a header says of a name, in any part.
+std::string said(const AgainstFile& file, const std::string& name) {
+    for (const QcPart& part : file.parts) {
+        const auto found = part.metadata.find(name);
+        if (found != part.metadata.end())
+            return found->second;
+    }
+    return "";
+}
+
+// Numbers that are written in other ways are the same: 24, 24.0 and 24/1.
+bool same_value(const std::string& name, std::string a, std::string b) {
+    const auto number = [](const std::string& text) {
+        const size_t slash = text.find('/');
+        const double above = OIIO::Strutil::stod(text);
+        const double below = slash == std::string::npos
+                                 ? 1
+                                 : OIIO::Strutil::stod(std::string(text.substr(slash + 1)));
+        return below != 0 ? above / below : above;
+    };
+    if (name == "PixelAspectRatio") {
+        a = a.empty() ? "1" : a;
+        b = b.empty() ? "1" : b;
+    }
+    const bool numbers = name == "PixelAspectRatio" || name == "framesPerSecond" ||
+                         name == "FramesPerSecond";
+    if (numbers && !a.empty() && !b.empty())
+        return std::abs(number(a) - number(b)) <= 1e-6 * std::abs(number(a));
+    return a == b;
+}
+
+// The names that must agree: those that are always meant, Cryptomatte's, and the user's.
+std::set<std::string> header_names(const AgainstFile& approved, const AgainstFile& file,
+                                   const Names& more) {
+    std::set<std::string> names = {"PixelAspectRatio", "framesPerSecond", "FramesPerSecond", "view",
+                                   "multiView",        "chromaticities",  "oiio:ColorSpace", "camera"};
+    names.insert(more.begin(), more.end());
+    for (const AgainstFile* side : {&approved, &file})
+        for (const QcPart& part : side->parts)
+            for (const auto& [name, value] : part.metadata)
+                if (OIIO::Strutil::starts_with(name, "cryptomatte/") &&
+                    (OIIO::Strutil::ends_with(name, "/hash") ||
+                     OIIO::Strutil::ends_with(name, "/conversion")))
+                    names.insert(name);
+    return names;
+}
+
+void compare_headers(const AgainstFile& approved, const AgainstFile& file, const Names& more,
+                     Differences& out) {
+    const auto shown = [](const std::string& value) {
+        return value.empty() ? std::string("not there") : "\"" + value + "\"";
+    };
+    for (const std::string& name : header_names(approved, file, more)) {
+        const std::string theirs = said(approved, name), ours = said(file, name);
+        if (!same_value(name, theirs, ours)) {
+            out.push_back({"header", "",
+                           format("{} is {}, approved is {}", name, shown(ours), shown(theirs)),
+                           name == "camera" ? Severity::Warning : Severity::Error});
+        }
+    }
+}
+
+} // namespace
+
+AgainstRecord record_of(const AgainstFacts& facts, const Names& headers) {
+    AgainstRecord record;
+    record.approved_data = facts.approved.parts.front().data;
+    record.data = facts.file.parts.front().data;
+    record.approved_moment = facts.approved.moment;
+    record.moment = facts.file.moment;
+    record.layers = facts.layers;
+    compare_layers(facts.approved, facts.file, record.differences);
+    compare_windows(facts.approved, facts.file, record.differences);
+    compare_types(facts.approved, facts.file, record.differences);
+    compare_compression(facts.approved, facts.file, record.differences);
+    compare_headers(facts.approved, facts.file, headers, record.differences);
+    return record;
+}
+
+} // namespace tonetool::sequence

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sequence/verdict/fault_lines.h"
+
+#include <OpenImageIO/strutil.h>
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <vector>
+
+#include "text/printable.h"
+
+namespace tonetool::sequence {
+
+namespace {
+
+using OIIO::Strutil::fmt::format;
+
+// Whether two frames have the same difference, however much of it.
+bool is_same(const Fault& a, const Fault& b) {
+    return a.command == b.command && a.code == b.code && a.layer == b.layer &&
+           a.severity == b.severity && (a.value.has_value() || a.sentence == b.sentence);
+}
+
+const Fault* find_same(const FrameResult& frame, const Fault& fault) {
+    const auto found = std::find_if(frame.faults.begin(), frame.faults.end(),
+                                    [&](const Fault& other) { return is_same(other, fault); });
+    return found == frame.faults.end() ? nullptr : &*found;
+}
+
+std::string line(const Fault& fault, const std::string& frames, const std::string& view) {
+    std::string where = frames + (frames.empty() || view.empty() ? "" : " ") + printable(view);
+    where += where.empty() ? "" : ": ";
+    return format("{}: {}{} {}: {}\n", fault.command.empty() ? "qc" : fault.command, where,
+                  severity_name(fault.severity), fault.code, printable(fault.sentence));
+}
+
+// Frames of one view.
+class ViewFaults {
+public:
+    explicit ViewFaults(std::vector<const FrameResult*> frames) : m_frames(std::move(frames)) {}
+
+    /// The line of a fault of frame i; empty if that of an earlier frame has told it.
+    std::string line_of(size_t i, const Fault& fault) const {
+        const bool still = m_frames.size() == 1 && m_frames[i]->frame == 0;
+        const std::string number =
+            still ? std::string() : "frame " + std::to_string(m_frames[i]->frame);
+        if (fault.command.empty())
+            return line(fault, number, m_frames[i]->view);
+        if (i > 0 && find_same(*m_frames[i - 1], fault))
+            return "";
+        size_t last = i, worst = i;
+        const Fault* most = &fault;
+        for (; last + 1 < m_frames.size(); ++last) {
+            const Fault* next = find_same(*m_frames[last + 1], fault);
+            if (!next)
+                break;
+            if (std::abs(next->value.value_or(0)) > std::abs(most->value.value_or(0))) {
+                most = next;
+                worst = last + 1;
+            }
+        }
+        if (last == i)
+            return line(fault, number, m_frames[i]->view);
+        Fault told = *most;
+        if (told.value)
+            told.sentence = format("{} (frame {})", told.sentence, m_frames[worst]->frame);
+        return line(told, format("frames {} to {}", m_frames[i]->frame, m_frames[last]->frame),
+                    m_frames[i]->view);
+    }
+
+private:
+    std::vector<const FrameResult*> m_frames;
+};
+
+} // namespace
+
+std::string faults_text(const ShotResult& shot) {
+    std::map<std::string, std::vector<const FrameResult*>> views;
+    for (const FrameResult& frame : shot.frames)
+        views[frame.view].push_back(&frame);
+    std::map<std::string, ViewFaults> faults;
+    for (auto& [view, frames] : views)
+        faults.emplace(view, ViewFaults(std::move(frames)));
+    std::map<std::string, size_t> place;
+    std::string text;
+    for (const FrameResult& frame : shot.frames) {
+        const ViewFaults& of_view = faults.at(frame.view);
+        const size_t i = place[frame.view]++;
+        for (const Fault& fault : frame.faults)
+            text += of_view.line_of(i, fault);
+    }
+    return text;
+}
+
+} // namespace tonetool::sequence
