@@ -115,8 +115,7 @@ double id_difference(const PixelPair& pixel) {
         for (size_t c = 0; c < pixel.channels; c += 2) {
             const uint32_t id = bits_of(side[c]);
             const bool seen_here = c > 0 && coverage_of(side, c, id) != 0;
-            const bool seen_in_a =
-                side == pixel.b && coverage_of(pixel.a, pixel.channels, id) != 0;
+            const bool seen_in_a = side == pixel.b && coverage_of(pixel.a, pixel.channels, id) != 0;
             if (!seen_here && !seen_in_a)
                 sum += std::abs(coverage_of(pixel.a, pixel.channels, id) -
                                 coverage_of(pixel.b, pixel.channels, id));

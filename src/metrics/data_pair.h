@@ -26,11 +26,11 @@ struct DataPair {
     static constexpr float kSky = 1e9f;
 
     int64_t pixels = 0;
-    int64_t off = 0;  ///< pixels that differ, by the measure of the kind
-    int64_t both = 0; ///< of normals: pixels where both have a length
-    int64_t one = 0;  ///< and where only one has
-    double sum = 0;   ///< of differences: of ids by half their coverage, of alpha absolute
-    StepHistogram steps;                      ///< of angles in degrees, of distances in pixels
+    int64_t off = 0;     ///< pixels that differ, by the measure of the kind
+    int64_t both = 0;    ///< of normals: pixels where both have a length
+    int64_t one = 0;     ///< and where only one has
+    double sum = 0;      ///< of differences: of ids by half their coverage, of alpha absolute
+    StepHistogram steps; ///< of angles in degrees, of distances in pixels
     std::vector<StepHistogram::Code> codes{}; ///< of one row, before it is added
     double most = 0;                          ///< the largest difference, and where it is
     int64_t x = 0, y = 0;

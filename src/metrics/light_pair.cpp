@@ -46,8 +46,8 @@ LightPair::Row LightPair::scan(const std::vector<float>& a, const std::vector<fl
     for (int64_t x = 0; x < m_width; ++x) {
         const size_t at = size_t(x) * m_channels, column = size_t(x / kSide);
         // The last column has the difference of the one before it.
-        const size_t left = size_t(std::clamp<int64_t>(x, 0, std::max<int64_t>(m_width - 2, 0))) *
-                            m_channels;
+        const size_t left =
+            size_t(std::clamp<int64_t>(x, 0, std::max<int64_t>(m_width - 2, 0))) * m_channels;
         const size_t right = m_width > 1 ? left + m_channels : left;
         for (size_t c = 0; c < m_channels; ++c) {
             const double va = clean_a[at + c], vb = clean_b[at + c];
@@ -111,8 +111,7 @@ double LightPair::gain(double mean_a) const {
     const double floor = tiny * mean_a + 1e-7;
     for (const auto& [a, b] : means)
         if (a + b > lit * all / double(means.size()))
-            stops.push_back(
-                std::log2((std::max(b, 0.0) + floor) / (std::max(a, 0.0) + floor)));
+            stops.push_back(std::log2((std::max(b, 0.0) + floor) / (std::max(a, 0.0) + floor)));
     if (stops.empty())
         return 0;
     const auto middle = stops.begin() + std::ptrdiff_t(stops.size() / 2);

@@ -89,8 +89,7 @@ void run_against(Session& session, const Call& call) {
         throw CommandError("\"" + approved.name() + "\", \"" + image.name() + "\": " + why);
     take_types(approved, facts.approved.channels);
     take_types(image, facts.file.channels);
-    sequence::AgainstRecord record =
-        sequence::record_of(facts, words_of(call, "header"));
+    sequence::AgainstRecord record = sequence::record_of(facts, words_of(call, "header"));
     record.limits = limits;
     session.check.result->against = sequence::to_json(record);
     show_differences(session, call, record);

@@ -137,7 +137,8 @@ void AgainstScan::add_pair(size_t approved, size_t file) {
     pair.layers[1] = file;
     const LayerReader::Layer& a = layer(pair, 0);
     const LayerReader::Layer& b = layer(pair, 1);
-    pair.window = roi_intersection(m_sides[0].reader.window(a.part), m_sides[1].reader.window(b.part));
+    pair.window =
+        roi_intersection(m_sides[0].reader.window(a.part), m_sides[1].reader.window(b.part));
     if (a.channels.size() != b.channels.size() || pair.window.npixels() == 0)
         return;
     pair.kind = kind_of(a);

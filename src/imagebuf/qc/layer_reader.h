@@ -21,11 +21,11 @@ public:
     struct Layer {
         std::string name, kind;
         size_t part = 0;
-        std::vector<int> channels;   ///< in the part; without alpha, but of ids all
-        std::vector<double> weights; ///< that make one value of them: luminance, or the mean
+        std::vector<int> channels;      ///< in the part; without alpha, but of ids all
+        std::vector<double> weights;    ///< that make one value of them: luminance, or the mean
         std::vector<std::string> names; ///< of all its channels, as in the file
-        int alpha = -1;              ///< in the part; -1 if it has none
-        bool exact = false;          ///< its values tell the moment of the frame
+        int alpha = -1;                 ///< in the part; -1 if it has none
+        bool exact = false;             ///< its values tell the moment of the frame
     };
     struct Place {
         size_t part = 0;

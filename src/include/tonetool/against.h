@@ -36,15 +36,16 @@ struct AgainstName {
 struct AgainstFile {
     std::vector<QcPart> parts;
     std::vector<std::pair<std::string, std::string>> channels; ///< name and type
-    std::vector<AgainstName> layers; ///< but those of `skip`
+    std::vector<AgainstName> layers;                           ///< but those of `skip`
     std::string moment; ///< a hash of its depths and positions; "" without such layers
 };
 
 /// What was measured of a layer that both have.
 struct AgainstLayer {
     std::string name, kind; ///< of the new file
-    /// By kind: depth, position: off; normal: median, off10, one; vector: median, off; id: mismatch;
-    /// albedo, color, group: gain, blocks; any with an alpha: alpha_mean, alpha_off; data: off.
+    /// By kind: depth, position: off; normal: median, off10, one; vector: median, off; id:
+    /// mismatch; albedo, color, group: gain, blocks; any with an alpha: alpha_mean, alpha_off;
+    /// data: off.
     std::map<std::string, double> quantities;
     int x = 0, y = 0; ///< where they differ most
 };
@@ -66,8 +67,8 @@ TONETOOL_API const std::vector<std::string>& against_kinds();
 ///   layer: of their largest component), or where only one has background (a depth from 1e9 on, or
 ///   not finite); of data by their bits.
 /// - median of normals in degrees, of vectors in pixels; off10: share of normals more than 10
-///   degrees apart; one: share of pixels where only one has a normal longer than 0.5; off of vectors:
-///   share more than half a pixel apart.
+///   degrees apart; one: share of pixels where only one has a normal longer than 0.5; off of
+///   vectors: share more than half a pixel apart.
 /// - mismatch: mean over pixels of half the differences of the coverages of all ids, which are
 ///   compared by their bits.
 /// - gain: stops by which the light of the new file is brighter (negative: darker), the smaller of
@@ -80,9 +81,8 @@ TONETOOL_API const std::vector<std::string>& against_kinds();
 /// be told, or a kind has no such name.
 TONETOOL_API bool against_facts(AgainstFacts& facts,
                                 const std::vector<const OIIO::ImageBuf*>& approved,
-                                const std::vector<const OIIO::ImageBuf*>& parts,
-                                std::string& error, const AgainstOptions& options = {},
-                                int nthreads = 0);
+                                const std::vector<const OIIO::ImageBuf*>& parts, std::string& error,
+                                const AgainstOptions& options = {}, int nthreads = 0);
 
 } // namespace ToneAlgo
 } // namespace tonetool

@@ -88,7 +88,8 @@ std::string sentence_of(const AgainstLayer& layer, const Beyond& beyond) {
     else if (quantity == "mismatch")
         text = format("{} shows other objects in {} of the picture", what, percent(value));
     else if (quantity == "alpha_mean")
-        return format("alpha of {} differs from the approved one by {:.3g} on average", what, value);
+        return format("alpha of {} differs from the approved one by {:.3g} on average", what,
+                      value);
     else if (quantity == "alpha_off")
         return format("alpha of {} differs from the approved one in {} of the pixels", what,
                       percent(value));
@@ -165,7 +166,8 @@ bool holds(const AgainstRecord::Window& a, const AgainstRecord::Window& b) {
 
 // Where the approved data windows are cropped frame by frame, the new ones need only hold them.
 void add_window(const AgainstRecord& record, bool cropped, std::vector<Fault>& faults) {
-    if (record.data == record.approved_data || (cropped && holds(record.data, record.approved_data)))
+    if (record.data == record.approved_data ||
+        (cropped && holds(record.data, record.approved_data)))
         return;
     add_fault(record,
               {"datawindow", "",
@@ -230,9 +232,8 @@ void judge_frames(ComparedFrames& frames) {
                 fault.sentence += format("; it is the moment of approved frame {}", *alike);
         FrameResult& result = *frames[i].result;
         result.faults.insert(result.faults.end(), found.begin(), found.end());
-        std::stable_sort(
-            result.faults.begin(), result.faults.end(),
-            [](const Fault& a, const Fault& b) { return a.severity > b.severity; });
+        std::stable_sort(result.faults.begin(), result.faults.end(),
+                         [](const Fault& a, const Fault& b) { return a.severity > b.severity; });
         judge(result);
     }
 }

@@ -14,7 +14,8 @@ namespace tonetool::sequence {
 std::vector<Fault> against_faults(const AgainstRecord& record);
 
 /// Finds the faults of all frames that --against has compared, and sets the status of these frames.
-/// The frames are sorted by number, then view. Throws a runtime_error where a record cannot be read.
+/// The frames are sorted by number, then view. Throws a runtime_error where a record cannot be
+/// read.
 void judge_against(std::vector<FrameResult>& frames);
 
 } // namespace tonetool::sequence

@@ -41,9 +41,10 @@ void compare_layers(const AgainstFile& approved, const AgainstFile& file, Differ
     for (const AgainstName& layer : approved.layers) {
         const AgainstName* found = other_of(file, layer);
         if (!found) {
-            out.push_back({"layermissing", layer.name,
-                           "layer " + shown_layer(layer.name) + " of the approved version is missing",
-                           Severity::Error});
+            out.push_back(
+                {"layermissing", layer.name,
+                 "layer " + shown_layer(layer.name) + " of the approved version is missing",
+                 Severity::Error});
             continue;
         }
         const std::set<std::string> theirs = last_words(layer.channels);
@@ -110,8 +111,8 @@ void compare_types(const AgainstFile& approved, const AgainstFile& file, Differe
 
 bool is_lossy(const std::string& compression) {
     const std::string name = compression.substr(0, compression.find(':'));
-    return name == "dwaa" || name == "dwab" || name == "b44" || name == "b44a" ||
-           name == "pxr24" || name == "jpeg";
+    return name == "dwaa" || name == "dwab" || name == "b44" || name == "b44a" || name == "pxr24" ||
+           name == "jpeg";
 }
 
 void compare_compression(const AgainstFile& approved, const AgainstFile& file, Differences& out) {
@@ -151,8 +152,8 @@ bool same_value(const std::string& name, std::string a, std::string b) {
         a = a.empty() ? "1" : a;
         b = b.empty() ? "1" : b;
     }
-    const bool numbers = name == "PixelAspectRatio" || name == "framesPerSecond" ||
-                         name == "FramesPerSecond";
+    const bool numbers =
+        name == "PixelAspectRatio" || name == "framesPerSecond" || name == "FramesPerSecond";
     if (numbers && !a.empty() && !b.empty())
         return std::abs(number(a) - number(b)) <= 1e-6 * std::abs(number(a));
     return a == b;
@@ -161,8 +162,9 @@ bool same_value(const std::string& name, std::string a, std::string b) {
 // The names that must agree: those that are always meant, Cryptomatte's, and the user's.
 std::set<std::string> header_names(const AgainstFile& approved, const AgainstFile& file,
                                    const Names& more) {
-    std::set<std::string> names = {"PixelAspectRatio", "framesPerSecond", "FramesPerSecond", "view",
-                                   "multiView",        "chromaticities",  "oiio:ColorSpace", "camera"};
+    std::set<std::string> names = {
+        "PixelAspectRatio", "framesPerSecond", "FramesPerSecond", "view",
+        "multiView",        "chromaticities",  "oiio:ColorSpace", "camera"};
     names.insert(more.begin(), more.end());
     for (const AgainstFile* side : {&approved, &file})
         for (const QcPart& part : side->parts)
