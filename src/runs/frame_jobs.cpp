@@ -79,14 +79,24 @@ Session FrameContext::session(size_t index, std::ostream& out, std::ostream& err
 
 void FrameContext::run_commands(Session& session, size_t index) const {
     const FrameRun& run = plan.runs[index];
-    const sequence::Probe gone = sequence::missing_of(words_at(run.words, plan.sequences));
-    if (gone.status == Status::Missing) {
-        session.error("", gone.message);
-    } else {
+    const Strings files = words_at(run.words, plan.sequences);
+    const sequence::Probe gone = sequence::missing_of(files);
+    if (gone.status == Status::Missing)
+        session.check.absent = absent_approved(session, files);
+    if (gone.status != Status::Missing || !session.check.absent.empty()) {
         Runner(session, run.words).run_all();
         if (session.outcome.misused)
             session.out << chain::help_text();
+    } else {
+        session.error("", gone.message);
     }
+}
+
+// The first of the files, if it alone is missing and the line compares with the approved version.
+std::string FrameContext::absent_approved(const Session& session, const Strings& files) const {
+    const bool may_be = session.check.result && plan.check.has("against") && files.size() > 1;
+    const Strings others(files.begin() + (files.empty() ? 0 : 1), files.end());
+    return may_be && sequence::missing_of(others).status != Status::Missing ? files.front() : "";
 }
 
 void FrameContext::print_error(size_t index, const std::string& error, std::ostream& err) const {

@@ -25,6 +25,7 @@ struct FrameContext {
     sequence::Item item(size_t index) const;
     /// Runs the words of the frame, if its files are there.
     void run_commands(chain::Session& session, size_t index) const;
+    std::string absent_approved(const chain::Session& session, const Strings& files) const;
     /// Prints what ended the run of a frame, as its commands' errors are printed.
     void print_error(size_t index, const std::string& error, std::ostream& err) const;
 };

@@ -78,6 +78,17 @@ void run_against(Session& session, const Call& call) {
     session.outcome.produced = true;
     if (!session.check.result)
         return; // this run only measures the exposures of the shot
+    if (approved.absent) {
+        sequence::AgainstRecord record;
+        record.approved = false;
+        record.limits = limits;
+        session.check.result->against = sequence::to_json(record);
+        return;
+    }
+    if (same_file(approved, 0, image, 0)) { // most likely a slip of the command line
+        session.warning(call.row().label(), "approved \"" + approved.name() + "\" and new \"" +
+                                                image.name() + "\" are the same file");
+    }
     AgainstOptions options;
     options.pixels = pixel_options(call);
     read_kinds(call, options);

@@ -45,6 +45,12 @@ OIIO::ImageSpec missing_header(const Session& session) {
 ImagePtr open_or_substitute(Session& session, const std::string& filename) {
     const Settings& settings = session.settings;
     const std::string& stand_in = settings.missing_file;
+    if (!filename.empty() && filename == session.check.absent) {
+        ImagePtr none =
+            Image::placeholder(filename, OIIO::ImageSpec(1, 1, 3, OIIO::TypeHalf), false);
+        none->absent = true;
+        return none;
+    }
     const bool exists = OIIO::Filesystem::exists(filename);
     if (settings.compat && !exists && !settings.input.config.extra_attribs.empty())
         throw CommandError("Could not open file \"" + filename + "\"");

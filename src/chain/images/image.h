@@ -130,6 +130,8 @@ public:
     bool worked_on = false;
     /// It is the result of a comparison, or derived from one.
     bool is_result = false;
+    /// There is no such file, and it is black: only --against can do without its approved version.
+    bool absent = false;
     /// It is made only of files that are the same in every frame; and the command line says that
     /// this is intended.
     bool same_in_all_frames = false, meant_for_all_frames = false;

@@ -68,6 +68,7 @@ struct Flow {
 struct CheckPart {
     sequence::FrameResult* result = nullptr;   ///< collects the measurements of commands
     sequence::FramePainter* painter = nullptr; ///< with a report: draws its images
+    std::string absent{}; ///< the frame of the approved version, if there is none
     /// The range of exposures=shot or of a file; while the range is still being measured, the place
     /// for the frame's sample.
     const sequence::ShotExposures* shot = nullptr;

@@ -146,7 +146,8 @@ void find_gaps(QcShot& shot) {
     std::vector<QcFrame>& frames = shot.frames;
     for (QcFrame& frame : frames)
         if (frame.result->status == Status::Missing)
-            shot.add(frame, "missing", "the frame is not there");
+            shot.add(frame, "missing",
+                     frame.measured ? frame.result->message : "the frame is not there");
     const int step = frames.size() > 2 ? usual_step(frames) : 0;
     for (size_t i = 1; step > 0 && i < frames.size(); ++i) {
         const int before = frames[i - 1].number, here = frames[i].number;

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <optional>
 
+#include "sequence/against/against_rules.h"
+#include "sequence/qc/qc_rules.h"
 #include "text/text.h"
 #include "text/token.h"
 #include "tonetool/tonetool.h"
@@ -77,6 +79,19 @@ Asked asked_of(const MeasuringCommand& command, const Token& token, const DiffLi
     return asked;
 }
 
+const FaultRules* rules_of(const std::string& command) {
+    return command == "qc" ? &qc_rules() : command == "against" ? &against_rules() : nullptr;
+}
+
+// The modifiers that are limits of faults.
+std::map<std::string, std::string> fault_limits_of(const Token& token, const FaultRules& rules) {
+    std::map<std::string, std::string> limits;
+    for (const auto& [key, value] : token.modifiers)
+        if (rank_of(rules, key) < rules.size())
+            limits[key] = value;
+    return limits;
+}
+
 // The limit of --diff that the word sets.
 float* diff_limit(DiffLimits& limits, const std::string& name) {
     for (const DiffOption& option : kDiffOptions)
@@ -97,6 +112,8 @@ Check check_of(const std::vector<std::string>& words) {
         if (!token.is_command)
             continue;
         check.blocks |= token.name == "if" || token.name == "while" || token.name == "for";
+        if (const FaultRules* rules = rules_of(token.name))
+            check.searches[token.name] = fault_limits_of(token, *rules);
         if (float* limit = diff_limit(diff, token.name)) {
             const auto value = i + 1 < words.size() ? parse_number(words[i + 1]) : std::nullopt;
             open = open || !value;

@@ -28,8 +28,10 @@ struct Asked {
 
 struct Check {
     std::map<std::string, std::vector<Asked>> asked; ///< by the name of the command
-    bool open = false;                               ///< an expression stands for a command
-    bool blocks = false;                             ///< not every word runs once
+    /// Of --qc and --against, if they are there: the limits of their faults.
+    std::map<std::string, std::map<std::string, std::string>> searches;
+    bool open = false;   ///< an expression stands for a command
+    bool blocks = false; ///< not every word runs once
 };
 
 Check check_of(const std::vector<std::string>& words);

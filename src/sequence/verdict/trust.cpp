@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "sequence/results/json_text.h"
 #include "sequence/verdict/asked.h"
 #include "sequence/verdict/contradiction.h"
 #include "sequence/verdict/held.h"
@@ -47,10 +48,34 @@ void check_measurement(const FrameResult& frame, const Measurement& measured, co
     throw std::runtime_error(name_of(frame) + ": " + measured.command + first);
 }
 
+// The facts that a search has left, with the limits that the check gives it.
+void check_search(const FrameResult& frame, const std::string& command,
+                  const std::map<std::string, std::string>& limits) {
+    const std::string& facts = command == "qc" ? frame.qc : frame.against;
+    if (facts.empty()) {
+        throw std::runtime_error(
+            format("{} has nothing of --{}, which the check has", name_of(frame), command));
+    }
+    const auto found = parse_json<nlohmann::ordered_json>(facts);
+    std::map<std::string, std::string> kept;
+    for (const auto& [code, limit] : found.at("limits").items())
+        kept[code] = limit.get<std::string>();
+    const bool open = std::any_of(limits.begin(), limits.end(), [](const auto& one) {
+        return one.second.find('{') != std::string::npos;
+    });
+    if (!open && kept != limits) {
+        throw std::runtime_error(
+            format("{} was searched by --{} with other limits than those of the check",
+                   name_of(frame), command));
+    }
+}
+
 // What a frame that nothing kept from being checked must have.
 void check_whole(const FrameResult& frame, const Check& check) {
     if (check.open || check.blocks || frame.status > Status::Failed)
         return;
+    for (const auto& [command, limits] : check.searches)
+        check_search(frame, command, limits);
     for (const auto& [command, words] : check.asked) {
         const auto count = std::count_if(
             frame.measurements.begin(), frame.measurements.end(),
