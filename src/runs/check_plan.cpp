@@ -10,6 +10,7 @@
 #include "sequence/results/measuring.h"
 #include "text/error.h"
 #include "text/token.h"
+#include "tonetool/tonetool.h"
 
 namespace tonetool::runs {
 
@@ -160,13 +161,30 @@ private:
             for (const auto& [name, value] : Token(token).modifiers)
                 if (name == key && sequence::measuring_command(command) &&
                     sequence::names_limits_file(value))
-                    token = parse_token(token.with_value(key, numbers_in(value)), true);
+                    token = parse_token(
+                        token.with_value(key, numbers_in(value, command, quantity_of(token))),
+                        true);
         return token.text;
     }
 
-    static std::string numbers_in(const std::string& file) {
+    // Of a limit without a name.
+    static std::string quantity_of(const Token& token) {
+        const auto text = [&](const std::string& key) {
+            const auto& all = token.modifiers;
+            const auto found = std::find_if(all.begin(), all.end(),
+                                            [&](const auto& one) { return one.first == key; });
+            return found == all.end() ? std::string() : found->second;
+        };
+        const std::string named = text("quantity");
+        return named.empty()
+                   ? sequence::measuring_command(token.name)->first_quantity(text("metric"))
+                   : ToneAlgo::flip_quantity_name(named).value_or(named);
+    }
+
+    static std::string numbers_in(const std::string& file, const std::string& command,
+                                  const std::string& quantity) {
         try {
-            return sequence::limits_text(sequence::read_limits(file));
+            return sequence::limits_text(sequence::read_limits(file, command, quantity));
         } catch (const std::runtime_error&) {
             return file;
         }

@@ -17,6 +17,7 @@ namespace tonetool::chain {
 struct Limit {
     std::string quantity;
     std::optional<double> fail, warn;
+    bool automatic = false; ///< fail=auto: it follows from all frames of the shot
 };
 /// Of different quantities: all must hold.
 using Limits = std::vector<Limit>;

@@ -181,7 +181,7 @@ bool judge(Session& session, const Call& call, const Limits& limits,
     for (const Limit& limit : limits) {
         thresholds.push_back({limit.quantity, measure(limit.quantity),
                               sequence::higher_is_better(label, limit.quantity), limit.fail,
-                              limit.warn});
+                              limit.warn, limit.automatic});
         said.add(thresholds.back());
     }
     if (session.check.result)
@@ -196,7 +196,8 @@ bool judge(Session& session, const Call& call, const Limits& limits,
         session.print(label + ": FAIL " + join(said.failed, ", ") + where + file);
     } else if (!said.warned.empty()) {
         session.report(label + ": WARNING " + join(said.warned, ", ") + where + file);
-    } else if (detail(session, call) != Detail::Nothing || !session.frame.loops) {
+    } else if (!said.passed.empty() &&
+               (detail(session, call) != Detail::Nothing || !session.frame.loops)) {
         session.report(label + ": PASS " + join(said.passed, ", ") + file);
     }
     return !said.failed.empty();

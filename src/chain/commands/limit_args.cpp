@@ -49,26 +49,44 @@ private:
         for (const std::string& word : split(text, ',')) {
             const size_t equals = word.find('=');
             const bool named = equals != std::string::npos;
-            if (!named && !parse_number(word)) {
+            const bool automatic = word.substr(named ? equals + 1 : 0) == "auto" && key == "fail";
+            if (!named && !automatic && !parse_number(word)) {
                 throw CommandError(key + " \"" + word + "\" is not a number (valid: " + key +
                                    "=0.3, or QUANTITY=LIMIT as in " + key +
-                                   "=p99.9=0.7, with a decimal point)");
+                                   "=p99.9=0.7, with a decimal point" +
+                                   (key == "fail" ? ", or auto" : "") + ")");
             }
             m_used_default = m_used_default || !named;
             Limit& limit = limit_of(named ? resolved(word.substr(0, equals)) : m_default);
-            if (limit.*member) {
+            if (limit.*member || (key == "fail" && limit.automatic)) {
                 throw CommandError(key + "=" + *m_call.text(key) + " has two limits of " +
                                    limit.quantity + " (valid: one of each quantity)");
             }
-            limit.*member = number(key, word.substr(named ? equals + 1 : 0), limit.quantity);
+            if (automatic)
+                set_automatic(limit);
+            else
+                limit.*member = number(key, word.substr(named ? equals + 1 : 0), limit.quantity);
         }
     }
 
-    // What the file of --noisefloor has, if it is of a command like this one.
-    std::string numbers_of(const std::string& key, const std::string& file) const {
+    void set_automatic(Limit& limit) const {
+        if (!m_session.frame.loops) {
+            throw CommandError(
+                "fail=auto follows from the frames of a shot, and this line has none "
+                "(valid: a number, a file, or frames with # in their names)");
+        }
+        if (sequence::higher_is_better(m_call.row().label(), limit.quantity)) {
+            throw CommandError("fail=auto is of errors, and of " + limit.quantity +
+                               " higher is better (valid: a number, or a file)");
+        }
+        limit.automatic = true;
+    }
+
+    // What the file of --noisefloor, or of a check, has, if it is of a command like this one.
+    std::string numbers_of(const std::string& key, const std::string& file) {
         sequence::KeptLimits kept;
         try {
-            kept = sequence::read_limits(file);
+            kept = sequence::read_limits(file, m_call.row().label(), m_default);
         } catch (const std::runtime_error& problem) {
             throw CommandError(key + ": " + problem.what());
         }
@@ -81,7 +99,10 @@ private:
                 std::find_if(kept.modifiers.begin(), kept.modifiers.end(),
                              [&](const auto& modifier) { return modifier.first == one.key; });
             const bool had = measured != kept.modifiers.end();
-            if (measures(one.key) &&
+            // The exposures of a shot are the same however they were found.
+            const bool shot = one.key == "exposures" && given && had && *given != "frame" &&
+                              measured->second != "frame";
+            if (measures(one.key) && !shot &&
                 (given.has_value() != had || (had && measured->second != *given))) {
                 throw CommandError(
                     of + "of a comparison with " +
@@ -89,6 +110,7 @@ private:
                     ", this one has " + (given ? one.key + "=" + *given : "none"));
             }
         }
+        m_used_default |= kept.limits.size() == 1 && kept.limits.front().quantity == m_default;
         return sequence::limits_text(kept);
     }
 

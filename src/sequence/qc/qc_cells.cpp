@@ -15,8 +15,8 @@ namespace {
 
 using Bytes = std::vector<unsigned char>;
 
-constexpr size_t kCells = size_t(QcPicture::kWide) * QcPicture::kHigh;
-constexpr size_t kPeaks = size_t(QcPicture::kPeaksWide) * QcPicture::kPeaksHigh;
+constexpr size_t kPackedCells = size_t(QcPicture::kWide) * QcPicture::kHigh;
+constexpr size_t kPackedPeaks = size_t(QcPicture::kPeaksWide) * QcPicture::kPeaksHigh;
 
 // A list of whole numbers: how many, from which on, and in how many bytes each.
 struct CellList {
@@ -29,13 +29,13 @@ struct CellList {
 std::vector<CellList> lists_of(QcFacts& facts) {
     constexpr int least_of_16 = -32768, least_of_8 = -128;
     QcPicture& picture = facts.picture;
-    std::vector<CellList> lists = {{&picture.thumbnail, kCells, least_of_16, 2},
-                                   {&picture.red, kCells, least_of_8, 1},
-                                   {&picture.blue, kCells, least_of_8, 1},
-                                   {&picture.peaks, kPeaks, QcPicture::kPeakDark, 1},
-                                   {&picture.fingerprints, kPeaks, 0, 2}};
+    std::vector<CellList> lists = {{&picture.thumbnail, kPackedCells, least_of_16, 2},
+                                   {&picture.red, kPackedCells, least_of_8, 1},
+                                   {&picture.blue, kPackedCells, least_of_8, 1},
+                                   {&picture.peaks, kPackedPeaks, QcPicture::kPeakDark, 1},
+                                   {&picture.fingerprints, kPackedPeaks, 0, 2}};
     for (QcGuide& guide : facts.guides)
-        lists.push_back({&guide.cells, kCells * size_t(guide.channels), least_of_16, 2});
+        lists.push_back({&guide.cells, kPackedCells * size_t(guide.channels), least_of_16, 2});
     return lists;
 }
 

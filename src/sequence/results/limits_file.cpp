@@ -3,10 +3,19 @@
 
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/strutil.h>
+#include <algorithm>
+#include <cmath>
+#include <ctime>
+#include <map>
+#include <mutex>
 #include <stdexcept>
+#include <tuple>
 
 #include "sequence/results/json_text.h"
+#include "sequence/results/measuring.h"
+#include "sequence/results/results_json.h"
 #include "text/text.h"
+#include "text/token.h"
 
 namespace tonetool::sequence {
 
@@ -46,6 +55,46 @@ KeptLimits limits_of(const ordered_json& json) {
     return kept;
 }
 
+// The modifiers of a command in a check.
+Texts modifiers_of(const ShotResult& shot, const std::string& command) {
+    for (const std::string& word : shot.check) {
+        const Token token = parse_token(word, true);
+        if (token.is_command && token.name == command)
+            return Texts(token.modifiers.begin(), token.modifiers.end());
+    }
+    return {};
+}
+
+// What a check that was accepted measured: its noise is no more than that.
+KeptLimits limits_of_check(const ShotResult& shot, const std::string& command,
+                           const std::string& quantity) {
+    constexpr double margin = 1.1;
+    const bool up = higher_is_better(command, quantity);
+    std::optional<double> extreme;
+    for (const FrameResult& frame : shot.frames) {
+        for (const Measurement& measured : frame.measurements) {
+            const auto value = quantity_of(measured, quantity);
+            if (frame.status > Status::Measured || measured.command != command || !value ||
+                !std::isfinite(*value))
+                continue;
+            extreme = !extreme ? *value
+                      : up     ? std::min(*extreme, *value)
+                               : std::max(*extreme, *value);
+        }
+    }
+    if (!extreme) {
+        throw std::runtime_error(format(
+            "is a check without a passed frame that --{} measured {} of", command, quantity));
+    }
+    KeptLimits kept;
+    kept.command = command;
+    kept.modifiers = modifiers_of(shot, command);
+    kept.limits.emplace_back();
+    kept.limits.back().quantity = quantity;
+    kept.limits.back().floor.limit = up ? *extreme / margin : *extreme * margin;
+    return kept;
+}
+
 } // namespace
 
 std::string to_json(const KeptLimits& limits) {
@@ -70,15 +119,29 @@ std::string to_json(const KeptLimits& limits) {
     return dumped(to);
 }
 
-KeptLimits read_limits(const std::string& file) {
+KeptLimits read_limits(const std::string& file, const std::string& command,
+                       const std::string& quantity) {
+    // Each frame of a shot asks for the same.
+    static std::mutex mutex;
+    static std::map<std::tuple<std::string, std::string, std::string, std::time_t>, KeptLimits> all;
+    const std::lock_guard<std::mutex> lock(mutex);
+    const auto key =
+        std::make_tuple(file, command, quantity, OIIO::Filesystem::last_write_time(file));
+    const auto known = all.find(key);
+    if (known != all.end())
+        return known->second;
     std::string text;
     if (!OIIO::Filesystem::read_text_file(file, text))
         throw std::runtime_error(format("could not read the limits \"{}\"", file));
     try {
-        return parsed(text, limits_of);
+        const ordered_json json = parsed_or_null(text);
+        const bool check = json.is_object() && json.value("format", "") == kResultsFormat;
+        return all[key] = check ? limits_of_check(shot_from_json(text), command, quantity)
+                                : parsed(text, limits_of);
     } catch (const std::runtime_error& problem) {
-        throw std::runtime_error(
-            format("\"{}\" {} (valid: a file of --noisefloor)", file, problem.what()));
+        throw std::runtime_error(format("\"{}\" {} (valid: a file of --noisefloor, or --json of a "
+                                        "check that passed)",
+                                        file, problem.what()));
     }
 }
 

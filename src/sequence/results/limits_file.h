@@ -30,9 +30,11 @@ struct KeptLimits {
 
 std::string to_json(const KeptLimits& limits);
 
-/// What fail=FILE needs of it: command, modifiers and limits. A runtime_error where the file is not
-/// one of these.
-KeptLimits read_limits(const std::string& file);
+/// What fail=FILE needs of it: command, modifiers and limits. Of the JSON of a check, the limit of
+/// `quantity` is 1.1 times the largest value in the frames that passed, by the measurements of
+/// `command`. A runtime_error where the file is neither.
+KeptLimits read_limits(const std::string& file, const std::string& command,
+                       const std::string& quantity);
 
 /// Whether the text of fail= or warn= names a file instead of numbers.
 bool names_limits_file(const std::string& text);

@@ -9,9 +9,10 @@
 #include <stdexcept>
 #include <tuple>
 
-#include "sequence/frames/file_sequence.h"
 #include "sequence/against/against.h"
+#include "sequence/frames/file_sequence.h"
 #include "sequence/qc/qc.h"
+#include "sequence/results/automatic_limits.h"
 #include "sequence/results/measuring.h"
 #include "tonetool/bias.h"
 
@@ -62,6 +63,11 @@ Found of_thresholds(const Measurement& measurement) {
     std::string failed, warned;
     bool tested = false;
     for (const Threshold& threshold : measurement.thresholds) {
+        if (threshold.automatic && threshold.fail && std::isnan(*threshold.fail)) {
+            add_text(warned, format("{}: there are too few frames for fail=auto, which needs {}",
+                                    threshold.quantity, kEnoughForLimit));
+            continue;
+        }
         tested = tested || threshold.fail || threshold.warn;
         if (threshold.fail && !holds(threshold, *threshold.fail))
             add_text(failed, text_of(threshold, *threshold.fail));
@@ -89,7 +95,7 @@ Found of_fault(const Fault& fault) {
 // The threshold's value in units of its limit; 1 is the limit.
 double excess(const Threshold& threshold) {
     const auto limit = threshold.fail ? threshold.fail : threshold.warn;
-    if (!limit)
+    if (!limit || std::isnan(*limit))
         return 0;
     const double over = threshold.higher_is_better ? *limit : threshold.value;
     const double under = threshold.higher_is_better ? threshold.value : *limit;
@@ -176,6 +182,8 @@ std::string sentence_of(const ShotResult& shot) {
     std::string text = format("{} {}: {}", shot.frames.size(),
                               shot.frames.size() == 1 ? "frame" : "frames", counts_text(shot));
     text += false_alarms_text(shot);
+    if (std::any_of(shot.frames.begin(), shot.frames.end(), has_automatic_limit))
+        text += "; fail=auto finds frames unlike the others, not what all of them have";
     if (has_problem(shot.verdict) || (shot.frames.size() > 1 && !why.empty()))
         text += format("; worst: frame {}{}", name_of(worst), why.empty() ? "" : " (" + why + ")");
     return text;
@@ -250,7 +258,8 @@ void judge(FrameResult& frame) {
         frame.message = kNothingMeasured;
         return;
     }
-    // A frame passes if --qc and --against found nothing or a threshold held; measurements alone do not pass it.
+    // A frame passes if --qc and --against found nothing or a threshold held; measurements alone do
+    // not pass it.
     const auto any = [&](auto is) { return std::any_of(found.begin(), found.end(), is); };
     const auto open = [](const Found& one) {
         return one.status == Status::Measured && !one.message.empty();
@@ -303,6 +312,7 @@ double badness(const FrameResult& frame) {
 
 void conclude(ShotResult& shot) {
     sort_frames(shot.frames);
+    set_automatic_limits(shot.frames);
     judge_qc(shot.frames);
     judge_against(shot.frames);
     shot.worst = by_badness(shot.frames);

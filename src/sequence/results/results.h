@@ -45,7 +45,8 @@ struct Position {
     bool operator==(const Position& o) const { return x == o.x && y == o.y; }
 };
 
-/// A fault of an image (--qc, --against). The severity Error fails the frame, Warning gives it a warning.
+/// A fault of an image (--qc, --against). The severity Error fails the frame, Warning gives it a
+/// warning.
 struct Fault {
     std::string code; ///< "nan", "firefly", "blacklayer", ...
     Severity severity = Severity::Error;
@@ -63,6 +64,9 @@ struct Threshold {
     double value = 0;     ///< the measured value
     bool higher_is_better = false;
     std::optional<double> fail, warn;
+    /// `fail` follows from all frames of the shot (fail=auto): not set until they are there, NaN
+    /// where they are too few.
+    bool automatic = false;
 };
 
 /// Pairs of names and numbers, in an order that is the same for all frames.
@@ -105,7 +109,7 @@ struct FrameResult {
     std::vector<std::string> warnings;
     std::string qc;      ///< the facts that --qc measured, as JSON; empty without --qc
     std::string against; ///< the same of --against
-    double seconds = 0; ///< time of the run; not part of any file
+    double seconds = 0;  ///< time of the run; not part of any file
 };
 
 /// The luminances that the exposures of a whole shot follow from.

@@ -161,13 +161,18 @@ ordered_json json_of(const Threshold& threshold) {
                     {"higher_is_better", threshold.higher_is_better}};
     put(to, "fail", threshold.fail);
     put(to, "warn", threshold.warn);
+    if (threshold.automatic)
+        to["automatic"] = true;
     return to;
 }
 
 Threshold threshold_of(const ordered_json& from) {
-    return {from.at("quantity").get<std::string>(), number(from.at("value"), "value"),
-            from.at("higher_is_better").get<bool>(), maybe_number(from, "fail"),
-            maybe_number(from, "warn")};
+    return {from.at("quantity").get<std::string>(),
+            number(from.at("value"), "value"),
+            from.at("higher_is_better").get<bool>(),
+            maybe_number(from, "fail"),
+            maybe_number(from, "warn"),
+            from.value("automatic", false)};
 }
 
 ordered_json json_of(const Measurement& measured) {
