@@ -68,6 +68,8 @@ void run_qc(Session& session, const Call& call) {
     take_types(image, record.facts.channels);
     if (has_picture(record.facts) && !session.check.painter) // which reads the image itself
         tell_encoding(session, call, image, image.part().header(), options.pixels);
+    if (session.frame.loops)
+        record.strays = sequence::stray_files(image.name(), session.frame.number);
     session.check.result->qc = sequence::to_json(record);
     show_faults(session, call, record);
 }
@@ -80,8 +82,7 @@ Rows qc_commands() {
                     run_qc)
                 .images(1, 1)
                 .modifiers(pixel_modifiers())
-                .modifier("groups", "NAME,...",
-                          "light groups that must add up to the beauty (all)")
+                .modifier("groups", "NAME,...", "light groups that must add up to the beauty (all)")
                 .modifiers(fault_modifiers(sequence::qc_rules()))};
 }
 

@@ -24,6 +24,7 @@ void sort_faults(std::vector<Fault>& faults) {
 
 void take_record(QcFrame& frame, QcRecord record) {
     frame.facts = std::move(record.facts);
+    frame.strays = std::move(record.strays);
     frame.measured = true;
     frame.blank = is_blank(frame.facts, record.limits);
 }
@@ -44,6 +45,7 @@ void search(QcShot& shot) {
     for (QcFrame& frame : shot.frames)
         if (frame.measured)
             find_picture_faults(shot, frame);
+    find_stray_files(shot);
     find_blank(shot);
     find_hidden(shot);
     find_enlarged(shot);

@@ -336,6 +336,12 @@ std::string to_json(const QcRecord& record) {
                        {"layers", list_of(facts.layers)},
                        {"channels", channels},
                        {"parts", list_of(facts.parts)}};
+    if (record.strays.digits > 0)
+        to["digits"] = record.strays.digits;
+    if (record.strays.first != record.strays.last)
+        to["folder"] = {record.strays.first, record.strays.last};
+    if (!record.strays.names.empty())
+        to["strays"] = record.strays.names;
     return one_line(to);
 }
 
@@ -344,6 +350,14 @@ QcRecord qc_from_json(const std::string& text) {
     try {
         const auto from = parse_json<ordered_json>(text);
         record.facts = facts_of(from);
+        if (from.contains("digits"))
+            record.strays.digits = whole_number<int>(from["digits"], "digits");
+        if (from.contains("folder")) {
+            record.strays.first = whole_number<int>(from["folder"].at(0), "folder");
+            record.strays.last = whole_number<int>(from["folder"].at(1), "folder");
+        }
+        if (from.contains("strays"))
+            from["strays"].get_to(record.strays.names);
         for (const auto& [code, limit] : from.at("limits").items())
             record.limits.set(code, limit.get<std::string>());
     } catch (const nlohmann::json::exception& problem) {

@@ -5,6 +5,7 @@
 
 #include <string>
 
+#include "sequence/frames/stray_files.h"
 #include "sequence/qc/qc_rules.h"
 #include "tonetool/qc.h"
 
@@ -13,6 +14,7 @@ namespace tonetool::sequence {
 struct QcRecord {
     QcFacts facts;
     FaultLimits limits{qc_rules()};
+    StrayFiles strays{}; ///< of the frame of a sequence
 };
 
 /// One line of JSON. Numbers are read back to the bit; invalid UTF-8 becomes U+FFFD.

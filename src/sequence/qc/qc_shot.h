@@ -16,6 +16,7 @@ struct QcFrame {
     int number = 0;
     FrameResult* result = nullptr;
     QcFacts facts;
+    StrayFiles strays;
     bool measured = false; ///< --qc has measured the frame
     bool blank = false;    ///< black or one colour all over: not compared with other frames
     bool held = false;     ///< shows the moment of the frame before
@@ -80,6 +81,7 @@ double median(std::vector<double> values);
 
 // The searches. Their files say which faults each adds.
 void find_picture_faults(const QcShot& shot, QcFrame& frame);
+void find_stray_files(QcShot& shot);
 void find_blank(QcShot& shot);
 void find_hidden(QcShot& shot);
 void find_enlarged(QcShot& shot);

@@ -6,6 +6,9 @@
 #include <OpenImageIO/imageio.h>
 #include <OpenImageIO/strutil.h>
 #include <algorithm>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
 #include <filesystem>
 #include <optional>
 
@@ -47,6 +50,12 @@ std::optional<Size> readable(const std::string& file, std::string& why) {
     std::error_code ignored;
     if (std::filesystem::is_other(file, ignored)) {
         why = "it is a pipe or a device";
+        return std::nullopt;
+    }
+    if (std::FILE* opened = std::fopen(file.c_str(), "rb")) {
+        std::fclose(opened);
+    } else { // which readers call a file of another format
+        why = std::strerror(errno);
         return std::nullopt;
     }
     const auto in = OIIO::ImageInput::open(file);
