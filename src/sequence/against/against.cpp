@@ -238,6 +238,27 @@ void judge_frames(ComparedFrames& frames) {
     }
 }
 
+// Frames whose geometry is that of another approved view.
+void find_swapped(const ComparedFrames& frames, const ComparedFrames& others,
+                  const std::string& view) {
+    for (const Compared& frame : frames) {
+        for (const Compared& other : others) {
+            const AgainstRecord &here = frame.record, &there = other.record;
+            if (other.result->frame != frame.result->frame || here.moment.empty() ||
+                here.moment != there.approved_moment || here.moment == here.approved_moment)
+                continue;
+            std::vector<Fault> found;
+            add_fault(
+                here,
+                {"eyes", "", "it shows view " + view + " of the approved version", Severity::Error},
+                found);
+            std::vector<Fault>& faults = frame.result->faults;
+            faults.insert(faults.begin(), found.begin(), found.end());
+            judge(*frame.result);
+        }
+    }
+}
+
 } // namespace
 
 std::vector<Fault> against_faults(const AgainstRecord& record) {
@@ -256,6 +277,10 @@ void judge_against(std::vector<FrameResult>& frames) {
     }
     for (auto& [view, of_view] : views)
         judge_frames(of_view);
+    for (const auto& [view, of_view] : views)
+        for (const auto& [other, of_other] : views)
+            if (view != other)
+                find_swapped(of_view, of_other, other);
 }
 
 } // namespace tonetool::sequence

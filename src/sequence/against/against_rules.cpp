@@ -12,6 +12,7 @@ const FaultRules& against_rules() {
         {"channels", error, {}, "", "a layer has other channels"},
         {"displaywindow", error, {}, "", "the display window is another"},
         {"datawindow", error, {}, "", "the data window is another"},
+        {"eyes", error, {}, "", "a view shows what another view of the approved version shows"},
         {"header",
          error,
          {},

@@ -71,34 +71,29 @@ bool is_found_here(const Fault& fault) {
     return fault.command.empty() && rank_of(qc_rules(), fault.code) < qc_rules().size();
 }
 
-void judge_view(const std::vector<FrameResult*>& frames) {
-    FaultLimits limits(qc_rules());
-    std::vector<QcFrame> found;
+// The frames of one view with what was found in them; without frames where --qc measured none.
+QcShot searched(const std::vector<FrameResult*>& frames) {
+    QcShot shot{FaultLimits(qc_rules())};
+    bool any = false;
     for (FrameResult* result : frames) {
-        QcFrame& frame = found.emplace_back();
+        QcFrame& frame = shot.frames.emplace_back();
         frame.number = result->frame;
         frame.result = result;
         if (!result->qc.empty()) {
             QcRecord record = qc_from_json(result->qc);
-            limits = record.limits;
+            shot.set_limits(record.limits);
             take_record(frame, std::move(record));
+            any = true;
         }
     }
-    const bool any = std::any_of(found.begin(), found.end(),
-                                 [](const QcFrame& frame) { return frame.measured; });
     if (!any)
-        return;
+        return QcShot{FaultLimits(qc_rules())};
     for (FrameResult* result : frames) {
         auto& faults = result->faults;
         faults.erase(std::remove_if(faults.begin(), faults.end(), is_found_here), faults.end());
     }
-    QcShot shot(limits);
-    shot.frames = std::move(found);
     search(shot);
-    for (FrameResult* result : frames) {
-        sort_faults(result->faults);
-        judge(*result);
-    }
+    return shot;
 }
 
 } // namespace
@@ -121,8 +116,16 @@ void judge_qc(std::vector<FrameResult>& frames) {
     std::map<std::string, std::vector<FrameResult*>> views;
     for (FrameResult& frame : frames)
         views[frame.view].push_back(&frame);
+    std::map<std::string, QcShot> shots;
     for (const auto& [view, of_view] : views)
-        judge_view(of_view);
+        shots.emplace(view, searched(of_view));
+    find_eye_faults(shots);
+    for (auto& [view, shot] : shots) {
+        for (QcFrame& frame : shot.frames) {
+            sort_faults(frame.result->faults);
+            judge(*frame.result);
+        }
+    }
 }
 
 void QcShot::add(QcFrame& frame, const std::string& code, const std::string& sentence,

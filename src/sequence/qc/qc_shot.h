@@ -36,6 +36,7 @@ struct QcDetail {
 class QcShot {
 public:
     explicit QcShot(FaultLimits limits) : m_limits(std::move(limits)) {}
+    void set_limits(FaultLimits limits) { m_limits = std::move(limits); }
 
     std::vector<QcFrame> frames; ///< sorted by number
 
@@ -99,6 +100,8 @@ void find_stalls(QcShot& shot);
 void find_odd_motion(QcShot& shot);
 void find_flicker(QcShot& shot);
 void find_odd_statistics(QcShot& shot);
+/// Of the views of a shot, by name.
+void find_eye_faults(std::map<std::string, QcShot>& views);
 void find_fireflies(QcShot& shot);
 
 } // namespace tonetool::sequence
