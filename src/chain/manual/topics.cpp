@@ -41,6 +41,7 @@ a tone-mapped picture. See --help threshold, --help check, --help hdrflip.
 
 const char* const kCheck = R"(Checking a sequence
 
+  tonetool ref.#.exr test.#.exr --against --qc
   tonetool ref.#.exr test.#.exr --hdrflip:exposures=shot:fail=p99.9=0.7 --report check.html
   tonetool test.#.exr --qc --json check.json
 
@@ -58,8 +59,9 @@ that fail or warn print a line, with -v each does.
 
 exposures=shot compares all frames at one range of exposures, so that their errors can be compared.
 --biascheck tells noise from a change of the light (--help biascheck).
---qc looks for faults that need no reference: black and constant frames, NaN, fireflies, flicker,
-missing layers; see --help qc and --help exit.
+--against compares every layer with the approved version, the first image, and needs no limits.
+--qc looks for faults that need no reference: holes, black and frozen frames, NaN, fireflies, flicker,
+odd noise, missing layers; see --help against, --help qc and --help exit.
 )";
 
 const char* const kThreshold = R"(Thresholds: when a comparison fails
@@ -78,6 +80,9 @@ Noise alone gave a mean of 0.14 to 0.29 and a p99.9 of 0.5 to 0.85 in three scen
 frame twice with different seeds and compare the two: what they differ by is noise. Set the limit of
 the mean a tenth above theirs, that of p99.9 a fifth. p99.9 leaves out a thousandth of the pixels,
 45x45 of 1920x1080: for smaller faults add a limit of p99.99.
+
+fail=FILE takes 1.1 times what a check that passed has measured, from its --json; fail=auto judges each
+frame of a shot by the others, and never sees what all of them have.
 
 A limit that cannot fail (fail=1 of a map from 0 to 1) is an error; NaN exceeds any limit; where a
 limit could not be tested, the check has not passed. Status 3 says that fail= was exceeded.

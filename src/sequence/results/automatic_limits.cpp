@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <string>
 #include <tuple>
@@ -28,8 +27,12 @@ double limit_of(const std::vector<double>& values) {
     return std::max(middle + deviations * normal * median_of(distances), least * middle);
 }
 
-// A view, the place of a measurement in its frame, and a quantity.
-using Key = std::tuple<std::string, size_t, std::string>;
+bool is_bounded(const std::string& command) {
+    return command == "hdrflip" || command == "ldrflip";
+}
+
+// A view, the place of a measurement in its frame, a quantity, and the command.
+using Key = std::tuple<std::string, size_t, std::string, std::string>;
 
 template <class Visit>
 void each_automatic(std::vector<FrameResult>& frames, const Visit& visit) {
@@ -37,7 +40,9 @@ void each_automatic(std::vector<FrameResult>& frames, const Visit& visit) {
         for (size_t i = 0; i < frame.measurements.size(); ++i)
             for (Threshold& threshold : frame.measurements[i].thresholds)
                 if (threshold.automatic)
-                    visit(frame, Key{frame.view, i, threshold.quantity}, threshold);
+                    visit(frame,
+                          Key{frame.view, i, threshold.quantity, frame.measurements[i].command},
+                          threshold);
 }
 
 } // namespace
@@ -52,8 +57,9 @@ void set_automatic_limits(std::vector<FrameResult>& frames) {
         return;
     each_automatic(frames, [&](const FrameResult&, const Key& key, Threshold& threshold) {
         const std::vector<double>& all = values[key];
-        threshold.fail =
-            all.size() < kEnoughForLimit ? std::numeric_limits<double>::quiet_NaN() : limit_of(all);
+        const double limit = all.size() < kEnoughForLimit ? std::nan("") : limit_of(all);
+        // A limit that no error exceeds is none.
+        threshold.fail = is_bounded(std::get<3>(key)) && limit >= 1 ? std::nan("") : limit;
     });
     for (FrameResult& frame : frames)
         if (has_automatic_limit(frame))

@@ -64,8 +64,10 @@ Found of_thresholds(const Measurement& measurement) {
     bool tested = false;
     for (const Threshold& threshold : measurement.thresholds) {
         if (threshold.automatic && threshold.fail && std::isnan(*threshold.fail)) {
-            add_text(warned, format("{}: there are too few frames for fail=auto, which needs {}",
-                                    threshold.quantity, kEnoughForLimit));
+            add_text(warned,
+                     format("{}: fail=auto found no limit: it needs {} frames, most of them "
+                            "alike",
+                            threshold.quantity, kEnoughForLimit));
             continue;
         }
         tested = tested || threshold.fail || threshold.warn;

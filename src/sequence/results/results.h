@@ -65,7 +65,7 @@ struct Threshold {
     bool higher_is_better = false;
     std::optional<double> fail, warn;
     /// `fail` follows from all frames of the shot (fail=auto): not set until they are there, NaN
-    /// where they are too few.
+    /// where they are too few or too unlike each other for a limit.
     bool automatic = false;
 };
 
