@@ -100,7 +100,7 @@ void run_against(Session& session, const Call& call) {
         throw CommandError("\"" + approved.name() + "\", \"" + image.name() + "\": " + why);
     take_types(approved, facts.approved.channels);
     take_types(image, facts.file.channels);
-    sequence::AgainstRecord record = sequence::record_of(facts, words_of(call, "header"));
+    sequence::AgainstRecord record = sequence::record_of(facts, words_of(call, "attribute"));
     record.limits = limits;
     session.check.result->against = sequence::to_json(record);
     show_differences(session, call, record);
@@ -111,7 +111,7 @@ Modifiers own_modifiers() {
              "what layers hold where their names do not tell: position, normal, depth, vector, id, "
              "albedo, color, group or data"},
             {"skip", "LAYER,...", "layers that are not compared, with * and ?"},
-            {"header", "NAME,...", "more attributes that must agree"}};
+            {"attribute", "NAME,...", "more attributes of the header that must agree"}};
 }
 
 } // namespace

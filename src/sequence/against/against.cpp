@@ -27,9 +27,8 @@ using ComparedFrames = std::vector<Compared>;
 // A quantity of a layer that is beyond its limit.
 struct Beyond {
     const AgainstQuantity* quantity;
-    double value;  ///< with its sign
-    double limit;  ///< of an error
-    double excess; ///< the size of the value in units of that limit
+    double value; ///< with its sign
+    double limit; ///< of an error
     Severity severity;
 };
 
@@ -40,11 +39,12 @@ std::optional<Beyond> beyond(const FaultLimits& limits, const AgainstQuantity& q
     const auto severity = limits.severity(quantity.code);
     if (!severity || !(size > quantity.warning_share * limit))
         return std::nullopt;
-    return Beyond{&quantity, value, limit, limit > 0 ? size / limit : HUGE_VAL,
+    return Beyond{&quantity, value, limit,
                   size > limit ? *severity : std::min(*severity, Severity::Warning)};
 }
 
-// The worst quantity of a layer, or of its alpha.
+// The worst quantity of a layer, or of its alpha. The first of those that are as severe says most:
+// by how many stops a layer is brighter rather than that all its blocks differ.
 std::optional<Beyond> worst_of(const AgainstRecord& record, const AgainstLayer& layer,
                                const std::string& kind) {
     std::optional<Beyond> worst;
@@ -53,8 +53,7 @@ std::optional<Beyond> worst_of(const AgainstRecord& record, const AgainstLayer& 
         if (quantity.kind != kind || found == layer.quantities.end())
             continue;
         const auto one = beyond(record.limits, quantity, found->second);
-        if (one && (!worst || one->severity > worst->severity ||
-                    (one->severity == worst->severity && one->excess > worst->excess)))
+        if (one && (!worst || one->severity > worst->severity))
             worst = one;
     }
     return worst;

@@ -18,7 +18,7 @@ const FaultRules& against_rules() {
          {},
          "",
          "pixel aspect, frames per second, view, chromaticities, colour space, Cryptomatte's hash "
-         "or an attribute of header= is another; the camera's name: warning"},
+         "or an attribute of attribute= is another; the camera's name: warning"},
         {"position", error, 0.01, "share of the pixels", "positions that moved; warning at 0.2 X"},
         {"depth", error, 0.01, "share of the pixels", "depths that are others; warning at 0.2 X"},
         {"normal", error, 2.0, "degrees", "the median angle of the normals; warning at 0.25 X"},
