@@ -6,6 +6,7 @@
 #include <ostream>
 
 #include "runs/loop.h"
+#include "runs/rehearsal.h"
 #include "sequence/frames/file_stamp.h"
 #include "sequence/qc/qc.h"
 #include "sequence/report/report_files.h"
@@ -159,8 +160,13 @@ int merge_parts(const FramePlan& plan, std::ostream& out, std::ostream& err) {
     }
     sequence::check_places(check.words);
     refuse_to_write_over(plan);
+    sequence::try_places(check.written());
     if (check.has("statistics")) {
-        write_statistics(check, sequence::merged_exposures(parts));
+        const std::string text = sequence::merged_exposures(parts);
+        if (check.only_validates)
+            out << places_text(plan);
+        else
+            write_statistics(check, text);
         return 0;
     }
     Strings complaints;
@@ -170,6 +176,11 @@ int merge_parts(const FramePlan& plan, std::ostream& out, std::ostream& err) {
         session.error("merge", complaint);
     if (check.has("pictures") && !OIIO::Filesystem::is_directory(check.argument("pictures")))
         throw CommandError("--pictures: there is no folder \"" + check.argument("pictures") + "\"");
+    if (check.only_validates) {
+        out << "dry run: " << shot.frames.size() << " frames in " << parts.size() << " parts\n"
+            << places_text(plan);
+        return session.exit_status();
+    }
     const sequence::PictureStore pictures(picture_folder(check));
     return worse(session.exit_status(), conclude_check(shot, plan, pictures, "", out, err));
 }

@@ -47,6 +47,7 @@ private:
         const bool manner = check || word.row->manner || word.is("n");
         note_blocks(word.row->names.front());
         m_plan.dry_run |= word.is("n");
+        m_plan.only_validates |= word.is("dry-run");
         note_what_is_judged(word);
         if (!manner)
             keep(word.at, with_numbers(word.row->names.front(), with_shot_exposures(word.token)));

@@ -25,6 +25,7 @@ struct CheckPlan {
     bool compares = false;                    ///< a command compares images
     bool has_limits = false;                  ///< one has fail= or warn=, or is --diff
     bool dry_run = false;                     ///< -n: no file is written
+    bool only_validates = false;              ///< --dry-run: no frame is read either
     sequence::Status bad_from = sequence::Status::Failed; ///< of --bad-frames
     /// The words without those that say which frames, where to and how fast; and where they are.
     Strings essence;

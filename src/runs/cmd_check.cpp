@@ -35,6 +35,11 @@ chain::Rows check_commands() {
         command("exit-zero", "For tasks of a farm: status 0 when all results that were asked for "
                              "are written, whatever they are; needs --json, which --merge judges")
             .whole_line(),
+        command("dry-run", "Only look whether the command line can run: parse it, count the frames "
+                           "that are there, try the places of all results")
+            .whole_line()
+            .manner()
+            .in(chain::Group::General),
         command("merge", "Join the results (--json) of parts of a shot; with --frames also those "
                          "that are in none; or the FILEs of --statistics")
             .whole_line(),
