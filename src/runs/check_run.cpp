@@ -10,6 +10,7 @@
 
 #include "runs/check_end.h"
 #include "runs/frame_jobs.h"
+#include "runs/interruption.h"
 #include "runs/rehearsal.h"
 #include "sequence/results/check_files.h"
 #include "text/error.h"
@@ -131,6 +132,8 @@ int PlanRun::loop(std::ostream& err, FrameJob& job, bool goes_on) {
     Loop loop(m_plan, m_out, err, job, goes_on, m_place);
     const int status = loop.run();
     m_threads = std::max(m_threads, loop.threads());
+    if (loop.interrupted() != 0)
+        throw Interrupted{loop.interrupted(), job.kept()};
     return status;
 }
 
