@@ -4,6 +4,7 @@
 #include <OpenImageIO/strutil.h>
 #include <algorithm>
 #include <tuple>
+#include <utility>
 
 #include "imagebuf/pixels/layer_name.h"
 #include "sequence/qc/qc_shot.h"
@@ -51,16 +52,20 @@ bool is_found_here(const Fault& fault) {
     return qc_rank(fault.code) < qc_rules().size();
 }
 
-void judge_view(const std::vector<FrameResult*>& frames) {
+void judge_view(const std::vector<FrameResult*>& frames, bool keep_records) {
     QcLimits limits;
     std::vector<QcFrame> found;
+    found.reserve(frames.size());
     for (FrameResult* result : frames) {
         QcFrame& frame = found.emplace_back();
         frame.number = result->frame;
         frame.result = result;
         if (!result->qc.empty()) {
-            QcRecord record = qc_from_json(result->qc);
+            const auto kept = std::exchange(result->record, nullptr);
+            QcRecord record = kept ? std::move(*kept) : qc_from_json(result->qc);
             limits = record.limits;
+            if (keep_records)
+                result->record = std::make_shared<QcRecord>(QcRecord{{}, record.limits});
             take_record(frame, std::move(record));
         }
     }
@@ -79,6 +84,9 @@ void judge_view(const std::vector<FrameResult*>& frames) {
         sort_faults(result->faults);
         judge(*result);
     }
+    for (QcFrame& frame : shot.frames)
+        if (frame.measured && keep_records)
+            frame.result->record->facts = std::move(frame.facts);
 }
 
 } // namespace
@@ -94,7 +102,7 @@ std::vector<Fault> picture_faults(const QcRecord& record) {
     return result.faults;
 }
 
-void judge_qc(std::vector<FrameResult>& frames) {
+void judge_qc(std::vector<FrameResult>& frames, bool keep_records) {
     std::sort(frames.begin(), frames.end(), [](const FrameResult& a, const FrameResult& b) {
         return std::tie(a.frame, a.view) < std::tie(b.frame, b.view);
     });
@@ -102,7 +110,7 @@ void judge_qc(std::vector<FrameResult>& frames) {
     for (FrameResult& frame : frames)
         views[frame.view].push_back(&frame);
     for (const auto& [view, of_view] : views)
-        judge_view(of_view);
+        judge_view(of_view, keep_records);
 }
 
 std::string faults_text(const ShotResult& shot) {

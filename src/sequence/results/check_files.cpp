@@ -25,17 +25,29 @@ namespace fs = std::filesystem;
 using Text = std::string (*)(const ShotResult&);
 
 const std::map<std::string, Text>& texts() {
-    static const std::map<std::string, Text> all = {
-        {"json", [](const ShotResult& shot) { return to_json(shot); }},
-        {"csv", csv_text},
-        {"junit", junit_text}};
+    static const std::map<std::string, Text> all = {{"csv", csv_text}, {"junit", junit_text}};
     return all;
+}
+
+// It may be larger than what it is made of.
+void write_json(const ShotResult& shot, const std::string& file, bool records) {
+    const auto put = [&](const std::function<void(const std::string&)>& to) {
+        put_json(shot, records, to);
+    };
+    std::string why;
+    if (file == "-") {
+        put([](const std::string& piece) { std::cout << piece; });
+        std::cout.flush();
+    } else if (!write_bytes(put, file, why)) {
+        throw std::runtime_error(why);
+    }
 }
 
 // Only one text file may go to the standard output.
 void check_standard_output(const std::string& start, const std::string& command,
                            const CheckFiles& files) {
-    if (texts().count(command) == 0 && command != "statistics" && command != "bad-frames") {
+    if (texts().count(command) == 0 && command != "json" && command != "statistics" &&
+        command != "bad-frames") {
         throw std::runtime_error(start + "\"-\" is the standard output, which takes texts alone "
                                          "(valid: --json -, --csv -, --junit -, --statistics -)");
     }
@@ -128,12 +140,15 @@ void try_places(const CheckFiles& files) {
     }
 }
 
-std::vector<std::string> write_results(const ShotResult& shot, const CheckFiles& files) {
+std::vector<std::string> write_results(const ShotResult& shot, const CheckFiles& files,
+                                       bool records) {
     std::vector<std::string> errors;
     for (const auto& item : files) {
         const std::string& file = item.second;
         const auto text = texts().find(item.first);
-        if (text != texts().end())
+        if (item.first == "json")
+            attempt(errors, [&] { write_json(shot, file, records); });
+        else if (text != texts().end())
             attempt(errors, [&] { write_text(text->second(shot), file); });
     }
     return errors;
