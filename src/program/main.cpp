@@ -8,6 +8,7 @@
 #include <unistd.h>
 
 #include "program/doctor.h"
+#include "runs/interruption.h"
 #include "runs/runs.h"
 #include "text/printable.h"
 #include "tone.imageio/tone_input.h"
@@ -16,6 +17,8 @@
 namespace {
 
 extern "C" void end_by_signal(int signal_number) {
+    if (tonetool::runs::note_interruption(signal_number))
+        return;
     tonetool::remove_unfinished_outputs();
     std::signal(signal_number, SIG_DFL);
     std::raise(signal_number);

@@ -6,6 +6,7 @@
 #include <ostream>
 
 #include "runs/loop.h"
+#include "runs/rehearsal.h"
 #include "sequence/frames/file_stamp.h"
 #include "sequence/report/report_files.h"
 #include "sequence/results/check_files.h"
@@ -13,6 +14,7 @@
 #include "sequence/results/tables.h"
 #include "sequence/verdict/fault_lines.h"
 #include "sequence/verdict/merge.h"
+#include "sequence/verdict/part_files.h"
 #include "text/error.h"
 #include "text/printable.h"
 #include "text/token.h"
@@ -73,9 +75,9 @@ Strings files_read(const FramePlan& plan, const Strings& texts) {
     return files;
 }
 
-void refuse_in_run(const FramePlan& plan, const std::vector<EndFile>& places,
-                   const Strings& texts) {
-    const Strings read = files_read(plan, texts), outputs = words_at(texts, plan.check.outputs);
+void refuse_in_run(const FramePlan& plan, const std::vector<EndFile>& places, const Strings& texts,
+                   const Strings& read) {
+    const Strings outputs = words_at(texts, plan.check.outputs);
     for (const EndFile& place : places) {
         for (const std::string& file : read) {
             // The JSON of a check has the exposures that were read of it.
@@ -91,14 +93,14 @@ void refuse_in_run(const FramePlan& plan, const std::vector<EndFile>& places,
 
 } // namespace
 
-void refuse_to_write_over(const FramePlan& plan) {
+void refuse_to_write_over(const FramePlan& plan, const Strings& parts) {
     const std::vector<EndFile> places = places_of(plan.check);
     if (places.empty())
         return;
     if (plan.check.has("merge"))
-        refuse_in_run(plan, places, plan.line.texts);
+        refuse_in_run(plan, places, plan.line.texts, parts);
     for (const FrameRun& run : plan.runs)
-        refuse_in_run(plan, places, run.words);
+        refuse_in_run(plan, places, run.words, files_read(plan, run.words));
 }
 
 Strings words_at(const Strings& words, const std::vector<size_t>& places) {
@@ -133,7 +135,7 @@ int conclude_check(const sequence::ShotResult& shot, const FramePlan& plan,
     out << sequence::faults_text(shot);
     out << "check: " << status_name(shot.verdict) << ", " << printable(shot.sentence) << std::endl;
     const sequence::CheckFiles files = plan.check.written();
-    Strings errors = sequence::write_results(shot, files);
+    Strings errors = sequence::write_results(shot, files, plan.check.json_records);
     if (const auto bad = files.find("bad-frames"); bad != files.end()) {
         const std::string text = sequence::bad_frames_text(shot, plan.check.bad_from);
         sequence::attempt(errors, [&] { sequence::write_text(text, bad->second); });
@@ -152,15 +154,24 @@ int conclude_check(const sequence::ShotResult& shot, const FramePlan& plan,
 int merge_parts(const FramePlan& plan, std::ostream& out, std::ostream& err) {
     const CheckPlan& check = plan.check;
     const Strings& texts = plan.line.texts;
-    const Strings parts = words_at(texts, check.inputs);
-    if (parts != check.essence) {
+    Strings named = words_at(texts, check.inputs);
+    if (named != check.essence) {
         throw CommandError("--merge takes results alone (valid: --merge PART.json ... with --json, "
                            "--csv and the like)");
     }
     sequence::check_places(check.words);
-    refuse_to_write_over(plan);
+    for (const std::string& list : check.part_lists)
+        for (const std::string& line : sequence::lines_of(list))
+            named.push_back(line);
+    const Strings parts = sequence::part_files(named);
+    refuse_to_write_over(plan, parts);
+    sequence::try_places(check.written());
     if (check.has("statistics")) {
-        write_statistics(check, sequence::merged_exposures(parts));
+        const std::string text = sequence::merged_exposures(parts);
+        if (check.only_validates)
+            out << places_text(plan);
+        else
+            write_statistics(check, text);
         return 0;
     }
     Strings complaints;
@@ -170,6 +181,11 @@ int merge_parts(const FramePlan& plan, std::ostream& out, std::ostream& err) {
         session.error("merge", complaint);
     if (check.has("pictures") && !OIIO::Filesystem::is_directory(check.argument("pictures")))
         throw CommandError("--pictures: there is no folder \"" + check.argument("pictures") + "\"");
+    if (check.only_validates) {
+        out << "dry run: " << shot.frames.size() << " frames in " << parts.size() << " parts\n"
+            << places_text(plan);
+        return session.exit_status();
+    }
     const sequence::PictureStore pictures(picture_folder(check));
     return worse(session.exit_status(), conclude_check(shot, plan, pictures, "", out, err));
 }

@@ -20,8 +20,8 @@ bool draws(const CheckPlan& check);
 std::string picture_folder(const CheckPlan& check);
 
 /// A CommandError where a file that is written at the end is one that the line, with the words of
-/// one of its runs, reads or writes itself, by whatever name.
-void refuse_to_write_over(const FramePlan& plan);
+/// one of its runs, reads or writes itself, by whatever name. `parts`: of --merge.
+void refuse_to_write_over(const FramePlan& plan, const Strings& parts = {});
 
 /// Prints the verdict of a check, then writes its files, those that can be written: none with
 /// -n. `unkept`: what could not be kept of the frames, which is an error, too. The exit status.

@@ -30,6 +30,8 @@ public:
                 take_command(word);
             else
                 take_file(word.at);
+        if (!m_plan.part_lists.empty())
+            m_plan.words.emplace("merge", "");
         check_merge();
         check_exit_zero();
         return std::move(m_plan);
@@ -48,6 +50,7 @@ private:
         const bool manner = check || word.row->manner || word.is("n");
         note_blocks(word.row->names.front());
         m_plan.dry_run |= word.is("n");
+        m_plan.only_validates |= word.is("dry-run");
         note_what_is_judged(word);
         if (!manner)
             keep(word.at, with_numbers(word.row->names.front(), with_shot_exposures(word.token)));
@@ -88,19 +91,31 @@ private:
             throw CommandError(name + ": " + what + " is empty (valid: a name, " + name + " " +
                                what + ")");
         }
-        if (!m_plan.words.emplace(word.row->names.front(), argument).second)
+        if (word.is("merge-list"))
+            m_plan.part_lists.push_back(argument);
+        else if (!word.is("dry-run") &&
+                 !m_plan.words.emplace(word.row->names.front(), argument).second)
             throw CommandError(name + " is given twice");
-        if (word.is("bad-frames"))
-            take_severity(word.token);
+        if (!word.is("qc")) // whose own are read when it runs
+            take_modifiers(name, word);
     }
 
-    void take_severity(const Token& token) {
-        for (const auto& [key, value] : token.modifiers) {
-            if (key != "from")
-                throw CommandError("--bad-frames has no modifier \"" + key + "\" (valid: from)");
-            check_choice("--bad-frames: from", value, {"error", "warning"});
-            if (value == "warning")
+    void take_modifiers(const std::string& name, const Word& word) {
+        for (const auto& [key, value] : word.token.modifiers) {
+            const auto& all = word.row->modifiers;
+            const auto known = std::find_if(
+                all.begin(), all.end(), [&key = key](const auto& one) { return one.key == key; });
+            if (known == all.end()) {
+                Strings keys;
+                for (const chain::Modifier& one : all)
+                    keys.push_back(one.key);
+                throw CommandError(name + " has no modifier \"" + key + "\"" +
+                                   (keys.empty() ? "" : " (valid: " + join(keys, ", ") + ")"));
+            }
+            check_choice(name + ": " + key, value, split(known->hint, '|'));
+            if (key == "from" && value == "warning")
                 m_plan.bad_from = sequence::Status::Warning;
+            m_plan.json_records &= key != "records" || value != "0";
         }
     }
 
@@ -123,7 +138,8 @@ private:
     }
 
     void take_file(size_t at) {
-        if (m_plan.has("merge")) { // parts are names, whatever signs are in them
+        const bool part = m_plan.has("merge") || !m_plan.part_lists.empty();
+        if (part) { // parts are names, whatever signs are in them
             m_plan.inputs.push_back(at);
             keep(at, text(at));
             return;

@@ -25,7 +25,10 @@ struct CheckPlan {
     bool compares = false;                    ///< a command compares images
     bool has_limits = false;                  ///< one has fail= or warn=, or is --diff
     bool dry_run = false;                     ///< -n: no file is written
+    bool only_validates = false;              ///< --dry-run: no frame is read either
     sequence::Status bad_from = sequence::Status::Failed; ///< of --bad-frames
+    bool json_records = true;                             ///< --json has what --qc measured
+    Strings part_lists;                                   ///< files of --merge-list
     /// The words without those that say which frames, where to and how fast; and where they are.
     Strings essence;
     std::vector<size_t> essence_at;

@@ -10,6 +10,8 @@
 
 #include "runs/check_end.h"
 #include "runs/frame_jobs.h"
+#include "runs/interruption.h"
+#include "runs/rehearsal.h"
 #include "sequence/results/check_files.h"
 #include "text/error.h"
 #include "tonetool/write.h"
@@ -26,6 +28,7 @@ public:
         : m_plan(plan),
           m_out(out),
           m_err(err),
+          m_workers(workers),
           m_place(workers && plan.check.pairs_frames() ? Place::WorkerProcesses
                                                        : Place::ThisProcess) {}
 
@@ -33,14 +36,20 @@ public:
 
 private:
     int loop(std::ostream& err, FrameJob& job, bool goes_on);
+    void read_exposures();
     int find_exposures();
     int check();
+    /// The line ends with a verdict of its frames.
+    bool judges_frames() const {
+        return m_plan.check.is_check() || (m_plan.loops && m_plan.check.has_verdict());
+    }
     void prepare();
     void remove_abandoned() const;
 
     const FramePlan& m_plan;
     std::ostream& m_out;
     std::ostream& m_err;
+    bool m_workers;
     Place m_place;
     int m_threads = 0; ///< of --threads
     FrameContext m_context{m_plan, {}};
@@ -49,11 +58,23 @@ private:
 };
 
 int PlanRun::run() {
+    sequence::check_places(m_plan.check.words);
+    refuse_to_write_over(m_plan);
+    if (m_plan.check.only_validates || judges_frames()) {
+        try_outputs(m_plan);
+        if (!commands_are_right(m_plan, m_err, m_workers))
+            return 1;
+    }
+    if (m_plan.check.only_validates) {
+        read_exposures();
+        m_out << plan_text(m_plan);
+        return 0;
+    }
     prepare();
     const int found = find_exposures();
     if (m_plan.check.has("statistics"))
         return found;
-    if (m_plan.check.is_check() || (m_plan.loops && m_plan.check.has_verdict()))
+    if (judges_frames())
         return check();
     PlainFrames frames(m_context);
     return loop(m_err, frames, m_plan.skip_bad);
@@ -80,8 +101,6 @@ int PlanRun::check() {
 
 void PlanRun::prepare() {
     const CheckPlan& check = m_plan.check;
-    sequence::check_places(check.words);
-    refuse_to_write_over(m_plan);
     if (check.has("state") && !check.dry_run) {
         m_state.emplace(check.argument("state"), "frame");
         m_sample_state.emplace(check.argument("state"), "exposures");
@@ -113,16 +132,21 @@ int PlanRun::loop(std::ostream& err, FrameJob& job, bool goes_on) {
     Loop loop(m_plan, m_out, err, job, goes_on, m_place);
     const int status = loop.run();
     m_threads = std::max(m_threads, loop.threads());
+    if (loop.interrupted() != 0)
+        throw Interrupted{loop.interrupted(), job.kept()};
     return status;
 }
 
-int PlanRun::find_exposures() {
+void PlanRun::read_exposures() {
     const std::string& from = m_plan.check.exposures;
-    if (from != "shot") {
-        if (!from.empty())
-            m_context.shot = sequence::read_exposures(from);
+    if (!from.empty() && from != "shot")
+        m_context.shot = sequence::read_exposures(from);
+}
+
+int PlanRun::find_exposures() {
+    read_exposures();
+    if (m_plan.check.exposures != "shot")
         return 0;
-    }
     // What cannot be read is told by the frames' own runs, if there are any.
     const bool alone = m_plan.check.has("statistics");
     std::ostringstream nowhere;

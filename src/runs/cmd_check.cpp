@@ -9,6 +9,8 @@ using chain::command;
 chain::Rows check_commands() {
     return {
         command("json FILE", "Write what was found in all frames, at the end, as JSON")
+            .modifier("records", "0|1",
+                      "with what --qc measured (1), which --merge needs: most of the file")
             .whole_line(),
         command("csv FILE", "Write a table of all frames, a line each").whole_line(),
         command("junit FILE", "Write a test case for each frame, as CI systems read them")
@@ -35,8 +37,15 @@ chain::Rows check_commands() {
         command("exit-zero", "For tasks of a farm: status 0 when all results that were asked for "
                              "are written, whatever they are; needs --json, which --merge judges")
             .whole_line(),
-        command("merge", "Join the results (--json) of parts of a shot; with --frames also those "
-                         "that are in none; or the FILEs of --statistics")
+        command("dry-run", "Only look whether the command line can run: parse it, count the frames "
+                           "that are there, try the places of all results")
+            .whole_line(),
+        command("merge", "Join the results (--json) of parts of a shot, files, folders or names "
+                         "with *; with --frames also those that are in none; or the FILEs of "
+                         "--statistics")
+            .whole_line(),
+        command("merge-list FILE", "The same of the parts that the lines of that file name; -: of "
+                                   "the standard input")
             .whole_line(),
     };
 }

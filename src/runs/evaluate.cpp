@@ -88,6 +88,8 @@ void evaluate_one(Session& session, std::vector<OIIO::ImageBuf>& images, const F
         throw CommandError("wildcards fit " + std::to_string(plan.runs.size()) +
                            " frames, not one (--frames N chooses one)");
     }
+    if (plan.check.only_validates)
+        throw CommandError("--dry-run is for the program's command line");
     if (!plan.check.words.empty()) {
         throw CommandError("--" + plan.check.words.begin()->first +
                            " is for the frames of the program's command line");

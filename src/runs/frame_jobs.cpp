@@ -52,6 +52,20 @@ std::string keep_in(const State& state, const sequence::Item& item, const sequen
     }
 }
 
+// "19 of 24 frames kept in st"; empty without a state.
+template <class IsKept>
+std::string kept_in(const std::optional<State>& state, const FramePlan& plan,
+                    const IsKept& is_kept) {
+    if (!state)
+        return "";
+    size_t count = 0;
+    const size_t all = plan.runs.size();
+    for (size_t i = 0; i < all; ++i)
+        count += is_kept(i) ? 1 : 0;
+    return std::to_string(count) + " of " + std::to_string(all) + " frame" + (all == 1 ? "" : "s") +
+           " kept in " + plan.check.argument("state");
+}
+
 } // namespace
 
 sequence::Item FrameContext::item(size_t index) const {
@@ -129,11 +143,9 @@ ExposureFrames::ExposureFrames(const FrameContext& context, const std::optional<
 
 ExposureFrames::Measured ExposureFrames::measure(size_t index, std::ostream& err) const {
     const FrameRun& run = m_context.plan.runs[index];
-    const CheckPlan& check = m_context.plan.check;
     const sequence::Item item = m_context.item(index);
-    const sequence::Origin origin{words_at(run.words, check.essence_at), "exposures"};
     if (m_state) {
-        if (const auto kept = m_state->find(item, origin))
+        if (const auto kept = m_state->find(item, origin(index)))
             return {sequence::samples_from_json(kept->result).at(0), ""};
     }
     sequence::ExposureSample found{run.frame.number, run.frame.view, -1, 0};
@@ -146,8 +158,8 @@ ExposureFrames::Measured ExposureFrames::measure(size_t index, std::ostream& err
         return {std::nullopt, session.outcome.first_error};
     Measured measured{found, ""};
     if (m_state) {
-        measured.error =
-            keep_in(*m_state, item, origin, session.files, {sequence::to_json({found}), "", ""});
+        measured.error = keep_in(*m_state, item, origin(index), session.files,
+                                 {sequence::to_json({found}), "", ""});
         if (!measured.error.empty())
             m_context.print_error(index, measured.error, err);
     }
@@ -172,6 +184,18 @@ void ExposureFrames::take(size_t index, Ran& ran) {
     if (!texts[0].empty())
         m_samples[index] = sequence::samples_from_json(texts[0]).at(0);
     m_errors[index] = texts[1];
+}
+
+sequence::Origin ExposureFrames::origin(size_t index) const {
+    const FramePlan& plan = m_context.plan;
+    return {words_at(plan.runs[index].words, plan.check.essence_at), "exposures"};
+}
+
+std::string ExposureFrames::kept() const {
+    const std::string text = kept_in(m_state, m_context.plan, [this](size_t index) {
+        return m_state->find(m_context.item(index), origin(index)).has_value();
+    });
+    return text.empty() ? "" : "the exposures of " + text;
 }
 
 sequence::ExposureSamples ExposureFrames::samples() const {
@@ -241,34 +265,44 @@ CheckedFrames::Checked CheckedFrames::check(size_t index) const {
     return checked;
 }
 
+// What an earlier run has kept, with the pictures where there are to be some.
+std::optional<CheckedFrames::Checked> CheckedFrames::find(size_t index) const {
+    auto kept = m_state->find(m_context.item(index), origin(index));
+    if (!kept)
+        return std::nullopt;
+    FrameResult found = sequence::frame_from_json(kept->result);
+    if (draws(m_context.plan.check) && !m_pictures.restore(found))
+        return std::nullopt;
+    return Checked{
+        std::move(found),        std::move(kept->out), std::move(kept->err), kept->status, true,
+        std::move(kept->written)};
+}
+
 CheckedFrames::Checked CheckedFrames::check_or_find(size_t index) const {
     if (!m_state)
         return check(index);
-    const FramePlan& plan = m_context.plan;
-    const Strings& words = plan.runs[index].words;
-    const sequence::Item item = m_context.item(index);
-    const sequence::Origin origin{words_at(words, plan.check.essence_at),
-                                  m_context.shot ? sequence::exposures_text(*m_context.shot) : ""};
-    if (auto kept = m_state->find(item, origin)) {
-        FrameResult found = sequence::frame_from_json(kept->result);
-        if (!draws(plan.check) || m_pictures.restore(found)) {
-            return {std::move(found),
-                    std::move(kept->out),
-                    std::move(kept->err),
-                    kept->status,
-                    true,
-                    std::move(kept->written)};
-        }
-    }
+    if (auto found = find(index))
+        return std::move(*found);
     Checked made = check(index);
     if (made.result.status <= Status::SizeMismatch) {
         const std::string error = keep_in(
-            *m_state, item, origin, made.files,
+            *m_state, m_context.item(index), origin(index), made.files,
             {sequence::to_json(made.result), made.out, made.err, made.status, made.written});
         if (!error.empty())
             made.unkept = "--state: " + error;
     }
     return made;
+}
+
+sequence::Origin CheckedFrames::origin(size_t index) const {
+    const FramePlan& plan = m_context.plan;
+    return {words_at(plan.runs[index].words, plan.check.essence_at),
+            m_context.shot ? sequence::exposures_text(*m_context.shot) : ""};
+}
+
+std::string CheckedFrames::kept() const {
+    return kept_in(m_state, m_context.plan,
+                   [this](size_t index) { return find(index).has_value(); });
 }
 
 Ran CheckedFrames::run(size_t index, std::ostream& out, std::ostream& err) {

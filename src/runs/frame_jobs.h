@@ -52,6 +52,8 @@ public:
                std::ostream& err) override;
     void take(size_t index, Ran& ran) override;
 
+    std::string kept() const override;
+
     sequence::ExposureSamples samples() const;
     /// Of the first frame that could not be measured; empty where all could.
     std::string first_error() const;
@@ -63,6 +65,7 @@ private:
         std::string error;
     };
     Measured measure(size_t index, std::ostream& err) const;
+    sequence::Origin origin(size_t index) const;
 
     const FrameContext& m_context;
     const std::optional<sequence::State>& m_state;
@@ -79,6 +82,8 @@ public:
     Ran failed(size_t index, sequence::Status status, const std::string& why,
                std::ostream& err) override;
     void take(size_t index, Ran& ran) override;
+
+    std::string kept() const override;
 
     std::vector<sequence::FrameResult>& results() { return m_results; }
     /// Why something of the first such frame could not be kept for a later run or the report;
@@ -100,7 +105,9 @@ private:
 
     sequence::FrameResult unchecked(size_t index) const;
     Checked check(size_t index) const;
+    std::optional<Checked> find(size_t index) const;
     Checked check_or_find(size_t index) const;
+    sequence::Origin origin(size_t index) const;
     // Frames of several processes must not write one file either.
     void claim(const Strings& written, sequence::FrameResult& result, Ran& ran) const;
 

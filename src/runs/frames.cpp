@@ -215,6 +215,7 @@ FramePlan plan_frames(chain::ParsedLine line, const std::string& directory, bool
     make_runs(scan, first, listings);
     count_families(scan.plan);
     check_outputs_differ(scan.plan);
+    scan.plan.options = scan.options;
     return scan.plan;
 }
 

@@ -9,6 +9,7 @@
 #include "chain/language/line.h"
 #include "chain/session/session.h"
 #include "runs/check_plan.h"
+#include "sequence/frames/file_sequence.h"
 #include "text/text.h"
 
 namespace tonetool::runs {
@@ -32,7 +33,8 @@ struct FramePlan {
     int parallel = 1;
     std::string progress; ///< "json", or "" for a terminal
     CheckPlan check;
-    std::vector<size_t> sequences; ///< of a check: indices of the input words with wildcards
+    std::vector<size_t> sequences;    ///< of a check: indices of the input words with wildcards
+    sequence::PatternOptions options; ///< how names are taken apart
 };
 
 /// What holds for the whole line, also before its word is reached.

@@ -8,6 +8,7 @@
 #include <sstream>
 #include <thread>
 
+#include "runs/interruption.h"
 #include "runs/packed.h"
 #include "runs/workers.h"
 
@@ -203,9 +204,11 @@ void Loop::run_in_workers() {
     const auto begin = [processes] {
         OIIO::attribute("threads", std::max(1, library_threads() / processes));
     };
+    const Interruption interruption;
     const auto next = [this]() -> std::optional<size_t> {
-        return m_next == m_plan.runs.size() || ends() ? std::nullopt
-                                                      : std::optional<size_t>(m_next++);
+        const bool done =
+            m_next == m_plan.runs.size() || ends() || Interruption::signal_number() != 0;
+        return done ? std::nullopt : std::optional<size_t>(m_next++);
     };
     const auto done = [this](size_t index, const TaskResult& result) {
         if (!result.crash.empty()) {
@@ -224,7 +227,10 @@ void Loop::run_in_workers() {
     Workers(
         processes, [this](size_t index) { return reply_of(index); },
         processes > 1 ? std::function<void()>(begin) : nullptr)
-        .run(next, done);
+        .run(next, done, interruption.descriptor());
+    m_interrupted = Interruption::signal_number();
+    if (m_interrupted != 0)
+        m_progress.clear();
 }
 
 } // namespace tonetool::runs

@@ -37,6 +37,8 @@ public:
                        std::ostream& err) = 0;
     /// Keeps what `run` or `failed` found: one frame at a time, in the process of the loop.
     virtual void take(size_t index, Ran& ran) = 0;
+    /// What is kept of the frames for the next run of the same line; empty: nothing.
+    virtual std::string kept() const { return ""; }
 };
 
 /// Where the frames of a loop run.
@@ -63,6 +65,8 @@ public:
     /// What --threads has set in worker processes; 0: nothing. Set here it would start threads,
     /// which processes that are still to be made must not be copied from.
     int threads() const { return m_threads; }
+    /// The signal that ended it before all frames were done; 0: none.
+    int interrupted() const { return m_interrupted; }
 
 private:
     struct Done {
@@ -94,7 +98,7 @@ private:
     bool m_goes_on;
     Place m_place;
     Progress m_progress;
-    int m_status = 0, m_threads = 0;
+    int m_status = 0, m_threads = 0, m_interrupted = 0;
     bool m_aborted = false;
     std::mutex m_mutex;
     size_t m_next = 0, m_printed = 0;

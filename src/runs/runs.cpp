@@ -13,8 +13,10 @@
 #include "chain/session/runner.h"
 #include "runs/check_run.h"
 #include "runs/frames.h"
+#include "runs/interruption.h"
 #include "runs/loop.h"
 #include "sequence/results/check_files.h"
+#include "text/printable.h"
 
 namespace tonetool::runs {
 
@@ -55,6 +57,13 @@ int run(const Strings& given, std::ostream& out, std::ostream& err, bool workers
         status = run_plan(plan, told, err, workers);
         if (plan.runs.empty() && !plan.check.has("merge"))
             whole.warning("", chain::kNoOutput);
+    } catch (const Interrupted& by) {
+        out.flush();
+        err << "tonetool: "
+            << (by.kept.empty() ? "interrupted, nothing is kept (valid: --state DIR)"
+                                : printable(by.kept) + "; the same command goes on")
+            << std::endl;
+        return by.exit_status();
     } catch (const std::exception& problem) {
         whole.error("", problem.what());
     }

@@ -17,6 +17,8 @@
 #include <sys/prctl.h>
 #endif
 
+#include "runs/interruption.h"
+
 namespace tonetool::runs {
 
 namespace {
@@ -62,6 +64,25 @@ std::string in_words(int status) {
     return "exit status " + std::to_string(WEXITSTATUS(status));
 }
 
+// Signals that would end the process come when it is known which of the two it is.
+class SignalsHeld {
+public:
+    SignalsHeld() {
+        sigset_t held;
+        sigemptyset(&held);
+        for (const int number : {SIGINT, SIGTERM, SIGHUP})
+            sigaddset(&held, number);
+        ::sigprocmask(SIG_BLOCK, &held, &m_before);
+    }
+    ~SignalsHeld() { release(); }
+    SignalsHeld(const SignalsHeld&) = delete;
+    SignalsHeld& operator=(const SignalsHeld&) = delete;
+    void release() { ::sigprocmask(SIG_SETMASK, &m_before, nullptr); }
+
+private:
+    sigset_t m_before{};
+};
+
 // The workers end with the process that started them, and by a signal that lets them remove what
 // they have not finished. Where memory is short they go first, and the check goes on.
 void follow_the_starter(int starter) {
@@ -83,10 +104,10 @@ Workers::Workers(int processes, Task task, std::function<void()> begin)
       m_begin(std::move(begin)) {}
 
 Workers::~Workers() {
-    for (Worker& worker : m_workers) {
+    for (const Worker& worker : m_workers)
         ::kill(worker.process, SIGTERM);
+    for (Worker& worker : m_workers)
         end_of(worker);
-    }
 }
 
 void Workers::serve(int socket) const {
@@ -110,8 +131,11 @@ void Workers::start(size_t index) {
                                  std::strerror(errno));
     }
     std::fflush(nullptr);
+    SignalsHeld held;
     const int starter = ::getpid(), process = ::fork();
     if (process == 0) {
+        Interruption::forget();
+        held.release();
         follow_the_starter(starter);
         ::close(sockets[0]);
         for (const Worker& other : m_workers)
@@ -169,7 +193,7 @@ std::string Workers::end_of(Worker& worker) const {
     return in_words(status);
 }
 
-void Workers::run(const Next& next, const Done& done) {
+void Workers::run(const Next& next, const Done& done, int stop) {
     std::optional<size_t> index;
     while (int(m_workers.size()) < m_processes && (index = next()))
         start(*index);
@@ -177,9 +201,12 @@ void Workers::run(const Next& next, const Done& done) {
         std::vector<pollfd> polled;
         for (const Worker& worker : m_workers)
             polled.push_back({worker.socket, POLLIN, 0});
+        polled.push_back({stop, POLLIN, 0}); // poll() takes no notice of -1
         if (::poll(polled.data(), nfds_t(polled.size()), -1) < 0)
             continue; // a signal
-        for (size_t i = polled.size(); i-- > 0;) {
+        if (polled.back().revents != 0)
+            return;
+        for (size_t i = m_workers.size(); i-- > 0;) {
             TaskResult result;
             if (polled[i].revents == 0 || !take_reply(m_workers[i], result))
                 continue;

@@ -40,8 +40,8 @@ public:
 
     /// Until `next` has no more tasks and all are done. A worker process that ends early loses the
     /// task in hand alone: another one takes its place. A runtime_error where no process can be
-    /// started.
-    void run(const Next& next, const Done& done);
+    /// started. `stop`: a descriptor; as soon as it can be read, the rest is left undone.
+    void run(const Next& next, const Done& done, int stop = -1);
 
 private:
     struct Worker {

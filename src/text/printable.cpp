@@ -109,6 +109,9 @@ std::string printable_lines(const std::string& text) {
 }
 
 std::string printable_json(const std::string& json) {
+    const auto plain = [](char c) { return static_cast<unsigned char>(c) < 0x7f; };
+    if (std::all_of(json.begin(), json.end(), plain))
+        return json;
     std::string out;
     for (size_t at = 0; at < json.size();) {
         const Character c = character_at(json, at);

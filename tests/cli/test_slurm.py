@@ -4,6 +4,7 @@
 import json
 import os
 import shutil
+import signal
 import socket
 import subprocess
 import sys
@@ -227,8 +228,10 @@ def test_dry_run_prints_the_scripts_and_does_nothing(program, shot):
 # Runs the tasks of a job at once, one after the other.
 FAKE_SBATCH = """#!/bin/bash
 script="${!#}"
-last=$(sed -n 's/^#SBATCH --array=0-\\([0-9]*\\).*/\\1/p' "$script")
-for task in $(seq 0 "${last:-0}"); do
+[ -n "$SCRIPTS" ] && cat "$script" >> "$SCRIPTS"
+tasks=$(sed -n 's/^#SBATCH --array=\\([0-9,-]*\\).*/\\1/p' "$script" | tr , '\\n' |
+    sed 's/^\\([0-9]*\\)$/\\1-\\1/' | tr - ' ')
+for task in $(while read -r a b; do seq "$a" "$b"; done <<< "${tasks:-0 0}"); do
     SLURM_ARRAY_TASK_ID=$task bash "$script"
 done
 echo 17
@@ -269,6 +272,102 @@ def test_folders_of_any_name(program, fake_slurm, tmp_path, name):
     assert ran.returncode == 3, (ran.stdout, ran.stderr, logs)
     for file, text in wanted.items():
         assert (here / file).read_bytes() == text, file
+
+
+def names(folder):
+    return sorted(os.listdir(folder))
+
+
+@pytest.fixture
+def pairs(program, tmp_path):
+    """Four frames, all alike."""
+    for side in ("ref", "test"):
+        subprocess.run([program, "--pattern", "constant:color=0.4,1,0.1", "8x8", "3", "-o",
+                        "a.exr"], cwd=tmp_path, check=True)
+        for number in range(1, 5):
+            shutil.copy(tmp_path / "a.exr", tmp_path / f"{side}.{number:04d}.exr")
+    return tmp_path
+
+
+FOUR = ["--frames", "1-4", "ref.#.exr", "test.#.exr", "--hdrflip:fail=1e-3"]
+
+
+@pytest.mark.parametrize("words, text", [
+    (["--json", "gone/check.json"], 'no folder "gone"'),
+    (["--hdrflip:layer=Nope", "--json", "check.json"], "Nope"),
+    (["--hdrflip:fial=1", "--json", "check.json"], 'unknown modifier "fial"'),
+])
+def test_nothing_is_submitted_where_a_dry_run_fails(program, fake_slurm, pairs, words, text):
+    before = names(pairs)
+    line = FOUR[:-1] + words if words[0].startswith("--hdrflip") else FOUR + words
+    ran = farm(program, pairs, fake_slurm, "--", *line)
+    assert ran.returncode == 1 and text in ran.stderr and "Traceback" not in ran.stderr
+    assert names(pairs) == before
+
+
+def test_the_work_folder_goes_where_the_merge_has_no_error(program, fake_slurm, pairs):
+    work = pairs / "work"
+    work.mkdir()
+    ran = farm(program, pairs, fake_slurm, "--folder", "work", "--chunk", "1", "--", *FOUR, "--json",
+               "check.json")
+    assert ran.returncode == 0, (ran.stdout, ran.stderr)
+    assert "4 frames asked for, 4 there" in ran.stdout and not names(work)
+    (pairs / "test.0003.exr").unlink()
+    ran = farm(program, pairs, fake_slurm, "--folder", "work", "--chunk", "1", "--", *FOUR, "--json",
+               "check.json")
+    assert ran.returncode == 1 and "missing: 3" in ran.stdout and len(names(work)) == 1
+
+
+def test_a_resumed_run_does_what_is_left(program, fake_slurm, pairs):
+    (pairs / "test.0003.exr").unlink()  # so that the folder stays
+    line = ["--chunk", "1", "--", *FOUR, "--json", "check.json", "--csv", "check.csv"]
+    work = pairs / "work"
+    work.mkdir()
+    assert farm(program, pairs, fake_slurm, "--folder", "work", *line).returncode == 1
+    (folder,) = work.iterdir()
+    shutil.copy(pairs / "ref.0003.exr", pairs / "test.0003.exr")
+    (folder / "check.2.json").unlink()  # of frame 3
+    whole = (folder / "check.0.json").read_bytes()
+    (folder / "check.0.json").write_bytes(whole[:300])
+    kept = (folder / "check.1.json").stat().st_mtime_ns
+    ran = farm(program, pairs, fake_slurm, "--resume", str(folder), "--chunk", "2", *line[2:])
+    assert ran.returncode == 1 and "its words, frames or --chunk were others" in ran.stderr
+    scripts = pairs / "scripts"
+    ran = farm(program, pairs, {**fake_slurm, "SCRIPTS": str(scripts)}, "--resume", str(folder), *line)
+    assert ran.returncode == 0, (ran.stdout, ran.stderr)
+    assert "4 tasks, 2 of them done before" in ran.stdout and not folder.exists()
+    assert "#SBATCH --array=0,2\n" in scripts.read_text()
+    assert kept > 0
+    made = (pairs / "check.json").read_bytes()
+    alone, wanted = local(program, pairs, line[3:])
+    assert alone.returncode == 0 and made == wanted["check.json"]
+
+
+def test_resume_of_another_folder(program, fake_slurm, pairs):
+    ran = farm(program, pairs, fake_slurm, "--resume", ".", "--", *FOUR, "--json", "c.json")
+    assert ran.returncode == 1 and "no work folder of tonetool-slurm" in ran.stderr
+
+
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM, signal.SIGHUP])
+def test_a_signal_cancels_what_was_submitted(program, fake_slurm, pairs, number):
+    """The queue that is looked at is never empty, and the merge does not come."""
+    bin_folder = Path(fake_slurm["PATH"].split(":")[0])
+    (bin_folder / "sbatch").write_text('#!/bin/bash\necho x >> "$0.count"\nwc -l < "$0.count"\n')
+    (bin_folder / "squeue").write_text("#!/bin/bash\necho 1 R\n")
+    (bin_folder / "scancel").write_text(f'#!/bin/bash\necho "$@" > "{pairs}/cancelled"\n')
+    (bin_folder / "scancel").chmod(0o755)
+    with subprocess.Popen([sys.executable, str(SCRIPT), "--tonetool", program, "--poll", "0.2", "--",
+                           *FOUR, "--json", "check.json"], cwd=pairs, env=fake_slurm, text=True,
+                          stdout=subprocess.PIPE, stderr=subprocess.PIPE) as process:
+        for line in process.stdout:
+            if "merge is job 3" in line:
+                break
+        process.send_signal(number)
+        _, err = process.communicate(timeout=60)
+    assert process.returncode == 128 + number
+    assert (pairs / "cancelled").read_text() == "1 2 3\n"
+    assert "cancelled the jobs 1 2 3; the same command goes on with --resume " in err
+    assert "Traceback" not in err and not (pairs / "check.json").exists()
 
 
 def test_folder_with_a_line_break(program, fake_slurm, tmp_path):

@@ -305,6 +305,10 @@ Rows bias_commands() {
                 "Noise or change? Tells renders that differ in more than their noise: "
                 "references, tests -> map",
                 run_biascheck)
+            .checked([](Session& session, const Call& call) {
+                (void)bias_options(session, call);
+                (void)verdict_limits(call);
+            })
             .images(2, 1)
             .images_of(biascheck_pops)
             .modifiers(modifiers_of<BiasOptions>())

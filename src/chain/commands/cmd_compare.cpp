@@ -181,11 +181,20 @@ void save_exposures(Session& session, const Call& call, const FlipResult& result
     }
 }
 
-void run_hdrflip(Session& session, const Call& call) {
-    HdrFlipOptions options;
+Limits read_hdrflip(Session& session, const Call& call, HdrFlipOptions& options) {
     read_flip_options(session, call, true, options);
     read_hdr_options(session, call, options);
-    const Limits limits = limits_of(session, call, {}, options.quantities);
+    return limits_of(session, call, {}, options.quantities);
+}
+
+void check_hdrflip(Session& session, const Call& call) {
+    HdrFlipOptions options;
+    (void)read_hdrflip(session, call, options);
+}
+
+void run_hdrflip(Session& session, const Call& call) {
+    HdrFlipOptions options;
+    const Limits limits = read_hdrflip(session, call, options);
     read_shot_exposures(session, call, options);
     auto exposure_map = call.choice("exposuremap", {"stops", "index"});
     options.want_exposure_map = exposure_map || shown_bytes(session, call) > 0;
@@ -215,10 +224,19 @@ void run_hdrflip(Session& session, const Call& call) {
 
 // ---- one test
 
+Limits read_ldrflip(Session& session, const Call& call, FlipOptions& options) {
+    read_flip_options(session, call, true, options);
+    return limits_of(session, call, {}, options.quantities);
+}
+
+void check_ldrflip(Session& session, const Call& call) {
+    FlipOptions options;
+    (void)read_ldrflip(session, call, options);
+}
+
 void run_ldrflip(Session& session, const Call& call) {
     FlipOptions options;
-    read_flip_options(session, call, true, options);
-    const Limits limits = limits_of(session, call, {}, options.quantities);
+    const Limits limits = read_ldrflip(session, call, options);
     FlipResult result;
     auto [views, maps] =
         compare(session, call, same_look(call), [&](Maps& to, auto& reference, auto& tests) {
@@ -281,10 +299,21 @@ void run_filmstrip(Session& session, const Call& call) {
     push_result(session, call, std::move(maps[0])); // upright already
 }
 
-void run_errormap(Session& session, const Call& call) {
-    ErrorOptions options = error_options(session, call);
+Limits read_errormap(Session& session, const Call& call, ErrorOptions& options) {
+    options = error_options(session, call);
     const metrics::ErrorMetric& metric = *metrics::find_error_metric(options.metric);
-    const Limits limits = limits_of(session, call, error_measures(metric), options.quantities);
+    return limits_of(session, call, error_measures(metric), options.quantities);
+}
+
+void check_errormap(Session& session, const Call& call) {
+    ErrorOptions options;
+    (void)read_errormap(session, call, options);
+}
+
+void run_errormap(Session& session, const Call& call) {
+    ErrorOptions options;
+    const Limits limits = read_errormap(session, call, options);
+    const metrics::ErrorMetric& metric = *metrics::find_error_metric(options.metric);
     std::vector<ErrorSummary> summaries(size_t(test_count(call)));
     auto [views, maps] = compare(
         session, call, same_look(call, test_count(call) > 1),
@@ -319,6 +348,11 @@ Measures tmqi_measures() {
     return {ToneAlgo::tmqi_quantities(), false};
 }
 
+void check_tmqi(Session& session, const Call& call) {
+    Strings none;
+    (void)limits_of(session, call, tmqi_measures(), none);
+}
+
 void run_tmqi(Session& session, const Call& call) {
     TmqiOptions options{pixel_options(call), pixel_options(call, "ldr"), call.flag("crop", false),
                         session.settings.memory};
@@ -341,6 +375,7 @@ void run_tmqi(Session& session, const Call& call) {
 
 Row hdrflip_row() {
     return command("hdrflip", "HDR-FLIP: reference, test -> error map", run_hdrflip)
+        .checked(check_hdrflip)
         .images(2, 1)
         .images_of(hdrflip_pops, hdrflip_pushes)
         .modifiers(hdr_modifiers(), modifiers_of<FlipOptions>(), pair_modifiers())
@@ -375,6 +410,7 @@ Row filmstrip_row() {
 Row tmqi_row() {
     return command("tmqi", "TMQI of a tone-mapped picture: HDR image, picture -> structure map",
                    run_tmqi)
+        .checked(check_tmqi)
         .images(2, 1)
         .modifier("layer", "NAME", "layer of the HDR image whose R,G,B are used")
         .modifier("from", "SPACE", "colour space of the HDR image")
@@ -390,6 +426,7 @@ Row tmqi_row() {
 Rows compare_commands() {
     return {hdrflip_row(),
             command("ldrflip", "LDR-FLIP: reference, test -> error map", run_ldrflip)
+                .checked(check_ldrflip)
                 .images(2, 1)
                 .modifiers(modifiers_of<FlipOptions>(), pair_modifiers(), threshold_modifiers())
                 .frequent("fail,warn,layer,from,ppd")
@@ -402,6 +439,7 @@ Rows compare_commands() {
                 .frequent("fail,layer,hdr"),
             filmstrip_row(),
             command("errormap", "An error by pixel: reference, test -> error map", run_errormap)
+                .checked(check_errormap)
                 .images(2, 1)
                 .images_of(hdrflip_pops, test_count)
                 .modifiers(error_modifiers())

@@ -68,6 +68,7 @@ struct Command {
     Modifiers modifiers;
     std::string help; ///< one line
     Run run = nullptr;
+    Run check = nullptr; ///< reads the modifiers as `run` does, before there is an image
     /// Wait for images that are still to come, as oiiotool does with operators.
     bool postponable = true;
     /// Where the numbers of images depend on a modifier; else nullptr.
@@ -146,6 +147,7 @@ public:
     Row& whole_line() {
         return set(&Command::whole_line, true).set(&Command::run, Run(do_nothing));
     }
+    Row& checked(Run check) { return set(&Command::check, std::move(check)); }
     Row& keeps_header() { return set(&Command::keeps_header, true); }
     Row& makes_map() { return set(&Command::makes_map, true); }
     Row& takes_all() { return set(&Command::takes_all, true).images(0, kAnyNumber); }

@@ -19,8 +19,12 @@ public:
     Runner(Session& session, const Strings& words) : m_session(session), m_words(words) {}
     /// Whatever goes wrong is in the session afterwards.
     void run_all();
+    /// What can be said of the words without an image: unknown commands and modifiers, values that
+    /// are not valid. What is wrong first is in the session afterwards.
+    void check_all();
 
 private:
+    void check_word();
     void check_policy(const Call& call) const;
     void count_word();
     void guarded(void (Runner::*step)());
@@ -54,6 +58,7 @@ private:
     std::string m_where; ///< the command that an error belongs to
     std::deque<Call> m_postponed;
     bool m_ended = false;
+    int m_depth = 0;      ///< of --if, --while and --for, while words are only checked
     bool m_varies = true; ///< the word in hand and its arguments may be others in other frames
     bool m_still = false; ///< they stand behind --wildcardoff
     size_t m_count = 0;   ///< of words that were run

@@ -12,6 +12,7 @@
 #include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
+#include <utility>
 
 #include "imagebuf/write/abandoned.h"
 #include "imagebuf/write/temporary_names.h"
@@ -166,11 +167,16 @@ std::string OutputTarget::unused_name() const {
 void OutputTarget::open_temporary() {
     for (int attempt = 0; attempt < 100 && m_fd < 0; ++attempt) {
         m_temporary = unused_name();
+        m_slot = remember(m_temporary); // before there is one that a signal could leave behind
         m_fd = ::open(m_temporary.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-        if (m_fd < 0 && errno != EEXIST)
-            break;
+        const int failure = m_fd < 0 ? errno : 0;
         if (m_fd >= 0 && !hold())
             m_fd = -1;
+        if (m_fd < 0)
+            forget(std::exchange(m_slot, -1));
+        errno = failure;
+        if (failure != 0 && failure != EEXIST)
+            break;
     }
     if (m_fd < 0) {
         m_temporary.clear();
@@ -179,7 +185,6 @@ void OutputTarget::open_temporary() {
                       (slash == std::string::npos ? "." : m_final.substr(0, slash + 1)) +
                       "\": " + reason());
     }
-    m_slot = remember(m_temporary);
 }
 
 bool CheckedProxy::seek(int64_t offset) {

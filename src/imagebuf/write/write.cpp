@@ -264,6 +264,16 @@ void write_checked(std::vector<OutputImage> images, const std::string& filename)
     target.commit();
 }
 
+template <class Put>
+void write_pieces(const Put& put, const std::string& filename, Links links) {
+    OutputTarget target(filename, links);
+    target.open();
+    CheckedProxy proxy(target);
+    put([&](const std::string& piece) { proxy.write(piece.data(), piece.size()); });
+    proxy.check();
+    target.commit();
+}
+
 // Runs a write; an error names the file.
 template <class Run>
 bool named(const std::string& filename, std::string& error, const Run& run) {
@@ -302,14 +312,14 @@ bool write_image(const OIIO::ImageBuf& image, const std::string& filename, std::
 
 bool write_bytes(const std::string& bytes, const std::string& filename, std::string& error,
                  Links links) {
-    return named(filename, error, [&] {
-        OutputTarget target(filename, links);
-        target.open();
-        CheckedProxy proxy(target);
-        proxy.write(bytes.data(), bytes.size());
-        proxy.check();
-        target.commit();
-    });
+    return named(filename, error,
+                 [&] { write_pieces([&](const auto& take) { take(bytes); }, filename, links); });
+}
+
+bool write_bytes(
+    const std::function<void(const std::function<void(const std::string& piece)>&)>& put,
+    const std::string& filename, std::string& error) {
+    return named(filename, error, [&] { write_pieces(put, filename, Links::Follow); });
 }
 
 } // namespace tonetool

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <OpenImageIO/imagebuf.h>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -42,6 +43,10 @@ enum class Links { Follow, Refuse };
 /// The same promise for a text or any other bytes.
 TONETOOL_API bool write_bytes(const std::string& bytes, const std::string& filename,
                               std::string& error, Links links = Links::Follow);
+/// In pieces, which `put` gives to what it is called with, for what is not to be in memory at once.
+TONETOOL_API bool
+write_bytes(const std::function<void(const std::function<void(const std::string& piece)>&)>& put,
+            const std::string& filename, std::string& error);
 
 /// Remove the temporary files beside these targets that killed processes have left; those that a
 /// process still writes stay.

@@ -4,6 +4,7 @@
 #include <OpenImageIO/strutil.h>
 #include <algorithm>
 #include <tuple>
+#include <utility>
 
 #include "imagebuf/pixels/layer_name.h"
 #include "sequence/qc/qc_shot.h"
@@ -72,16 +73,20 @@ bool is_found_here(const Fault& fault) {
 }
 
 // The frames of one view with what was found in them; without frames where --qc measured none.
-QcShot searched(const std::vector<FrameResult*>& frames) {
+QcShot searched(const std::vector<FrameResult*>& frames, bool keep_records) {
     QcShot shot{FaultLimits(qc_rules())};
     bool any = false;
+    shot.frames.reserve(frames.size());
     for (FrameResult* result : frames) {
         QcFrame& frame = shot.frames.emplace_back();
         frame.number = result->frame;
         frame.result = result;
         if (!result->qc.empty()) {
-            QcRecord record = qc_from_json(result->qc);
+            const auto kept = std::exchange(result->record, nullptr);
+            QcRecord record = kept ? std::move(*kept) : qc_from_json(result->qc);
             shot.set_limits(record.limits);
+            if (keep_records)
+                result->record = std::make_shared<QcRecord>(QcRecord{{}, record.limits});
             take_record(frame, std::move(record));
             any = true;
         }
@@ -109,7 +114,7 @@ std::vector<Fault> picture_faults(const QcRecord& record) {
     return result.faults;
 }
 
-void judge_qc(std::vector<FrameResult>& frames) {
+void judge_qc(std::vector<FrameResult>& frames, bool keep_records) {
     std::sort(frames.begin(), frames.end(), [](const FrameResult& a, const FrameResult& b) {
         return std::tie(a.frame, a.view) < std::tie(b.frame, b.view);
     });
@@ -118,12 +123,16 @@ void judge_qc(std::vector<FrameResult>& frames) {
         views[frame.view].push_back(&frame);
     std::map<std::string, QcShot> shots;
     for (const auto& [view, of_view] : views)
-        shots.emplace(view, searched(of_view));
+        shots.emplace(view, searched(of_view, keep_records));
     find_eye_faults(shots);
     for (auto& [view, shot] : shots) {
         for (QcFrame& frame : shot.frames) {
             sort_faults(frame.result->faults);
             judge(*frame.result);
+            if (frame.measured && keep_records) {
+                frame.result->record->facts = std::move(frame.facts);
+                frame.result->record->strays = std::move(frame.strays);
+            }
         }
     }
 }

@@ -18,6 +18,7 @@ std::vector<Fault> picture_faults(const QcRecord& record);
 /// Finds the faults of all frames that --qc has measured, and sets the status of these frames.
 /// Where a frame number is missing altogether, the fault is reported at the next frame. The frames
 /// are sorted by number, then view. Throws a runtime_error where a record cannot be read.
-void judge_qc(std::vector<FrameResult>& frames);
+/// `keep_records`: in FrameResult::record.
+void judge_qc(std::vector<FrameResult>& frames, bool keep_records = false);
 
 } // namespace tonetool::sequence

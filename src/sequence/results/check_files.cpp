@@ -2,11 +2,15 @@
 #include "sequence/results/check_files.h"
 
 #include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <fcntl.h>
 #include <filesystem>
 #include <iostream>
 #include <set>
 #include <stdexcept>
 #include <string>
+#include <unistd.h>
 
 #include "sequence/results/results_json.h"
 #include "sequence/results/tables.h"
@@ -21,17 +25,29 @@ namespace fs = std::filesystem;
 using Text = std::string (*)(const ShotResult&);
 
 const std::map<std::string, Text>& texts() {
-    static const std::map<std::string, Text> all = {
-        {"json", [](const ShotResult& shot) { return to_json(shot); }},
-        {"csv", csv_text},
-        {"junit", junit_text}};
+    static const std::map<std::string, Text> all = {{"csv", csv_text}, {"junit", junit_text}};
     return all;
+}
+
+// It may be larger than what it is made of.
+void write_json(const ShotResult& shot, const std::string& file, bool records) {
+    const auto put = [&](const std::function<void(const std::string&)>& to) {
+        put_json(shot, records, to);
+    };
+    std::string why;
+    if (file == "-") {
+        put([](const std::string& piece) { std::cout << piece; });
+        std::cout.flush();
+    } else if (!write_bytes(put, file, why)) {
+        throw std::runtime_error(why);
+    }
 }
 
 // Only one text file may go to the standard output.
 void check_standard_output(const std::string& start, const std::string& command,
                            const CheckFiles& files) {
-    if (texts().count(command) == 0 && command != "statistics" && command != "bad-frames") {
+    if (texts().count(command) == 0 && command != "json" && command != "statistics" &&
+        command != "bad-frames") {
         throw std::runtime_error(start + "\"-\" is the standard output, which takes texts alone "
                                          "(valid: --json -, --csv -, --junit -, --statistics -)");
     }
@@ -42,6 +58,19 @@ void check_standard_output(const std::string& start, const std::string& command,
                                      "(valid: one of them)");
         }
     }
+}
+
+bool is_folder(const std::string& command) {
+    return command == "state" || command == "pictures";
+}
+
+// Of a file that may be a link to one elsewhere, which need not be there yet.
+fs::path folder_of(const std::string& file) {
+    fs::path target = file;
+    std::error_code why;
+    for (int hops = 0; hops < 40 && fs::is_symlink(target, why); ++hops)
+        target = target.parent_path() / fs::read_symlink(target, why); // an absolute one is itself
+    return target.has_parent_path() ? target.parent_path() : ".";
 }
 
 } // namespace
@@ -61,26 +90,65 @@ void check_places(const CheckFiles& files) {
             check_standard_output(start, command, files);
             continue;
         }
-        const bool is_folder = command == "state" || command == "pictures";
+        const bool makes_folder = is_folder(command);
         const fs::path folder = fs::path(file).parent_path();
         std::error_code none;
-        if (!folder.empty() && !is_folder && !fs::is_directory(folder, none)) {
+        if (!folder.empty() && !makes_folder && !fs::is_directory(folder, none)) {
             throw std::runtime_error(start + "there is no folder \"" + folder.string() +
                                      "\" to write \"" + file + "\" into");
         }
-        if (!is_folder && fs::is_directory(file, none))
+        if (!makes_folder && fs::is_directory(file, none))
             throw std::runtime_error(start + "\"" + file + "\" is a folder");
         if (!seen.insert(fs::path(file).lexically_normal().string()).second)
             throw std::runtime_error(start + "\"" + file + "\" is also another's file");
     }
 }
 
-std::vector<std::string> write_results(const ShotResult& shot, const CheckFiles& files) {
+void try_folder(const std::string& folder, const std::string& what) {
+    std::error_code none;
+    fs::path there = folder;
+    while (!fs::exists(there, none) && there.has_relative_path())
+        there = there.has_parent_path() ? there.parent_path() : ".";
+    if (!fs::is_directory(there, none)) {
+        throw std::runtime_error(what + "cannot make the folder \"" + folder + "\": \"" +
+                                 there.string() + "\" is a file");
+    }
+    const fs::path file = there / (".tonetool-try." + std::to_string(::getpid()));
+    const int made = ::open(file.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0600);
+    if (made < 0) {
+        throw std::runtime_error(what + "cannot write into the folder \"" + there.string() +
+                                 "\": " + std::strerror(errno));
+    }
+    ::close(made);
+    ::unlink(file.c_str());
+}
+
+void try_places(const CheckFiles& files) {
+    for (const auto& [command, file] : files) {
+        if (file.empty() || file == "-")
+            continue;
+        const std::string start = "--" + command + ": ";
+        std::error_code none;
+        if (is_folder(command)) {
+            try_folder(file, start);
+        } else if (!fs::is_other(file, none)) { // a device or pipe is not opened before its time
+            if (fs::exists(file, none) && ::access(file.c_str(), W_OK) != 0)
+                throw std::runtime_error(start + "cannot write \"" + file +
+                                         "\": " + std::strerror(errno));
+            try_folder(folder_of(file).string(), start);
+        }
+    }
+}
+
+std::vector<std::string> write_results(const ShotResult& shot, const CheckFiles& files,
+                                       bool records) {
     std::vector<std::string> errors;
     for (const auto& item : files) {
         const std::string& file = item.second;
         const auto text = texts().find(item.first);
-        if (text != texts().end())
+        if (item.first == "json")
+            attempt(errors, [&] { write_json(shot, file, records); });
+        else if (text != texts().end())
             attempt(errors, [&] { write_text(text->second(shot), file); });
     }
     return errors;

@@ -18,8 +18,16 @@ using CheckFiles = std::map<std::string, std::string>;
 /// it.
 void check_places(const CheckFiles& files);
 
-/// Writes each file whole or not at all. Returns why some files could not be written.
-std::vector<std::string> write_results(const ShotResult& shot, const CheckFiles& files);
+/// Makes and removes a file in the folder of each result, without touching what is there. Throws a
+/// runtime_error where that cannot be done.
+void try_places(const CheckFiles& files);
+/// The same in one folder, or where it will be made; `what` begins the error.
+void try_folder(const std::string& folder, const std::string& what);
+
+/// Writes each file whole or not at all; `records`: the JSON has those of --qc. Returns why some
+/// files could not be written.
+std::vector<std::string> write_results(const ShotResult& shot, const CheckFiles& files,
+                                       bool records);
 
 /// Runs `write` and adds the exception that it throws to the errors.
 void attempt(std::vector<std::string>& errors, const std::function<void()>& write);

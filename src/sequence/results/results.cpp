@@ -312,10 +312,10 @@ double badness(const FrameResult& frame) {
     return higher_is_better(all.front().command, quantity) ? -value : std::max(value, 0.0);
 }
 
-void conclude(ShotResult& shot) {
+void conclude(ShotResult& shot, bool keep_records) {
     sort_frames(shot.frames);
     set_automatic_limits(shot.frames);
-    judge_qc(shot.frames);
+    judge_qc(shot.frames, keep_records);
     judge_against(shot.frames);
     shot.worst = by_badness(shot.frames);
     if (shot.frames.empty()) {

@@ -7,12 +7,15 @@
 #pragma once
 
 #include <array>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 namespace tonetool::sequence {
+
+struct QcRecord;
 
 /// The status of a frame or a shot, the best first. Only `Passed` says that a threshold was tested
 /// and held.
@@ -109,7 +112,9 @@ struct FrameResult {
     std::vector<std::string> warnings;
     std::string qc;      ///< the facts that --qc measured, as JSON; empty without --qc
     std::string against; ///< the same of --against
-    double seconds = 0;  ///< time of the run; not part of any file
+    /// What `qc` says, where conclude() was to keep it: parts are judged twice, alone and joined.
+    std::shared_ptr<QcRecord> record;
+    double seconds = 0; ///< time of the run; not part of any file
 };
 
 /// The luminances that the exposures of a whole shot follow from.
@@ -154,7 +159,8 @@ bool is_unmeasured(const FrameResult& frame);
 /// Sorts the frames, finds the faults of --qc anew and fills verdict, sentence and worst. A shot
 /// without any measured frame is an Error, never Passed. Throws a runtime_error if a frame is there
 /// twice.
-void conclude(ShotResult& shot);
+/// `keep_records`: those of --qc, for the next time.
+void conclude(ShotResult& shot, bool keep_records = false);
 
 /// A quantity by its name.
 std::optional<double> quantity_of(const Measurement& measured, const std::string& name);

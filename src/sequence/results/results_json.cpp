@@ -2,10 +2,12 @@
 #include "sequence/results/results_json.h"
 
 #include <OpenImageIO/strutil.h>
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
 #include "sequence/results/json_text.h"
+#include "sequence/results/records.h"
 #include "sequence/verdict/summary.h"
 #include "sequence/verdict/trust.h"
 
@@ -225,6 +227,7 @@ Measurement measurement_of(const ordered_json& from) {
     return measured;
 }
 
+// Without its record.
 ordered_json json_of(const FrameResult& frame) {
     ordered_json to{{"frame", frame.frame}};
     put(to, "view", frame.view);
@@ -240,14 +243,35 @@ ordered_json json_of(const FrameResult& frame) {
         to["faults"].push_back(json_of(fault));
     if (!frame.warnings.empty())
         to["warnings"] = frame.warnings;
-    if (!frame.qc.empty())
-        to["qc"] = parse_json<ordered_json>(frame.qc);
     if (!frame.against.empty())
         to["against"] = parse_json<ordered_json>(frame.against);
     return to;
 }
 
-FrameResult frame_of(const ordered_json& from) {
+// As dumped() has it, but for the line break at its end.
+std::string text_of(const FrameResult& frame, bool record, size_t depth) {
+    ordered_json json = json_of(frame);
+    const bool has_record = record && !frame.qc.empty();
+    if (has_record)
+        json["qc"] = 0;
+    std::string text = laid_out(one_line(json), depth);
+    if (has_record) {
+        const size_t end = text.rfind('0');
+        text.replace(end, 1, laid_out(frame.qc, depth + 1));
+    }
+    return printable_json(text);
+}
+
+// The record of a frame, or its index among those that were taken out of the text.
+std::string record_of(const ordered_json& from, const std::vector<std::string>& records) {
+    if (!from.contains("qc"))
+        return "";
+    const ordered_json& qc = from["qc"];
+    const bool taken = qc.is_number_unsigned() && qc.get<size_t>() < records.size();
+    return taken ? records[qc.get<size_t>()] : one_line(qc);
+}
+
+FrameResult frame_of(const ordered_json& from, const std::vector<std::string>& records = {}) {
     FrameResult frame;
     frame.frame = whole_number<int>(from.at("frame"), "frame");
     frame.view = text(from, "view");
@@ -267,7 +291,7 @@ FrameResult frame_of(const ordered_json& from) {
                 frame.faults.push_back(fault_of(one));
             });
     frame.warnings = values<std::string>(from, "warnings");
-    frame.qc = from.contains("qc") ? one_line(from["qc"]) : "";
+    frame.qc = record_of(from, records);
     frame.against = from.contains("against") ? one_line(from["against"]) : "";
     judge_from_numbers(frame);
     return frame;
@@ -289,6 +313,34 @@ ShotExposures exposures_of(const ordered_json& from) {
             ""};
 }
 
+void check_has_records(const ordered_json& from) {
+    if (!from.value("records", true)) {
+        throw std::runtime_error("was written by --json:records=0, without what --qc measured, "
+                                 "which the faults of a shot are drawn from (valid: --json)");
+    }
+}
+
+ShotResult shot_of(const std::string& text, const std::vector<std::string>& records) {
+    return parsed(text, [&](const ordered_json& json) {
+        check_format(json, kResultsFormat, kResultsVersion);
+        check_has_records(json);
+        ShotResult shot;
+        shot.check = json.at("check").get<std::vector<std::string>>();
+        if (json.contains("exposures"))
+            shot.exposures = exposures_of(json["exposures"]);
+        each_of(json.at("frames"), "frames", [&](const ordered_json& one, const std::string&) {
+            shot.frames.push_back(frame_of(one, records));
+        });
+        check_limits(shot);
+        conclude(shot, true);
+        std::vector<Status> said;
+        for (const ordered_json& frame : json.at("frames"))
+            said.push_back(status(frame));
+        check_summary(json, said, shot);
+        return shot;
+    });
+}
+
 } // namespace
 
 void check_format(const ordered_json& from, const std::string& format, int version) {
@@ -301,44 +353,49 @@ void check_format(const ordered_json& from, const std::string& format, int versi
     }
 }
 
-std::string to_json(const ShotResult& shot) {
-    ordered_json to{{"format", kResultsFormat},
-                    {"version", kResultsVersion},
-                    {"verdict", status_name(shot.verdict)},
-                    {"sentence", shot.sentence},
-                    {"check", shot.check},
-                    {"counts", counts_of(shot)}};
+void put_json(const ShotResult& shot, bool records,
+              const std::function<void(const std::string& piece)>& to) {
+    ordered_json head{{"format", kResultsFormat},
+                      {"version", kResultsVersion},
+                      {"verdict", status_name(shot.verdict)},
+                      {"sentence", shot.sentence},
+                      {"check", shot.check},
+                      {"counts", counts_of(shot)}};
     if (shot.exposures)
-        to["exposures"] = json_of(*shot.exposures);
-    to["worst"] = worst_of(shot);
-    to["frames"] = ordered_json::array();
+        head["exposures"] = json_of(*shot.exposures);
+    head["worst"] = worst_of(shot);
+    const bool any = std::any_of(shot.frames.begin(), shot.frames.end(),
+                                 [](const FrameResult& frame) { return !frame.qc.empty(); });
+    if (!records && any)
+        head["records"] = false;
+    head["frames"] = ordered_json::array();
+    const std::string text = dumped(head);
+    const size_t list = text.rfind(']'); // where frames go
+    to(text.substr(0, list));
     for (const FrameResult& frame : shot.frames)
-        to["frames"].push_back(json_of(frame));
-    return dumped(to);
+        to((&frame == shot.frames.data() ? "\n  " : ",\n  ") + text_of(frame, records, 2));
+    to((shot.frames.empty() ? "" : "\n ") + text.substr(list));
+}
+
+std::string to_json(const ShotResult& shot, bool records) {
+    std::string text;
+    put_json(shot, records, [&](const std::string& piece) { text += piece; });
+    return text;
 }
 
 ShotResult shot_from_json(const std::string& from) {
-    return parsed(from, [](const ordered_json& json) {
-        check_format(json, kResultsFormat, kResultsVersion);
-        ShotResult shot;
-        shot.check = json.at("check").get<std::vector<std::string>>();
-        if (json.contains("exposures"))
-            shot.exposures = exposures_of(json["exposures"]);
-        each_of(json.at("frames"), "frames", [&](const ordered_json& one, const std::string&) {
-            shot.frames.push_back(frame_of(one));
-        });
-        check_limits(shot);
-        conclude(shot);
-        std::vector<Status> said;
-        for (const ordered_json& frame : json.at("frames"))
-            said.push_back(status(frame));
-        check_summary(json, said, shot);
-        return shot;
-    });
+    if (const auto rest = without_records(from)) {
+        try {
+            return shot_of(rest->text, rest->records);
+        } catch (const std::runtime_error&) {
+            // What is wrong is said of the whole text.
+        }
+    }
+    return shot_of(from, {});
 }
 
 std::string to_json(const FrameResult& frame) {
-    return dumped(json_of(frame));
+    return text_of(frame, true, 0) + "\n";
 }
 
 FrameResult frame_from_json(const std::string& from) {

@@ -4,6 +4,7 @@
 // no UTF-8 become U+FFFD.
 #pragma once
 
+#include <functional>
 #include <string>
 
 #include "sequence/results/results.h"
@@ -15,7 +16,12 @@ inline constexpr int kResultsVersion = 2;
 
 /// The text of --json: {"format", "version", "check", "verdict", "sentence", "counts",
 /// "exposures", "worst", "frames"}, with "worst" as frame numbers. Ends with a line break.
-std::string to_json(const ShotResult& shot);
+/// Frames whose records of --qc are left out (`records`) cannot be merged, which "records": false
+/// says before them.
+std::string to_json(const ShotResult& shot, bool records = true);
+/// The same in pieces, which are given to `to` in their order: a shot may have ten thousand frames.
+void put_json(const ShotResult& shot, bool records,
+              const std::function<void(const std::string& piece)>& to);
 /// A runtime_error that says what is wrong where, for text that is no such file, of another
 /// version, or whose frames are not whole, or not those that the file's own counts, verdict and
 /// sentence are of. The verdict is drawn anew from the frames.

@@ -173,7 +173,14 @@ std::string read_text(const std::string& file) {
     std::ifstream stream(file, std::ios::binary);
     if (!stream)
         throw std::runtime_error("cannot read \"" + file + "\": " + std::strerror(errno));
-    return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+    std::string text;
+    std::error_code none;
+    const auto size = fs::file_size(file, none);
+    text.resize(none ? 0 : size_t(size));
+    stream.read(text.data(), std::streamsize(text.size()));
+    text.resize(size_t(stream.gcount()));
+    text.append(std::istreambuf_iterator<char>(stream), {}); // of a file that grows
+    return text;
 }
 
 } // namespace tonetool::sequence

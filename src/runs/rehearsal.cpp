@@ -1,0 +1,270 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "runs/rehearsal.h"
+
+#include <OpenImageIO/imageio.h>
+#include <OpenImageIO/strutil.h>
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <set>
+#include <sstream>
+
+#include "chain/session/runner.h"
+#include "runs/check_end.h"
+#include "runs/workers.h"
+#include "sequence/results/check_files.h"
+#include "sequence/results/probe.h"
+#include "sequence/results/tables.h"
+#include "text/error.h"
+#include "text/printable.h"
+#include "tonetool/parts.h"
+
+namespace tonetool::runs {
+
+namespace {
+
+using chain::Call;
+using chain::Group;
+using chain::Word;
+using OIIO::Strutil::fmt::format;
+
+// ---- layers
+
+// The layer that a command wants of a file, by the place of its word.
+struct LayerAsked {
+    std::string command, layer;
+    size_t file;
+};
+
+// What the words before a command leave on the stack, as long as that is files as they are: the
+// places of their words, nullopt for what a command has made.
+class StackOfFiles {
+public:
+    explicit StackOfFiles(const FramePlan& plan) : m_plan(plan) {}
+
+    std::vector<LayerAsked> layers_asked() {
+        for (const Word& word : m_plan.line.words)
+            if (m_plan.line.texts[word.at].find('{') != std::string::npos || !take(word))
+                break;
+        return m_asked;
+    }
+
+private:
+    bool take(const Word& word) {
+        if (!word.row) {
+            m_files.emplace_back(word.at);
+            return m_plan.check.is_input(word.at);
+        }
+        if (word.is("qc"))
+            return !m_files.empty() && ask(word, "layer", m_files.size() - 1, m_files.size());
+        if (word.row->group == Group::Compare && word.row->pops > 0)
+            return take_comparison(word);
+        const bool sets = word.row->group == Group::General || word.row->group == Group::Check ||
+                          word.row->manner || word.row->whole_line;
+        return sets && word.row->pops == 0 && word.row->pushes == 0;
+    }
+
+    bool take_comparison(const Word& word) {
+        const Call call(*word.row, word.token, {});
+        const auto pops = size_t(call.pops());
+        if (pops > m_files.size())
+            return false;
+        const size_t first = m_files.size() - pops;
+        const auto& all = word.row->modifiers;
+        const bool other = std::any_of(all.begin(), all.end(),
+                                       [](const auto& one) { return one.key == "ldrlayer"; });
+        ask(word, "layer", first, other ? first + 1 : m_files.size());
+        ask(word, "ldrlayer", first + 1, m_files.size());
+        m_files.resize(first);
+        m_files.resize(first + size_t(std::max(call.pushes(), 0)));
+        return call.pushes() >= 0;
+    }
+
+    bool ask(const Word& word, const std::string& key, size_t begin, size_t end) {
+        for (const auto& [name, layer] : word.token.modifiers)
+            for (size_t i = begin; i < end && name == key; ++i)
+                if (m_files[i])
+                    m_asked.push_back({word.row->label(), layer, *m_files[i]});
+        return true;
+    }
+
+    const FramePlan& m_plan;
+    std::vector<std::optional<size_t>> m_files;
+    std::vector<LayerAsked> m_asked;
+};
+
+// Why a file has not the layer; empty where it has, nullopt where its headers cannot be read.
+std::optional<std::string> lack_of(const std::string& file, const std::string& layer) {
+    const auto in = OIIO::ImageInput::open(file);
+    if (!in) {
+        (void)OIIO::geterror();
+        return std::nullopt;
+    }
+    std::vector<OIIO::ImageSpec> headers;
+    for (int subimage = 0; in->seek_subimage(subimage, 0); ++subimage)
+        headers.push_back(in->spec(subimage, 0));
+    const PixelOptions options{layer, ""};
+    PartChoice part;
+    ColorChoice color;
+    std::string why;
+    const bool found = ToneAlgo::find_part(headers, options, part, why) &&
+                       ToneAlgo::find_color(headers.at(size_t(part.part)), options, color, why);
+    return found ? "" : why;
+}
+
+// The frames of the line first. A layer that another task of a farm finds is no mistake of the
+// line.
+Strings files_at(const FramePlan& plan, size_t at) {
+    Strings files;
+    for (const FrameRun& run : plan.runs)
+        files.push_back(run.words.at(at));
+    const std::string& pattern = plan.line.texts[at];
+    if (sequence::is_pattern(pattern)) {
+        sequence::PatternOptions options = plan.options;
+        options.frames.clear();
+        const Strings others =
+            sequence::list_files(sequence::without_range(pattern), options).names;
+        files.insert(files.end(), others.begin(), others.end());
+    }
+    return files;
+}
+
+// What is wrong with all files of the sequence; empty where nothing is with one of them.
+std::string lack_of_all(const FramePlan& plan, const LayerAsked& asked) {
+    std::string first;
+    for (const std::string& file : files_at(plan, asked.file)) {
+        const bool recipe = OIIO::Strutil::iends_with(file.substr(0, file.find('?')), ".tone");
+        std::error_code none;
+        if (recipe || !std::filesystem::is_regular_file(file, none))
+            continue;
+        const auto lack = lack_of(file, asked.layer);
+        if (lack && lack->empty())
+            return "";
+        if (lack && first.empty())
+            first = "\"" + file + "\": " + *lack;
+    }
+    return first;
+}
+
+// ---- commands
+
+// What the commands of the first frame would print; empty where nothing is wrong.
+std::string mistakes_of(const FramePlan& plan) {
+    const Strings& words = plan.runs.front().words;
+    std::ostringstream text;
+    chain::Session session(text, text, full_command_line(plan.line, words, false));
+    set_for_line(session, plan);
+    chain::Runner(session, words).check_all();
+    if (session.outcome.errors > 0)
+        return text.str();
+    for (const LayerAsked& asked : StackOfFiles(plan).layers_asked()) {
+        const std::string lack = lack_of_all(plan, asked);
+        if (!lack.empty()) {
+            session.error(asked.command, lack);
+            return text.str();
+        }
+    }
+    return "";
+}
+
+std::string in_worker(const std::function<std::string()>& task) {
+    std::string found;
+    bool begun = false;
+    Workers(1, [&](size_t) { return task(); })
+        .run([&] { return std::exchange(begun, true) ? std::nullopt : std::optional<size_t>(0); },
+             // What ends a process here ends that of its frame, whose result says so.
+             [&](size_t, const TaskResult& result) { found = result.reply; });
+    return found;
+}
+
+// ---- what --dry-run prints
+
+bool is_there(const FramePlan& plan, const FrameRun& run) {
+    const auto& places = plan.sequences.empty() ? plan.check.inputs : plan.sequences;
+    return sequence::missing_of(words_at(run.words, places)).status != sequence::Status::Missing;
+}
+
+// As render farms read it: "3,7-9".
+std::string numbers_text(const std::vector<const FrameRun*>& runs) {
+    sequence::ShotResult shot;
+    for (const FrameRun* run : runs) {
+        sequence::FrameResult& frame = shot.frames.emplace_back();
+        frame.frame = run->frame.number;
+        frame.status = sequence::Status::Missing;
+    }
+    const std::string text = bad_frames_text(shot, sequence::Status::Failed);
+    return text.substr(0, text.find('\n'));
+}
+
+} // namespace
+
+void try_outputs(const FramePlan& plan) {
+    const CheckPlan& check = plan.check;
+    sequence::try_places(check.written());
+    std::set<std::string> folders;
+    for (const size_t at : check.outputs) {
+        const auto& always = check.always_written;
+        if (check.dry_run || std::find(always.begin(), always.end(), at) == always.end())
+            continue;
+        for (const FrameRun& run : plan.runs) {
+            const std::string& file = run.words.at(at);
+            const std::string folder = std::filesystem::path(file).parent_path().string();
+            std::error_code none;
+            if (file.find('{') != std::string::npos || !folders.insert(folder).second)
+                continue;
+            if (!folder.empty() && !std::filesystem::is_directory(folder, none)) {
+                throw CommandError("there is no folder \"" + folder + "\" to write \"" + file +
+                                   "\" into");
+            }
+            sequence::try_folder(folder.empty() ? "." : folder, "\"" + file + "\": ");
+        }
+    }
+}
+
+bool commands_are_right(const FramePlan& plan, std::ostream& err, bool worker) {
+    const auto& all = plan.line.words;
+    const bool lenient =
+        plan.line.compat || std::any_of(all.begin(), all.end(),
+                                        [](const Word& one) { return one.is("no-error-exit"); });
+    if (lenient || plan.runs.empty())
+        return true;
+    const auto task = [&plan] { return mistakes_of(plan); };
+    const std::string mistakes = worker ? in_worker(task) : task();
+    err << mistakes << std::flush;
+    return mistakes.empty();
+}
+
+std::string plan_text(const FramePlan& plan) {
+    std::vector<const FrameRun*> missing;
+    for (const FrameRun& run : plan.runs)
+        if (!is_there(plan, run))
+            missing.push_back(&run);
+    const size_t asked = plan.runs.size();
+    std::string text = "dry run: the command line is right, ";
+    if (plan.loops) {
+        text += format("{} frame{} asked for, {} there", asked, asked == 1 ? "" : "s",
+                       asked - missing.size());
+        text += missing.empty() ? "" : ", missing: " + numbers_text(missing);
+    } else {
+        text += missing.empty() ? "its files are there" : "not all of its files are there";
+    }
+    return text + "\n" + places_text(plan);
+}
+
+std::string places_text(const FramePlan& plan) {
+    const CheckPlan& check = plan.check;
+    Strings places;
+    for (const auto& [command, file] : check.written())
+        if (!file.empty())
+            places.push_back(printable(file) + " (--" + command + ")");
+    for (const size_t at : check.outputs)
+        if (!check.dry_run)
+            places.push_back(printable(plan.line.texts[at]) + " (-o)");
+    return "dry run: " +
+           (places.empty() ? "no result would be written"
+                           : "results would be in " + join(places, ", ")) +
+           "\n";
+}
+
+} // namespace tonetool::runs

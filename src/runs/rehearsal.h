@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What is wrong with a command line over frames before the first of them is read.
+#pragma once
+
+#include <iosfwd>
+
+#include "runs/frames.h"
+
+namespace tonetool::runs {
+
+/// Tries the places of everything that the line will write; a runtime_error where one is none.
+void try_outputs(const FramePlan& plan);
+
+/// Prints what is wrong with the commands of the line, or with the layers that they ask for, as
+/// their run would; false where something is. A layer is looked for in the headers of the first
+/// frame that is there, and only where that lacks it in those of all others. `worker`: in a process
+/// of its own, as libraries read files.
+bool commands_are_right(const FramePlan& plan, std::ostream& err, bool worker);
+
+/// --dry-run: the frames that are asked for and those that are there, and the places of results.
+std::string plan_text(const FramePlan& plan);
+/// The second part of it.
+std::string places_text(const FramePlan& plan);
+
+} // namespace tonetool::runs

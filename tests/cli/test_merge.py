@@ -1,0 +1,167 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""--merge of very many parts: how they are named, what they come to, and files of other versions."""
+
+import json
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import jsonschema
+import numpy as np
+import pytest
+
+SCHEMA = Path(__file__).resolve().parents[2] / "src" / "sequence" / "check.schema.json"
+FROZEN = Path(__file__).resolve().parent / "check_version_1.json"
+
+
+@pytest.fixture
+def parts(tonetool, make_image, tmp_path):
+    """Six frames of --qc, the fourth with a NaN, as one file and in parts of one."""
+    for number in range(1, 7):
+        pixels = np.random.default_rng(number).random((12, 16, 3)) + 0.1
+        if number == 4:
+            pixels[3, 5] = np.nan
+        make_image(f"a.{number:04d}.exr", pixels=pixels)
+    (tmp_path / "p").mkdir()
+    tonetool("a.#.exr", "--qc", "--json", "whole.json", "--csv", "whole.csv", status=3)
+    for number in range(1, 7):
+        tonetool("--frames", str(number), "a.#.exr", "--qc", "--exit-zero", "--json",
+                 f"p/{number}.json")
+    return tmp_path
+
+
+def load(path):
+    return json.loads(path.read_text(encoding="utf-8"))
+
+
+NAMED = {"files": ["--merge", *(f"p/{n}.json" for n in range(1, 7))], "folder": ["--merge", "p"],
+         "pattern": ["--merge", "p/?.json"], "patterns": ["--merge", "p/[4-6].jso*", "p/[1-3].json*"],
+         "list": ["--merge-list", "list.txt"], "lists": ["--merge", "p/1.json", "--merge-list", "rest.txt"]}
+
+
+@pytest.mark.parametrize("how", NAMED)
+def test_any_way_to_name_the_parts_gives_the_bytes_of_the_single_run(tonetool, parts, how):
+    (parts / "list.txt").write_text("p/[12].*\np\n".replace("p\n", "p/3.json\r\n\np/[4-6]*\n"))
+    (parts / "rest.txt").write_text("".join(f"p/{n}.json\n" for n in range(6, 1, -1)))
+    tonetool(*NAMED[how], "--json", "c.json", "--csv", "c.csv", status=3)
+    assert (parts / "c.json").read_bytes() == (parts / "whole.json").read_bytes()
+    assert (parts / "c.csv").read_bytes() == (parts / "whole.csv").read_bytes()
+
+
+def test_the_standard_input_names_parts(program, parts):
+    names = "\n".join(str(file) for file in sorted((parts / "p").iterdir()))
+    ran = subprocess.run([program, "--merge-list", "-", "--frames", "1-7", "--json", "-"], input=names,
+                         cwd=parts, capture_output=True, text=True, check=False, timeout=60)
+    found = json.loads(ran.stdout)
+    assert ran.returncode == 1 and [f["frame"] for f in found["frames"]] == list(range(1, 8))
+    assert found["frames"][6]["message"] == "no part has a result of this frame"
+
+
+@pytest.mark.parametrize("words, text", [
+    (["--merge", "empty"], 'no *.json in the folder "empty"'),
+    (["--merge", "q/*.json"], 'no file matches "q/*.json"'),
+    (["--merge-list", "gone.txt"], 'no file "gone.txt"'),
+    (["--merge-list"], "missing argument FILE"),
+    (["--merge", "p", "--json", "p/4.json"], "is read, and would be written over"),
+    (["--merge", "p", "--json:record=0", "c.json"], '--json has no modifier "record" (valid: records)'),
+    (["--merge", "p", "--json:records=no", "c.json"], 'records "no"'),
+])
+def test_errors(tonetool, parts, words, text):
+    (parts / "empty").mkdir()
+    before = (parts / "p" / "4.json").read_bytes()
+    assert text in tonetool(*words, *([] if "--json" in "".join(words) else ["--json", "c.json"]),
+                            status=1).err
+    assert not (parts / "c.json").exists() and (parts / "p" / "4.json").read_bytes() == before
+
+
+def test_results_without_records(tonetool, parts):
+    tonetool("--merge", "p", "--json:records=0", "c.json", status=3)
+    whole, found = load(parts / "whole.json"), load(parts / "c.json")
+    jsonschema.validate(found, load(SCHEMA))
+    assert found.pop("records") is False
+    for frame in whole["frames"]:
+        assert frame.pop("qc")
+    assert found == whole
+    assert (parts / "c.json").stat().st_size < (parts / "whole.json").stat().st_size / 5
+    ran = tonetool("--merge", "c.json", status=1)
+    assert '"c.json": was written by --json:records=0' in ran.err
+    tonetool("a.#.exr", "--qc", "--json:records=0", "d.json", status=3)
+    assert (parts / "d.json").read_bytes() == (parts / "c.json").read_bytes()
+
+
+def test_records_that_another_program_has_laid_out_anew(tonetool, parts):
+    for file in (parts / "p").iterdir():
+        file.write_text(json.dumps(load(file), indent=4 if file.stem < "4" else None))
+    tonetool("--merge", "p", "--json", "c.json", status=3)
+    assert (parts / "c.json").read_bytes() == (parts / "whole.json").read_bytes()
+
+
+@pytest.mark.parametrize("change, text", [
+    (lambda text: text[:-30], '"p/2.json": '),
+    (lambda text: text.replace('"qc": {', '"qc": {{', 1), '"p/2.json": '),
+    (lambda text: text.replace('"thumbnail": [', '"thumbnail": [[', 1), '"p/2.json": '),
+    (lambda text: text.replace('"thumbnail"', '"thumbs"', 1), "not what --qc measured"),
+    (lambda text: text.replace('"qc": {', '"qc": 7, "q": {', 1), "not what --qc measured"),
+])
+def test_damaged_parts(tonetool, parts, change, text):
+    part = parts / "p" / "2.json"
+    part.write_text(change(part.read_text()))
+    ran = tonetool("--merge", "p", "--json", "c.json", status=1)
+    assert text in ran.err and '"p/2.json"' in ran.err
+    ran = tonetool("--merge", "p", "--frames", "1-6", "--json", "c.json", status=1)
+    assert load(parts / "c.json")["frames"][1]["status"] == "error"
+
+
+# ---- versions
+
+def test_a_file_of_version_1(tonetool, tmp_path):
+    frozen = load(FROZEN)
+    jsonschema.validate(frozen, load(SCHEMA))
+    shutil.copy(FROZEN, tmp_path / "part.json")
+    tonetool("--merge", "part.json", "--json", "c.json", "--csv", "c.csv")
+    merged = load(tmp_path / "c.json")
+    assert merged["version"] == frozen["version"] == 1
+    for key in ("check", "verdict", "counts"):
+        assert merged[key] == frozen[key]
+    for frame, old in zip(merged["frames"], frozen["frames"]):
+        assert frame["measurements"] == old["measurements"] and frame["qc"] == old["qc"]
+
+
+@pytest.mark.parametrize("version, text", [(2, "is of version 2, this program reads 1"),
+                                           (0, "is of version 0, this program reads 1"),
+                                           ("1", "not a whole number")])
+def test_files_of_other_versions_are_refused(tonetool, tmp_path, version, text):
+    (tmp_path / "part.json").write_text(json.dumps({**load(FROZEN), "version": version}))
+    ran = tonetool("--merge", "part.json", "--json", "c.json", status=1)
+    assert f'"part.json": ' in ran.err and text in ran.err
+    assert not (tmp_path / "c.json").exists()
+
+
+# ---- a long shot
+
+def test_two_thousand_parts(program, parts, plain_memory):
+    """A fifth of a long shot; all of ten thousand takes as many times as long and 250 MB more."""
+    text = (parts / "p" / "1.json").read_text()
+    many = parts / "many"
+    many.mkdir()
+    for number in range(1, 2001):
+        new = json.loads(text)
+        frame = new["frames"][0]
+        frame["frame"] = number
+        new["worst"] = [{"frame": number}] if new["worst"] else []
+        frame["qc"]["picture"]["hash"] = f"{number:032x}"
+        (many / f"{number}.json").write_text(json.dumps(new, indent=1))
+    script = ("import resource, subprocess, sys; done = subprocess.run(sys.argv[1:]); "
+              "used = resource.getrusage(resource.RUSAGE_CHILDREN); "
+              "print(used.ru_utime + used.ru_stime, used.ru_maxrss); sys.exit(done.returncode)")
+    def measured(*words):
+        ran = subprocess.run([sys.executable, "-c", script, program, *words], cwd=parts, check=False,
+                             capture_output=True, text=True, timeout=120)
+        assert ran.returncode in (0, 3), ran.stderr
+        return [float(word) for word in ran.stdout.splitlines()[-1].split()]
+    _, few_kilobytes = measured("--merge", "many/1.json", "--json", "few.json")
+    _, kilobytes = measured("--merge", "many", "--json", "many.json", "--csv", "many.csv")
+    per_part = (many / "1.json").stat().st_size
+    assert (kilobytes - few_kilobytes) * 1024 < 2000 * 3 * per_part
+    assert len(load(parts / "many.json")["frames"]) == 2000
