@@ -12,6 +12,7 @@
 #include "sequence/results/check_files.h"
 #include "sequence/results/shot_exposures.h"
 #include "sequence/results/tables.h"
+#include "sequence/verdict/accepted.h"
 #include "sequence/verdict/merge.h"
 #include "text/error.h"
 #include "text/printable.h"
@@ -48,7 +49,7 @@ std::vector<EndFile> places_of(const CheckPlan& check) {
     std::vector<EndFile> places;
     for (const auto& [command, file] : check.written()) {
         const bool is_file = command != "merge" && command != "state" && command != "pictures" &&
-                             command != "exit-zero";
+                             command != "exit-zero" && command != "accept";
         if (is_file && file != "-")
             places.push_back({command, file, normal(file), sequence::stamp_of(file)});
     }
@@ -120,6 +121,19 @@ std::string picture_folder(const CheckPlan& check) {
                                                 : "";
 }
 
+std::vector<sequence::Acceptance> accepted_by(const CheckPlan& plan, const Strings& check) {
+    if (!plan.has("accept"))
+        return {};
+    const std::string file = plan.argument("accept");
+    try {
+        const sequence::Acceptances found = sequence::read_acceptances(file);
+        sequence::check_same_check(found, check, file);
+        return found.accepted;
+    } catch (const std::runtime_error& problem) {
+        throw CommandError(std::string("--accept: ") + problem.what());
+    }
+}
+
 void write_statistics(const CheckPlan& check, const std::string& text) {
     const sequence::CheckFiles files = check.written();
     const auto file = files.find("statistics");
@@ -140,7 +154,10 @@ int conclude_check(const sequence::ShotResult& shot, const FramePlan& plan,
     }
     if (!unkept.empty())
         errors.push_back(unkept);
-    for (const std::string& complaint : sequence::write_reports(shot, pictures, files, errors))
+    for (const std::string& complaint : sequence::unused_acceptances(shot))
+        err << "tonetool WARNING: --accept: " << printable(complaint) << '\n';
+    for (const std::string& complaint :
+         sequence::write_reports(shot, pictures, files, plan.check.page, errors))
         err << "tonetool WARNING: " << printable(complaint) << '\n';
     for (const std::string& error : errors)
         err << "tonetool ERROR: " << printable(error) << '\n';
@@ -157,20 +174,26 @@ int merge_parts(const FramePlan& plan, std::ostream& out, std::ostream& err) {
         throw CommandError("--merge takes results alone (valid: --merge PART.json ... with --json, "
                            "--csv and the like)");
     }
-    sequence::check_places(check.words);
+    sequence::check_places(check.written_places());
     refuse_to_write_over(plan);
+    if (check.has("accept")) // a damaged file is told before the parts are read
+        (void)sequence::read_acceptances(check.argument("accept"));
     if (check.has("statistics")) {
         write_statistics(check, sequence::merged_exposures(parts));
         return 0;
     }
     Strings complaints;
-    const sequence::ShotResult shot = sequence::merged(parts, check.expected, complaints);
+    sequence::ShotResult shot = sequence::merged(parts, check.expected, complaints);
+    if (const auto accepted = accepted_by(check, shot.check); !accepted.empty()) {
+        shot.accepted.insert(shot.accepted.begin(), accepted.begin(), accepted.end());
+        conclude(shot);
+    }
     chain::Session session(out, err, full_command_line(plan.line, texts, plan.line.compat));
     for (const std::string& complaint : complaints)
         session.error("merge", complaint);
     if (check.has("pictures") && !OIIO::Filesystem::is_directory(check.argument("pictures")))
         throw CommandError("--pictures: there is no folder \"" + check.argument("pictures") + "\"");
-    const sequence::PictureStore pictures(picture_folder(check));
+    const sequence::PictureStore pictures(picture_folder(check), check.pictures);
     return worse(session.exit_status(), conclude_check(shot, plan, pictures, "", out, err));
 }
 

@@ -91,6 +91,8 @@ private:
             throw CommandError(name + " is given twice");
         if (word.is("bad-frames"))
             take_severity(word.token);
+        if (word.is("report") || word.is("pictures"))
+            take_picture_limits(word, name);
     }
 
     void take_severity(const Token& token) {
@@ -100,6 +102,21 @@ private:
             check_choice("--bad-frames: from", value, {"error", "warning"});
             if (value == "warning")
                 m_plan.bad_from = sequence::Status::Warning;
+        }
+    }
+
+    void take_picture_limits(const Word& word, const std::string& name) {
+        for (const auto& [key, value] : word.token.modifiers) {
+            const bool size = key == "size" && word.is("report");
+            if (key != "pixels" && !size) {
+                throw CommandError(name + " has no modifier \"" + key + "\" (valid: pixels" +
+                                   (word.is("report") ? ", size)" : ")"));
+            }
+            const int number = checked_integer(name + ": " + key, value, {1, size ? 2000.0 : 24.0});
+            if (size)
+                m_plan.page.bytes = size_t(number) << 20;
+            else
+                m_plan.pictures.exact = size_t(number);
         }
     }
 
@@ -204,6 +221,12 @@ std::map<std::string, std::string> CheckPlan::written() const {
         if (!dry_run || file == "-")
             files.emplace(command, file);
     return files;
+}
+
+std::map<std::string, std::string> CheckPlan::written_places() const {
+    std::map<std::string, std::string> places = words;
+    places.erase("accept");
+    return places;
 }
 
 bool CheckPlan::is_input(size_t at) const {

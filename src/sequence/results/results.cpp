@@ -12,6 +12,7 @@
 #include "sequence/frames/file_sequence.h"
 #include "sequence/qc/qc.h"
 #include "sequence/results/measuring.h"
+#include "sequence/verdict/accepted.h"
 #include "tonetool/bias.h"
 
 namespace tonetool::sequence {
@@ -302,6 +303,7 @@ double badness(const FrameResult& frame) {
 void conclude(ShotResult& shot) {
     sort_frames(shot.frames);
     judge_qc(shot.frames);
+    accept_faults(shot);
     shot.worst = by_badness(shot.frames);
     if (shot.frames.empty()) {
         shot.verdict = Status::Error;

@@ -6,6 +6,8 @@
 #include <stdexcept>
 
 #include "sequence/results/json_text.h"
+#include "sequence/verdict/accepted.h"
+#include "sequence/verdict/accepted_json.h"
 #include "sequence/verdict/summary.h"
 #include "sequence/verdict/trust.h"
 
@@ -265,6 +267,16 @@ ordered_json json_of(const ShotExposures& exposures) {
     return to;
 }
 
+ordered_json json_of(const Acceptance& accepted) {
+    ordered_json to{{"frame", accepted.frame}};
+    put(to, "view", accepted.view);
+    to["code"] = accepted.code;
+    put(to, "layer", accepted.layer);
+    to["by"] = accepted.by;
+    to["why"] = accepted.why;
+    return to;
+}
+
 ShotExposures exposures_of(const ordered_json& from) {
     return {number(from.at("max_luminance"), "max_luminance"),
             number(from.at("median_luminance"), "median_luminance"),
@@ -290,10 +302,13 @@ std::string to_json(const ShotResult& shot) {
                     {"verdict", status_name(shot.verdict)},
                     {"sentence", shot.sentence},
                     {"check", shot.check},
+                    {"id", check_id(shot.check)},
                     {"counts", counts_of(shot)}};
     if (shot.exposures)
         to["exposures"] = json_of(*shot.exposures);
     to["worst"] = worst_of(shot);
+    for (const Acceptance& accepted : shot.accepted)
+        to["accepted"].push_back(json_of(accepted));
     to["frames"] = ordered_json::array();
     for (const FrameResult& frame : shot.frames)
         to["frames"].push_back(json_of(frame));
@@ -307,6 +322,8 @@ ShotResult shot_from_json(const std::string& from) {
         shot.check = json.at("check").get<std::vector<std::string>>();
         if (json.contains("exposures"))
             shot.exposures = exposures_of(json["exposures"]);
+        if (json.contains("accepted"))
+            shot.accepted = acceptances_in(json["accepted"]);
         each_of(json.at("frames"), "frames", [&](const ordered_json& one, const std::string&) {
             shot.frames.push_back(frame_of(one));
         });
@@ -318,6 +335,16 @@ ShotResult shot_from_json(const std::string& from) {
         check_summary(json, said, shot);
         return shot;
     });
+}
+
+std::vector<Acceptance> acceptances_in(const ordered_json& list) {
+    std::vector<Acceptance> all;
+    each_of(list, "accepted", [&](const ordered_json& one, const std::string&) {
+        all.push_back({whole_number<int>(one.at("frame"), "frame"), text(one, "view"),
+                       one.at("code").get<std::string>(), text(one, "layer"), text(one, "by"),
+                       text(one, "why")});
+    });
+    return all;
 }
 
 std::string to_json(const FrameResult& frame) {

@@ -13,8 +13,9 @@ namespace tonetool::sequence {
 inline constexpr char kResultsFormat[] = "tonetool-check";
 inline constexpr int kResultsVersion = 1;
 
-/// The text of --json: {"format", "version", "check", "verdict", "sentence", "counts",
-/// "exposures", "worst", "frames"}, with "worst" as frame numbers. Ends with a line break.
+/// The text of --json: {"format", "version", "verdict", "sentence", "check", "id", "counts",
+/// "exposures", "worst", "accepted", "frames"}, with "worst" as frame numbers. Ends with a line
+/// break.
 std::string to_json(const ShotResult& shot);
 /// A runtime_error that says what is wrong where, for text that is no such file, of another
 /// version, or whose frames are not whole, or not those that the file's own counts, verdict and
