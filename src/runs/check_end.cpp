@@ -62,7 +62,8 @@ Strings files_read(const FramePlan& plan, const Strings& texts) {
     for (const chain::Word& word : plan.line.words) {
         if (!word.row)
             continue;
-        for (size_t i = 0; i < word.arguments.size() && !word.row->writes(); ++i)
+        const bool reads = !word.row->writes() || word.is("accept");
+        for (size_t i = 0; i < word.arguments.size() && reads; ++i)
             if (chain::names_file(word.argument_name(i)))
                 files.push_back(texts[word.arguments[i]]);
         for (const auto& [key, text] : parse_token(texts[word.at], true).modifiers) {

@@ -18,6 +18,10 @@ chain::Rows check_commands() {
                 "it: 1004,1006,1009-1011")
             .modifier("from", "error|warning", "the least severity that counts (error)")
             .whole_line(),
+        command("accept FILE",
+                "Let the faults of --qc pass that the file names, as the report's page exports it: "
+                "they become info")
+            .whole_line(),
         command(
             "report FILE.html",
             "Write a page to look at: verdict, curve, worst frames, scene-linear pictures, faults")

@@ -14,7 +14,7 @@ function drawWorst() {
       onclick: () => { select(index); } },
       thumbnail(index), make("strong", {}, `Frame ${frameName(frame)}`), badge(frame.status),
       make("span", { className: "what" }, `${isRejected(frame) ? "rejected. " : isAccepted(frame) ? "accepted. " : ""}`
-        + (frame.message || verdictOf(frame)))));
+        + whyOf(frame))));
   }));
   const more = data.shot.worst.length - shown.length;
   const note = more > 0 ? `and ${plural(more, "more frame")}, see below`

@@ -160,6 +160,22 @@ function verdictOf(frame) {
   return first ? `${first[0]} ${number(first[1])}` : "";
 }
 
+/** What is wrong with the frame: its worst fault, and what a comparison says beside that. */
+function whyOf(frame) {
+  const fault = frame.status === "failed" && frame.faults.find(({ severity }) => severity === "error");
+  const message = frame.message || verdictOf(frame);
+  if (!fault || fault.sentence === message) return message;
+  return `${fault.code}: ${fault.sentence}${message ? `; ${message}` : ""}`;
+}
+
+/** What a quantity means, for those who do not know it. */
+function meaningOf(quantity) {
+  const percent = /^p(\d+(\.\d+)?)$/.exec(quantity);
+  if (percent) return `${quantity}: ${percent[1]} % of the pixels have no larger error.`;
+  const of = { mean: "The mean error of all pixels.", max: "The largest error of a pixel." };
+  return of[quantity] || "";
+}
+
 function plural(count, word) {
   return `${count} ${word}${count === 1 ? "" : "s"}`;
 }

@@ -176,6 +176,12 @@ function drawWhole(pen, pane, canvas) {
   pen.drawImage(canvas, left, top, size.width * scale, size.height * scale);
 }
 
+/** The numbers of one side, where they are those of every pixel. */
+function wholeNumbers(side) {
+  const { width, height } = viewer.frame.size;
+  return side.numbers.find(({ mean, place }) => !mean && place.width === width && place.height === height);
+}
+
 function drawSide(pen, pane, side) {
   if (view.channel === "a") {
     if (side.alpha) drawWhole(pen, pane, side.alpha.canvas);
@@ -183,7 +189,7 @@ function drawSide(pen, pane, side) {
     return;
   }
   const look = { stops: shownStops(), channel: view.channel };
-  const whole = side.numbers.find((from) => !from.mean && from.place.width === viewer.frame.size.width);
+  const whole = wholeNumbers(side);
   if (!whole) drawSource(pen, pane, side.picture, look);
   for (const from of whole ? [whole] : side.numbers) if (!from.mean) drawSource(pen, pane, from, look);
 }
@@ -270,6 +276,11 @@ function drawMarks(pane) {
   const { full } = viewer.frame;
   const { scale, left, top } = originOf(pane);
   const nodes = [];
+  const { near } = viewer.frame;
+  if (pane.large && view.marks && near && !wholeNumbers(viewer.frame.sides.test)) {
+    nodes.push(svg("rect", { class: "exact", x: left + near.x * scale, y: top + near.y * scale,
+      width: near.width * scale, height: near.height * scale }));
+  }
   for (const mark of full && view.marks ? marksOf(viewer.index) : []) {
     const place = placeOf(mark, full);
     if (!place) continue;

@@ -164,7 +164,8 @@ function captionOf(frame, what) {
   const { full } = frame;
   const parts = [`Scene-linear Rec.709${full.space && full.space !== "rec709" ? ` (from ${full.space})` : ""}, shown as sRGB.`];
   if (frame.reduced) parts.push(`Reduced to ${data.pictures.reduced} pixels: this frame is not among the worst.`);
-  if (frame.near) parts.push("Exact numbers around the worst pixel, elsewhere about.");
+  if (!wholeNumbers(frame.sides.test))
+    parts.push("Values are those of the file inside the dotted square around the worst pixel, elsewhere about right.");
   return parts.join(" ");
 }
 
@@ -251,9 +252,9 @@ function stepFault(by) {
 
 function drawTitle(frame) {
   byId("frame-title").replaceChildren(`Frame ${frameName(frame)} `, badge(frame.status));
-  const message = frame.message || verdictOf(frame);
+  const message = whyOf(frame);
   byId("message").textContent = message;
-  byId("message").classList.toggle("empty", !message || frame.faults.some((fault) => fault.sentence === message));
+  byId("message").classList.toggle("empty", !message);
   byId("frame").value = viewer.index;
   byId("previous").disabled = viewer.index === 0;
   byId("next").disabled = viewer.index === frames.length - 1;

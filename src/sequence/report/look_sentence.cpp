@@ -66,7 +66,8 @@ std::vector<Run> runs_of(const ShotResult& shot, const ordered_json& result) {
             continue;
         const std::string reason = reason_of(frame, result.at("frames").at(i));
         const bool next = !runs.empty() && runs.back().reason == reason &&
-                          runs.back().last + 1 == &frame && frame.view.empty();
+                          runs.back().last + 1 == &frame &&
+                          runs.back().last->frame + 1 == frame.frame && frame.view.empty();
         if (next)
             runs.back().last = &frame;
         else

@@ -224,21 +224,30 @@ ordered_json captions() {
             {"thumbnails", "Of this frame only thumbnails were kept: it is not among the worst."}};
 }
 
+// The worst frames of which there are pictures in full.
+std::set<size_t> pictured(const ShotResult& shot, const PictureStore& pictures) {
+    std::set<size_t> found;
+    for (const size_t i : by_rank(shot))
+        if (found.size() < pictures.counts().full &&
+            !pictures.text(PictureSize::Full, shot.frames[i]).empty())
+            found.insert(i);
+    return found;
+}
+
 // Leaves out the facts of --qc, and in long shots the histograms, which would be too large.
-ordered_json trimmed(const ShotResult& shot, const PageLimits& limits) {
+ordered_json trimmed(const ShotResult& shot, const PictureStore& pictures,
+                     const PageLimits& limits) {
     ordered_json result = parse_json<ordered_json>(to_json(shot));
     result["worst"] = shot.worst; // here they are indices
     const bool many = shot.frames.size() > limits.detailed_frames;
-    const std::vector<size_t> order = by_rank(shot);
-    const size_t whole = std::min(order.size(), PictureCounts().full);
-    const std::set<size_t> detailed(order.begin(), order.begin() + long(whole));
+    const std::set<size_t> detailed = many ? pictured(shot, pictures) : std::set<size_t>();
     size_t index = 0;
     for (ordered_json& frame : result["frames"]) {
         frame.erase("qc");
-        const bool whole_text = !many || detailed.count(index++) > 0;
+        const bool whole = !many || detailed.count(index++) > 0;
         for (ordered_json& measured : frame["measurements"]) {
             for (const char* key : {"histogram", "parameters", "settings"})
-                if (!whole_text)
+                if (!whole)
                     measured.erase(key);
         }
     }
@@ -296,7 +305,7 @@ std::string shot_name(const ShotResult& shot) {
 
 std::string report_page(const ShotResult& shot, const PictureStore& pictures,
                         const PageLimits& limits) {
-    ordered_json result = trimmed(shot, limits);
+    ordered_json result = trimmed(shot, pictures, limits);
     const std::string look = look_sentence(shot, result);
     // The plain list has each frame again, and the page itself takes less than a megabyte.
     const std::string list = list_html(shot);
