@@ -63,12 +63,17 @@ function pictureAt(pane, event) {
   return [(event.clientX - box.left - left) / scale, (event.clientY - box.top - top) / scale];
 }
 
+/** From much smaller than what fits to single pixels; 1:1 is always among it. */
+function heldZoom(zoom) {
+  return Math.min(MOST_ZOOM, Math.max(Math.min(fitting(largePane()) / 4, 1 / devicePixelRatio), zoom));
+}
+
 const held = (value) => Math.min(1, Math.max(0, value));
 
 /** The picture's point x, y comes to the middle. */
 function zoomTo(zoom, x, y) {
   const { size } = viewer.frame;
-  view.zoom = zoom === null ? null : Math.min(MOST_ZOOM, Math.max(fitting(largePane()) / 4, zoom));
+  view.zoom = zoom === null ? null : heldZoom(zoom);
   view.x = zoom === null ? 0.5 : held(x / size.width);
   view.y = zoom === null ? 0.5 : held(y / size.height);
   drawPanes();
@@ -79,7 +84,7 @@ function zoomBy(factor, x, y) {
   if (!viewer.frame) return;
   const { size } = viewer.frame;
   const before = scaleOf(largePane());
-  const after = Math.min(MOST_ZOOM, Math.max(fitting(largePane()) / 4, before * factor));
+  const after = heldZoom(before * factor);
   const kept = before / after;
   zoomTo(after, x + (view.x * size.width - x) * kept, y + (view.y * size.height - y) * kept);
 }

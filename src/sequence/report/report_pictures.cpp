@@ -176,7 +176,7 @@ private:
                                      : scene_pixels(image, options, region);
         if (m_request.large)
             pictures.large.*side = uri(log_codes(pixels), Encoding::Jpeg, kLogQuality);
-        const ScenePixels means = scene_means(image, options, region, side_reduced);
+        const ScenePixels means = reduced(pixels, side_reduced);
         pictures.pictures.*side = uri(log_codes(means), Encoding::Jpeg, kLogQuality);
         if (std::any_of(pixels.alpha.begin(), pixels.alpha.end(),
                         [](uint16_t half) { return half != kOne; }))

@@ -83,15 +83,48 @@ ScenePixels sized(const PixelSize& side, Halves color) {
     return pixels;
 }
 
-ImageBuf bytes_of(const ScenePixels& pixels, int shift) {
-    std::vector<uint8_t> bytes;
-    bytes.reserve(pixels.color.size());
-    for (const uint16_t half : pixels.color)
-        bytes.push_back(uint8_t(half >> shift & 255));
+template <class Code>
+ImageBuf coded(const ScenePixels& pixels, const Code& code) {
     ImageBuf picture(OIIO::ImageSpec(pixels.width, pixels.height, 3, TypeDesc::UINT8));
-    picture.set_pixels(picture.roi(), TypeDesc::UINT8, bytes.data());
+    std::transform(pixels.color.begin(), pixels.color.end(),
+                   static_cast<uint8_t*>(picture.localpixels()), code);
     return picture;
 }
+
+std::vector<float> value_table() {
+    std::vector<float> values(65536);
+    for (size_t half = 0; half < values.size(); ++half)
+        values[half] = half_value(uint16_t(half));
+    return values;
+}
+
+// Sums over the pixels of one row that is reduced.
+class MeanRow {
+public:
+    explicit MeanRow(int width) : m_sums(size_t(width) * 3), m_counts(size_t(width)) {}
+
+    void add(const uint16_t* row, int width) {
+        static const std::vector<float> values = value_table();
+        const auto to = int64_t(m_counts.size());
+        for (int64_t x = 0; x < width; ++x, row += 3) {
+            const auto at = size_t(x * to / width);
+            const bool finite = std::max({row[0] & kMagnitude, row[1] & kMagnitude,
+                                          row[2] & kMagnitude}) < kInfinity;
+            m_counts[at] += finite ? 1 : 0;
+            for (size_t c = 0; c < 3 && finite; ++c)
+                m_sums[3 * at + c] += values[row[c]];
+        }
+    }
+
+    void append_to(std::vector<float>& means) const {
+        for (size_t i = 0; i < m_sums.size(); ++i)
+            means.push_back(m_counts[i / 3] > 0 ? m_sums[i] / float(m_counts[i / 3]) : 0);
+    }
+
+private:
+    std::vector<float> m_sums;
+    std::vector<int> m_counts;
+};
 
 std::vector<uint8_t> log_table() {
     std::vector<uint8_t> codes(65536, 0);
@@ -138,6 +171,22 @@ ScenePixels scene_means(const ImageBuf& image, const PixelOptions& options, cons
     return sized(side, halves_of(means, means.roi(), 0, 3));
 }
 
+ScenePixels reduced(const ScenePixels& pixels, const PixelSize& side) {
+    std::vector<float> means;
+    means.reserve(size_t(side.width) * size_t(side.height) * 3);
+    int64_t y = 0;
+    for (int to = 0; to < side.height; ++to) {
+        MeanRow row(side.width);
+        for (; y < pixels.height && y * side.height / pixels.height == to; ++y)
+            row.add(pixels.color.data() + 3 * y * pixels.width, pixels.width);
+        row.append_to(means);
+    }
+    Halves color(means.size());
+    OIIO::convert_pixel_values(OIIO::TypeFloat, means.data(), TypeDesc::HALF, color.data(),
+                               int(means.size()));
+    return sized(side, std::move(color));
+}
+
 ScenePixels part_of(const ScenePixels& pixels, const ROI& part) {
     ScenePixels cut = sized({part.width(), part.height()}, {});
     for (int y = part.ybegin; y < part.yend; ++y) {
@@ -165,11 +214,11 @@ void shorten(std::vector<uint16_t>& halves, int bits) {
 }
 
 ImageBuf high_bytes(const ScenePixels& pixels) {
-    return bytes_of(pixels, 8);
+    return coded(pixels, [](uint16_t half) { return uint8_t(half >> 8); });
 }
 
 ImageBuf low_bytes(const ScenePixels& pixels) {
-    return bytes_of(pixels, 0);
+    return coded(pixels, [](uint16_t half) { return uint8_t(half & 255); });
 }
 
 ImageBuf both_bytes(const std::vector<uint16_t>& halves, int width, int height) {
@@ -184,13 +233,7 @@ ImageBuf both_bytes(const std::vector<uint16_t>& halves, int width, int height) 
 
 ImageBuf log_codes(const ScenePixels& pixels) {
     static const std::vector<uint8_t> table = log_table();
-    std::vector<uint8_t> codes;
-    codes.reserve(pixels.color.size());
-    for (const uint16_t half : pixels.color)
-        codes.push_back(table[half]);
-    ImageBuf picture(OIIO::ImageSpec(pixels.width, pixels.height, 3, TypeDesc::UINT8));
-    picture.set_pixels(picture.roi(), TypeDesc::UINT8, codes.data());
-    return picture;
+    return coded(pixels, [](uint16_t half) { return table[half]; });
 }
 
 } // namespace tonetool::sequence

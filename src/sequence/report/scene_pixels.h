@@ -23,9 +23,13 @@ struct ScenePixels {
 ScenePixels scene_pixels(const OIIO::ImageBuf& image, const PixelOptions& options,
                          const OIIO::ROI& region);
 
-/// The same of the means of the finite pixels beneath each pixel, without alpha.
+/// The same of a region that is shown in another size, without alpha: means of the finite pixels
+/// beneath each pixel.
 ScenePixels scene_means(const OIIO::ImageBuf& image, const PixelOptions& options,
                         const OIIO::ROI& region, const PixelSize& side);
+
+/// Means of the finite pixels beneath each pixel of a smaller side, without alpha.
+ScenePixels reduced(const ScenePixels& pixels, const PixelSize& side);
 
 /// `part` is counted from the first pixel.
 ScenePixels part_of(const ScenePixels& pixels, const OIIO::ROI& part);
