@@ -12,6 +12,7 @@
 #include "sequence/results/check_files.h"
 #include "sequence/results/shot_exposures.h"
 #include "sequence/results/tables.h"
+#include "sequence/verdict/accepted.h"
 #include "sequence/verdict/fault_lines.h"
 #include "sequence/verdict/merge.h"
 #include "sequence/verdict/part_files.h"
@@ -50,7 +51,7 @@ std::vector<EndFile> places_of(const CheckPlan& check) {
     std::vector<EndFile> places;
     for (const auto& [command, file] : check.written()) {
         const bool is_file = command != "merge" && command != "state" && command != "pictures" &&
-                             command != "exit-zero";
+                             command != "exit-zero" && command != "accept";
         if (is_file && file != "-")
             places.push_back({command, file, normal(file), sequence::stamp_of(file)});
     }
@@ -63,7 +64,8 @@ Strings files_read(const FramePlan& plan, const Strings& texts) {
     for (const chain::Word& word : plan.line.words) {
         if (!word.row)
             continue;
-        for (size_t i = 0; i < word.arguments.size() && !word.row->writes(); ++i)
+        const bool reads = !word.row->writes() || word.is("accept");
+        for (size_t i = 0; i < word.arguments.size() && reads; ++i)
             if (chain::names_file(word.argument_name(i)))
                 files.push_back(texts[word.arguments[i]]);
         for (const auto& [key, text] : parse_token(texts[word.at], true).modifiers) {
@@ -122,6 +124,19 @@ std::string picture_folder(const CheckPlan& check) {
                                                 : "";
 }
 
+std::vector<sequence::Acceptance> accepted_by(const CheckPlan& plan, const Strings& check) {
+    if (!plan.has("accept"))
+        return {};
+    const std::string file = plan.argument("accept");
+    try {
+        const sequence::Acceptances found = sequence::read_acceptances(file);
+        sequence::check_same_check(found, check, file);
+        return found.accepted;
+    } catch (const std::runtime_error& problem) {
+        throw CommandError(std::string("--accept: ") + problem.what());
+    }
+}
+
 void write_statistics(const CheckPlan& check, const std::string& text) {
     const sequence::CheckFiles files = check.written();
     const auto file = files.find("statistics");
@@ -142,7 +157,10 @@ int conclude_check(const sequence::ShotResult& shot, const FramePlan& plan,
     }
     if (!unkept.empty())
         errors.push_back(unkept);
-    for (const std::string& complaint : sequence::write_reports(shot, pictures, files, errors))
+    for (const std::string& complaint : sequence::unused_acceptances(shot))
+        err << "tonetool WARNING: --accept: " << printable(complaint) << '\n';
+    for (const std::string& complaint :
+         sequence::write_reports(shot, pictures, files, plan.check.page, errors))
         err << "tonetool WARNING: " << printable(complaint) << '\n';
     for (const std::string& error : errors)
         err << "tonetool ERROR: " << printable(error) << '\n';
@@ -159,13 +177,15 @@ int merge_parts(const FramePlan& plan, std::ostream& out, std::ostream& err) {
         throw CommandError("--merge takes results alone (valid: --merge PART.json ... with --json, "
                            "--csv and the like)");
     }
-    sequence::check_places(check.words);
+    sequence::check_places(check.written_places());
+    if (check.has("accept")) // a damaged file is told before the parts are read
+        (void)sequence::read_acceptances(check.argument("accept"));
     for (const std::string& list : check.part_lists)
         for (const std::string& line : sequence::lines_of(list))
             named.push_back(line);
     const Strings parts = sequence::part_files(named);
     refuse_to_write_over(plan, parts);
-    sequence::try_places(check.written());
+    sequence::try_places(check.written_places());
     if (check.has("statistics")) {
         const std::string text = sequence::merged_exposures(parts);
         if (check.only_validates)
@@ -175,7 +195,11 @@ int merge_parts(const FramePlan& plan, std::ostream& out, std::ostream& err) {
         return 0;
     }
     Strings complaints;
-    const sequence::ShotResult shot = sequence::merged(parts, check.expected, complaints);
+    sequence::ShotResult shot = sequence::merged(parts, check.expected, complaints);
+    if (const auto accepted = accepted_by(check, shot.check); !accepted.empty()) {
+        shot.accepted.insert(shot.accepted.begin(), accepted.begin(), accepted.end());
+        conclude(shot);
+    }
     chain::Session session(out, err, full_command_line(plan.line, texts, plan.line.compat));
     for (const std::string& complaint : complaints)
         session.error("merge", complaint);
@@ -186,7 +210,7 @@ int merge_parts(const FramePlan& plan, std::ostream& out, std::ostream& err) {
             << places_text(plan);
         return session.exit_status();
     }
-    const sequence::PictureStore pictures(picture_folder(check));
+    const sequence::PictureStore pictures(picture_folder(check), check.pictures);
     return worse(session.exit_status(), conclude_check(shot, plan, pictures, "", out, err));
 }
 

@@ -23,6 +23,10 @@ std::string picture_folder(const CheckPlan& check);
 /// one of its runs, reads or writes itself, by whatever name. `parts`: of --merge.
 void refuse_to_write_over(const FramePlan& plan, const Strings& parts = {});
 
+/// What --accept lets pass, if it is there; a runtime_error where its file is damaged or of another
+/// check than this one.
+std::vector<sequence::Acceptance> accepted_by(const CheckPlan& plan, const Strings& check);
+
 /// Prints the verdict of a check, then writes its files, those that can be written: none with
 /// -n. `unkept`: what could not be kept of the frames, which is an error, too. The exit status.
 int conclude_check(const sequence::ShotResult& shot, const FramePlan& plan,

@@ -96,7 +96,9 @@ private:
         else if (!word.is("dry-run") &&
                  !m_plan.words.emplace(word.row->names.front(), argument).second)
             throw CommandError(name + " is given twice");
-        if (!word.is("qc")) // whose own are read when it runs
+        if (word.is("report") || word.is("pictures"))
+            take_picture_limits(word, name);
+        else if (!word.is("qc") && !word.is("against")) // whose own are read when they run
             take_modifiers(name, word);
     }
 
@@ -116,6 +118,21 @@ private:
             if (key == "from" && value == "warning")
                 m_plan.bad_from = sequence::Status::Warning;
             m_plan.json_records &= key != "records" || value != "0";
+        }
+    }
+
+    void take_picture_limits(const Word& word, const std::string& name) {
+        for (const auto& [key, value] : word.token.modifiers) {
+            const bool size = key == "size" && word.is("report");
+            if (key != "pixels" && !size) {
+                throw CommandError(name + " has no modifier \"" + key + "\" (valid: pixels" +
+                                   (word.is("report") ? ", size)" : ")"));
+            }
+            const int number = checked_integer(name + ": " + key, value, {1, size ? 2000.0 : 24.0});
+            if (size)
+                m_plan.page.bytes = size_t(number) << 20;
+            else
+                m_plan.pictures.exact = size_t(number);
         }
     }
 
@@ -238,6 +255,12 @@ std::map<std::string, std::string> CheckPlan::written() const {
         if (!dry_run || file == "-")
             files.emplace(command, file);
     return files;
+}
+
+std::map<std::string, std::string> CheckPlan::written_places() const {
+    std::map<std::string, std::string> places = words;
+    places.erase("accept");
+    return places;
 }
 
 bool CheckPlan::is_input(size_t at) const {

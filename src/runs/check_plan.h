@@ -8,6 +8,7 @@
 
 #include "chain/language/line.h"
 #include "sequence/frames/file_sequence.h"
+#include "sequence/report/report_page.h"
 #include "sequence/results/results.h"
 #include "text/text.h"
 
@@ -29,6 +30,8 @@ struct CheckPlan {
     sequence::Status bad_from = sequence::Status::Failed; ///< of --bad-frames
     bool json_records = true;                             ///< --json has what --qc measured
     Strings part_lists;                                   ///< files of --merge-list
+    sequence::PictureCounts pictures;                     ///< of --report and --pictures
+    sequence::PageLimits page;                            ///< of --report
     /// The words without those that say which frames, where to and how fast; and where they are.
     Strings essence;
     std::vector<size_t> essence_at;
@@ -38,6 +41,8 @@ struct CheckPlan {
     std::string argument(const std::string& word) const { return has(word) ? words.at(word) : ""; }
     /// The words that are followed: with -n those that print to the standard output.
     std::map<std::string, std::string> written() const;
+    /// Where results go, also with -n: what is only read is no such place.
+    std::map<std::string, std::string> written_places() const;
     /// Frames are paired by number, and what is wrong with one is a result.
     bool is_check() const { return !words.empty() && !has("statistics") && !has("merge"); }
     /// Something is passed or not: what was not compared must not be passed.

@@ -54,12 +54,14 @@ private:
     int m_threads = 0; ///< of --threads
     FrameContext m_context{m_plan, {}};
     std::optional<State> m_state, m_sample_state;
+    std::vector<sequence::Acceptance> m_accepted; ///< of --accept
     std::unique_ptr<sequence::PictureStore> m_pictures;
 };
 
 int PlanRun::run() {
-    sequence::check_places(m_plan.check.words);
+    sequence::check_places(m_plan.check.written_places());
     refuse_to_write_over(m_plan);
+    m_accepted = accepted_by(m_plan.check, m_plan.check.essence);
     if (m_plan.check.only_validates || judges_frames()) {
         try_outputs(m_plan);
         if (!commands_are_right(m_plan, m_err, m_workers))
@@ -93,7 +95,7 @@ int PlanRun::check() {
             return status;
     }
     sequence::ShotResult shot{
-        m_plan.check.essence, m_context.shot, std::move(frames.results()), {}, {}, {}};
+        m_plan.check.essence, m_context.shot, std::move(frames.results()), {}, {}, {}, m_accepted};
     conclude(shot);
     const int concluded = conclude_check(shot, m_plan, *m_pictures, frames.unkept(), m_out, m_err);
     return m_plan.check.has("exit-zero") ? concluded : worse(status, concluded);
@@ -105,7 +107,7 @@ void PlanRun::prepare() {
         m_state.emplace(check.argument("state"), "frame");
         m_sample_state.emplace(check.argument("state"), "exposures");
     }
-    m_pictures = std::make_unique<sequence::PictureStore>(picture_folder(check));
+    m_pictures = std::make_unique<sequence::PictureStore>(picture_folder(check), check.pictures);
     if (m_state)
         remove_abandoned();
 }

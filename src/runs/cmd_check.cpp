@@ -20,13 +20,24 @@ chain::Rows check_commands() {
                 "it: 1004,1006,1009-1011")
             .modifier("from", "error|warning", "the least severity that counts (error)")
             .whole_line(),
-        command("report FILE.html",
-                "Write a page to look at: verdict, curve, worst frames, pictures, faults")
+        command("accept FILE",
+                "Let the faults of --qc pass that the file names, as the report's page exports it: "
+                "they become info")
+            .whole_line(),
+        command(
+            "report FILE.html",
+            "Write a page to look at: verdict, curve, worst frames, scene-linear pictures, faults")
+            .modifier(
+                "pixels", "N",
+                "of so many of the worst frames the page has the number of every pixel, about "
+                "19 MB each at 1920x1080 (of one, reduced to 960x540)")
+            .modifier("size", "MB", "the most that the page may take (50)")
             .whole_line(),
         command("contactsheet FILE", "Write an image of all frames as thumbnails").whole_line(),
         command(
             "pictures DIR",
             "Keep the pictures of the report in that folder; with --merge, take them from there")
+            .modifier("pixels", "N", "as of --report")
             .whole_line(),
         command("state DIR", "Keep each finished frame's result in that folder: a run that was "
                              "killed goes on, and frames whose files have changed are checked anew")

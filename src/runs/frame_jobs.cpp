@@ -309,11 +309,11 @@ Ran CheckedFrames::run(size_t index, std::ostream& out, std::ostream& err) {
     const Checked checked = check_or_find(index);
     out << checked.out;
     err << checked.err;
-    const auto& pictures = checked.pictures;
+    const sequence::PictureTexts pictures = checked.pictures.value_or(sequence::PictureTexts{});
     return {checked.status, in_words(checked.result), false,
             packed({sequence::to_json(checked.result), checked.known ? "known" : "",
-                    pictures ? pictures->full : "", pictures ? pictures->small : "",
-                    packed(checked.written), checked.unkept})};
+                    packed({pictures.begin(), pictures.end()}), packed(checked.written),
+                    checked.unkept})};
 }
 
 Ran CheckedFrames::failed(size_t index, Status status, const std::string& why, std::ostream& err) {
@@ -321,7 +321,8 @@ Ran CheckedFrames::failed(size_t index, Status status, const std::string& why, s
     result.status = status;
     result.message = status == Status::Crashed ? crashed(why) : why;
     m_context.print_error(index, result.message, err);
-    return {1, in_words(result), false, packed({sequence::to_json(result), "", "", "", "", ""})};
+    return {1, in_words(result), false,
+            packed({sequence::to_json(result), "", "", packed({}), ""})};
 }
 
 void CheckedFrames::claim(const Strings& written, FrameResult& result, Ran& ran) const {
@@ -339,18 +340,23 @@ void CheckedFrames::claim(const Strings& written, FrameResult& result, Ran& ran)
 }
 
 void CheckedFrames::take(size_t index, Ran& ran) {
-    Strings texts = unpacked(ran.found, 6);
-    m_unkept = m_unkept.empty() ? texts[5] : m_unkept;
+    const Strings texts = unpacked(ran.found, 5);
+    m_unkept = m_unkept.empty() ? texts[4] : m_unkept;
     FrameResult& result = m_results[index];
     result = sequence::frame_from_json(texts[0]);
-    claim(unpacked(texts[4]), result, ran);
+    claim(unpacked(texts[3]), result, ran);
     if (result.status == Status::Crashed) {
         // What the process had begun to write.
         remove_abandoned_outputs(
             words_at(m_context.plan.runs[index].words, m_context.plan.check.outputs));
     }
-    if (draws(m_context.plan.check))
-        keep_pictures(!texts[1].empty(), {std::move(texts[2]), std::move(texts[3])}, result);
+    if (!draws(m_context.plan.check))
+        return;
+    Strings drawn = unpacked(texts[2]);
+    drawn.resize(sequence::kPictureSizes);
+    sequence::PictureTexts pictures;
+    std::move(drawn.begin(), drawn.end(), pictures.begin());
+    keep_pictures(!texts[1].empty(), pictures, result);
 }
 
 void CheckedFrames::keep_pictures(bool known, const sequence::PictureTexts& texts,
@@ -358,7 +364,7 @@ void CheckedFrames::keep_pictures(bool known, const sequence::PictureTexts& text
     try {
         if (known)
             m_pictures.restore(result);
-        else if (!texts.small.empty())
+        else if (!texts[size_t(sequence::PictureSize::Small)].empty())
             m_pictures.add(result, texts);
         else
             m_pictures.forget(result);

@@ -201,7 +201,7 @@ std::string numbers_text(const std::vector<const FrameRun*>& runs) {
 
 void try_outputs(const FramePlan& plan) {
     const CheckPlan& check = plan.check;
-    sequence::try_places(check.written());
+    sequence::try_places(check.written_places());
     std::set<std::string> folders;
     for (const size_t at : check.outputs) {
         const auto& always = check.always_written;
@@ -255,7 +255,7 @@ std::string plan_text(const FramePlan& plan) {
 std::string places_text(const FramePlan& plan) {
     const CheckPlan& check = plan.check;
     Strings places;
-    for (const auto& [command, file] : check.written())
+    for (const auto& [command, file] : check.written_places())
         if (!file.empty())
             places.push_back(printable(file) + " (--" + command + ")");
     for (const size_t at : check.outputs)

@@ -10,6 +10,7 @@ import signal
 import subprocess
 import time
 
+import numpy as np
 import OpenImageIO as oiio
 import pytest
 
@@ -43,9 +44,12 @@ def test_a_page_of_all_frames(tonetool, anim):
     assert [result["frames"][index]["frame"] for index in result["worst"]] == [8, 5]
     assert {name for name in data if name.startswith("full-")} == {f"full-{i}" for i in range(7)}
     worst = data["full-4"]
-    assert len(worst["exposures"]) == 5
-    for picture in (worst["error"], worst["stops"], worst["exposures"][0]["reference"],
-                    worst["exposures"][0]["test"], worst["spots"][0]["test"]):
+    assert {name for name in data if name.startswith("large-")} == {f"large-{i}" for i in range(7)}
+    assert {name for name in data if name.startswith("exact-")} == {"exact-4"}
+    assert "pictures" not in worst  # those of the full size are there instead
+    for picture in (worst["error"], worst["stops"], data["large-4"]["reference"],
+                    data["large-4"]["test"], worst["near"]["test"]["high"],
+                    data["exact-4"]["reference"]["low"], worst["spots"][0]["test"]):
         assert re.match(r"data:image/(jpeg|png);base64,[A-Za-z0-9+/=]{300,}$", picture)
     assert [worst["spots"][0]["x"], worst["spots"][0]["y"]] == (
         result["frames"][4]["measurements"][0]["worst"])
@@ -87,7 +91,8 @@ def test_a_killed_run_goes_on_and_ends_with_the_same_page(program, tonetool, ani
     tonetool(*line, status=1)
     assert (anim / "page.html").read_bytes() == (anim / "whole.html").read_bytes()
     left = {file.name for file in (anim / "state" / "pictures").iterdir()}
-    assert left == {f"000{i}.{size}.json" for i in range(1, 8) for size in ("full", "small")}
+    assert left == {f"000{i}.{size}.json" for i in range(1, 8)
+                    for size in ("full", "large", "small")} | {"0005.exact.json"}
     before = {file: file.stat().st_mtime_ns for file in (anim / "state" / "pictures").iterdir()}
     tonetool(*line, status=1)
     assert before == {file: file.stat().st_mtime_ns
@@ -104,6 +109,71 @@ def test_pictures_of_files_that_changed_are_drawn_anew(tonetool, anim):
     new = blocks((anim / "page.html").read_text())
     assert new["small-0"] == old["small-0"]
     assert new["small-1"]["test"] != old["small-1"]["test"]
+
+
+def halves(numbers, read, folder):
+    """The half floats of a block of numbers, as the page joins them."""
+    parts = []
+    for key in ("high", "low"):
+        (folder / f"{key}.png").write_bytes(base64.b64decode(numbers[key].split(",")[1]))
+        source = oiio.ImageInput.open(str(folder / f"{key}.png"))
+        parts.append(source.read_image("uint8").astype("uint16"))
+        source.close()
+    return parts[0] << 8 | parts[1]
+
+
+def beauty(file):
+    source = oiio.ImageInput.open(str(file))
+    names = [f"ViewLayer.Combined.{c}" for c in "RGB"]
+    pixels = source.read_image("float")[..., [source.spec().channelnames.index(n) for n in names]]
+    source.close()
+    return pixels
+
+
+def test_numbers_are_those_of_the_file_and_more_of_them_where_asked(tonetool, anim, read):
+    line = [*frames(4, 6), FLIP, "--report:pixels=2", "page.html"]
+    tonetool(*line, status=3)
+    data = blocks((anim / "page.html").read_text())
+    assert {name for name in data if name.startswith("exact-")} == {"exact-1", "exact-2"}
+    exact = data["exact-1"]
+    assert (exact["columns"], exact["rows"]) == beauty(anim / "test.0005.exr").shape[1::-1]
+    file = np.clip(beauty(anim / "test.0005.exr"), -65504, 65504).astype("float16")
+    bits = file.view("uint16").astype("uint32")
+    rounded = ((bits & 0x7fff) + 4) >> 3 << 3 | (bits & 0x8000)
+    assert (halves(exact["test"], read, anim) == rounded).all()
+    near = data["full-1"]["near"]
+    x, y = near["x"], near["y"]
+    assert (halves(near["test"], read, anim)
+            == rounded[y:y + near["height"], x:x + near["width"]]).all()
+    ran = tonetool(*frames(4, 6), FLIP, "--report:pixels=30", "page.html", status=1)
+    assert "--report: pixels" in ran.err and "24" in ran.err
+    ran = tonetool(*frames(4, 6), FLIP, "--pictures:size=3", "kept", status=1)
+    assert 'no modifier "size"' in ran.err
+
+
+def test_a_page_takes_no_more_than_it_may(tonetool, anim):
+    tonetool(*frames(1, 7), FLIP, "--report:size=1", "page.html", status=3)
+    assert (anim / "page.html").stat().st_size < 1 << 20
+    page = (anim / "page.html").read_text()
+    assert "this file takes at most 1 MB" in page
+    assert "in full of 0 of 7 frames" in page
+
+
+def test_pictures_of_an_earlier_version_are_left_out_and_that_is_said(tonetool, anim):
+    line = [*frames(4, 5), "--hdrflip", "--state", "state", "--report", "page.html"]
+    tonetool(*line)
+    whole = (anim / "page.html").read_bytes()
+    for file in (anim / "state" / "pictures").iterdir():
+        file.write_text('{"of":"0123456789abcdef","test":"x","error":"","spots":[]}')
+    (anim / "kept").mkdir()
+    shutil.copy(anim / "state" / "pictures" / "0004.small.json", anim / "kept")
+    ran = tonetool(*line)
+    assert "are in the form of an earlier version" in ran.err
+    assert (anim / "page.html").read_bytes() == whole
+    tonetool(*frames(4, 5), "--hdrflip", "--json", "a.json")
+    ran = tonetool("--merge", "a.json", "--pictures", "kept", "--report", "page.html")
+    assert "are in the form of an earlier version" in ran.err
+    assert set(blocks((anim / "page.html").read_text())) == {"result"}
 
 
 def test_links_in_the_folder_of_a_state_are_not_followed(tonetool, anim):
@@ -144,11 +214,11 @@ def test_other_measures_have_pictures_too(tonetool, anim, command):
     tonetool(*frames(5, 6), command, "--report", "page.html")
     data = blocks((anim / "page.html").read_text())
     full = data["full-0"]
-    assert full["exposures"][0]["reference"] and full["exposures"][0]["test"]
+    assert data["large-0"]["reference"] and data["large-0"]["test"]
     assert bool(full["error"]) == (command != "--errormap:metric=mse")
     assert bool(full["stops"]) == (command == "--flipdiff")
-    display = command in ("--ldrflip", "--flipdiff:hdr=0")  # what is compared is what is shown
-    assert (len(full["exposures"]) == 1) == display
+    if command in ("--ldrflip", "--flipdiff:hdr=0"):  # what is compared is what is shown
+        assert full["start"] == 0
 
 
 def test_images_that_do_not_fit_into_the_memory_have_no_pictures(tonetool, anim, make_image):
@@ -194,7 +264,7 @@ def test_a_view_or_a_frame_does_not_lead_out_of_the_folder(tonetool, anim):
     tonetool("--views", "up", "--frames", "1", "-q", "ref.%V_#.exr", "test.%V_#.exr", "--hdrflip",
              "--pictures", "kept", "--report", "page.html")
     assert {file.name for file in (anim / "kept").iterdir()} == {
-        "0001.up.full.json", "0001.up.small.json"}
+        f"0001.up.{size}.json" for size in ("full", "large", "exact", "small")}
 
 
 def test_faults_are_seen_from_near(tonetool, anim, read):
@@ -219,5 +289,6 @@ def test_faults_are_seen_from_near(tonetool, anim, read):
     near, _ = read("spot.png")
     assert tuple(near[10, 16]) == (1, 0, 1)  # the image's edge is above
     assert spot["reference"] == ""
-    assert data["full-4"]["exposures"][0]["reference"] == ""
+    assert data["large-4"]["reference"] == ""
+    assert data["full-4"]["near"]["reference"] is None
     assert data["full-4"]["error"] == ""

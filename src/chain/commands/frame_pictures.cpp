@@ -15,6 +15,18 @@ bool is_read(const OIIO::ImageBuf* image) {
     return !image || image->storage() != OIIO::ImageBuf::IMAGECACHE;
 }
 
+// How much is drawn of the frame if it is among the worst so far.
+void ask_for_worst(sequence::PictureRequest& request, const sequence::FramePainter& painter,
+                   const sequence::FrameResult& so_far) {
+    using sequence::PictureSize;
+    using Exact = sequence::PictureRequest::Exact;
+    const sequence::PictureStore& store = painter.store;
+    request.full = store.wants(PictureSize::Full, so_far) && painter.wants(request);
+    request.large = request.full && store.wants(PictureSize::Large, so_far);
+    const bool exact = request.full && store.wants(PictureSize::Exact, so_far);
+    request.exact = !exact ? Exact::No : store.counts().exact == 0 ? Exact::Means : Exact::All;
+}
+
 } // namespace
 
 uint64_t shown_bytes(const Session& session, const Call& call) {
@@ -50,7 +62,7 @@ void show(Session& session, const Call& call, sequence::PictureRequest request) 
     }
     sequence::FrameResult so_far = *session.check.result;
     sequence::judge(so_far);
-    request.full = painter.store.wants_full(so_far) && painter.wants(request);
+    ask_for_worst(request, painter, so_far);
     for (const sequence::Measurement& measured : so_far.measurements)
         if (measured.worst && request.full)
             request.spots.push_back(*measured.worst);

@@ -89,7 +89,7 @@ function drawCurve() {
   if (curve.chart) curve.chart.destroy();
   curve.chart = new Chart(byId("curve"), made);
   byId("curve").setAttribute("aria-label", `Curve over ${plural(frames.length, "frame")}. ${curveWords()}`);
-  byId("curve-hint").textContent = `${curveWords()} A click on the curve shows the frame.`;
+  byId("curve-hint").textContent = `${meaningOf(curve.quantity)} ${curveWords()} A click on the curve shows the frame.`.trim();
 }
 
 function markCurve() {

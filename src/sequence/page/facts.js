@@ -48,7 +48,7 @@ function cropsOf(list) {
 function nearBoxes(frame, full) {
   const boxes = [];
   for (const { worst } of frame.measurements) {
-    const found = full && worst ? full.spots.filter((spot) => spot.x === worst.x && spot.y === worst.y) : [];
+    const found = full && worst ? (full.spots || []).filter((spot) => spot.x === worst.x && spot.y === worst.y) : [];
     if (found.length)
       boxes.push(make("h3", {}, `The largest error, pixel by pixel, at ${worst.x},${worst.y}`), cropsOf(found));
   }

@@ -13,12 +13,13 @@ function drawWorst() {
     return make("li", {}, make("button", { type: "button", className: "pick", "data-index": index,
       onclick: () => { select(index); } },
       thumbnail(index), make("strong", {}, `Frame ${frameName(frame)}`), badge(frame.status),
-      make("span", { className: "what" }, frame.message || verdictOf(frame))));
+      make("span", { className: "what" }, `${isRejected(frame) ? "rejected. " : isAccepted(frame) ? "accepted. " : ""}`
+        + whyOf(frame))));
   }));
   const more = data.shot.worst.length - shown.length;
   const note = more > 0 ? `and ${plural(more, "more frame")}, see below`
     : shown.length === 0 ? "There is none." : "";
-  if (note) byId("worst").after(make("p", { className: "hint" }, note));
+  byId("worst-note").textContent = note;
 }
 
 /** "1004,1006,1009-1011": ascending numbers as render farms read them. */
@@ -32,10 +33,20 @@ function rangeText(numbers) {
   return parts.map(([low, high]) => (low === high ? `${low}` : `${low}-${high}`)).join(",");
 }
 
-/** As --bad-frames writes them: what failed or could not be checked, by the numbers of the tests. */
+/** Nothing is wrong with the frame but faults that were accepted here. */
+function isAccepted(frame) {
+  const bad = frame.faults.filter((fault) => fault.severity === "error");
+  return frame.status === "failed" && bad.length > 0 && frame.measurements.every((one) => one.status !== "failed")
+    && bad.every((fault) => (decisionOf(frame, fault) || {}).what === "accepted");
+}
+
+const isRejected = (frame) => frame.faults.some((fault) => (decisionOf(frame, fault) || {}).what === "rejected");
+
+/** As --bad-frames writes them: what failed or could not be checked, by the numbers of the tests; without what was
+ * accepted here, and with what was rejected. */
 function badFrames() {
-  return rangeText(frames.filter((frame) => classOf(frame.status) === "failed" || classOf(frame.status) === "error")
-    .map((frame) => frame.test_frame ?? frame.frame));
+  const bad = (frame) => ["failed", "error"].includes(classOf(frame.status)) && !isAccepted(frame);
+  return rangeText(frames.filter((frame) => bad(frame) || isRejected(frame)).map((frame) => frame.test_frame ?? frame.frame));
 }
 
 function drawBadFrames() {
@@ -53,15 +64,48 @@ function drawBadFrames() {
   };
 }
 
+/** Where a fault is, in words. */
+function placeText({ rectangle, position }) {
+  if (rectangle) return `${rectangle[2]}x${rectangle[3]} at ${rectangle[0]},${rectangle[1]}`;
+  return position ? `at ${position.x},${position.y}` : "";
+}
+
+/** The faults and the largest errors of the frame, beside its picture. */
+function drawFound() {
+  const frame = frames[viewer.index];
+  const rows = marksOf(viewer.index).map((mark, i) => {
+    const { fault } = mark;
+    const decision = fault && decisionOf(frame, fault);
+    return make("li", {}, make("button", { type: "button", className: "found", "data-fault": fault ? i + 1 : null,
+      "aria-current": fault && viewer.fault === i + 1 ? "true" : null,
+      onclick: () => (fault ? chooseFault(i + 1) : showMark(mark)) },
+    make("b", { className: "label" }, mark.label),
+    make("span", {}, fault ? badge(fault.severity) : null, " ", make("strong", {}, fault ? fault.code : "largest error"),
+      fault && fault.layer ? ` in ${fault.layer}` : "", ` ${placeText(mark)}`,
+      decision ? make("em", {}, ` ${decision.what}${decision.why ? `: ${decision.why}` : ""}`) : null,
+      fault ? make("span", { className: "what" }, fault.sentence) : null)));
+  });
+  byId("found").replaceChildren(...rows);
+  byId("found-title").hidden = rows.length === 0;
+}
+
+function showMark(mark) {
+  const place = viewer.frame && viewer.frame.full ? placeOf(mark, viewer.frame.full) : null;
+  if (place) zoomOn(place);
+}
+
 function faultRow(frame, index, fault, spots) {
   const numbers = [];
   if (typeof fault.value === "number") numbers.push(`measured ${number(fault.value)}`);
   if (typeof fault.threshold === "number") numbers.push(`allowed ${number(fault.threshold)}`);
-  if (fault.position) numbers.push(`at ${fault.position.x},${fault.position.y}`);
+  if (placeText(fault)) numbers.push(placeText(fault));
   const place = fault.position && spots.filter((spot) =>
     spot.x === fault.position.x && spot.y === fault.position.y);
   return make("div", { className: "fault" },
-    make("p", {}, make("button", { type: "button", onclick: () => { select(index); byId("viewer").focus(); } },
+    make("p", {}, make("button", { type: "button", onclick: () => {
+      select(index, frame.faults.indexOf(fault) + 1);
+      byId("viewer").focus();
+    } },
       `Frame ${frameName(frame)}`), " ", badge(fault.severity), " ", make("strong", {}, fault.code),
     fault.layer ? " in " : "", fault.layer ? name(fault.layer) : ""),
     make("p", {}, fault.sentence),
@@ -117,24 +161,59 @@ const thumbnailWatcher = new IntersectionObserver((seen) => {
   }
 }, { rootMargin: "200px" });
 
+// Which frames the table has, in which order.
+const all = { order: [], text: "", status: "", sort: "frame" };
+
+function wanted(frame) {
+  if (all.status && frame.status !== all.status) return false;
+  const words = `${frameName(frame)} ${frame.status} ${frame.message} ${frame.test} ${frame.reference} `
+    + frame.faults.map((fault) => `${fault.code} ${fault.layer || ""}`).join(" ");
+  return all.text.toLowerCase().split(/\s+/).every((word) => words.toLowerCase().includes(word));
+}
+
+function sorted(list) {
+  if (all.sort === "frame") return list;
+  if (all.sort === "value") {
+    const value = (i) => valueOf(frames[i], mainPlace, mainQuantity) ?? -Infinity;
+    return list.sort((a, b) => value(b) - value(a) || a - b);
+  }
+  const rank = new Map(data.shot.worst.map((index, i) => [index, i]));
+  const place = (i) => rank.get(i) ?? Infinity;
+  return list.sort((a, b) => (place(a) === place(b) ? a - b : place(a) - place(b)));
+}
+
 /** Adds the next rows; the rest follows when the browser is idle. */
 function addRows(most) {
   const body = document.querySelector("#all tbody");
   const begin = body.children.length;
-  const rows = frames.slice(begin, begin + most).map((frame, i) => frameRow(frame, begin + i));
+  const { order } = all;
+  const rows = order.slice(begin, begin + most).map((index) => frameRow(frames[index], index));
   body.append(...rows);
   rows.forEach((row) => thumbnailWatcher.observe(row.querySelector(".picture")));
   markLists();
-  if (begin + rows.length < frames.length && most !== Infinity) requestIdleCallback(() => addRows(most));
+  if (begin + rows.length < order.length && most !== Infinity)
+    requestIdleCallback(() => { if (order === all.order) addRows(most); });
 }
 
 function drawAll() {
   const heads = ["", "Frame", "Status", mainQuantity, "What", "File"];
+  all.order = sorted(frames.map((_, i) => i).filter((i) => wanted(frames[i])));
   byId("all").replaceChildren(make("table", {}, make("thead", {}, make("tr", {},
     ...heads.map((text, i) => make("th", { scope: "col", className: i === 3 ? "value" : "" }, text)))),
   make("tbody")));
+  byId("all-count").textContent = all.order.length === frames.length ? plural(frames.length, "frame")
+    : `${all.order.length} of ${plural(frames.length, "frame")}`;
   addRows(50);
+}
+
+function startAll() {
+  const statuses = [...new Set(frames.map((frame) => frame.status))];
+  byId("filter-status").replaceChildren(make("option", { value: "" }, "every status"),
+    ...statuses.map((status) => make("option", { value: status }, status)));
+  for (const [id, key] of [["filter", "text"], ["filter-status", "status"], ["sort", "sort"]])
+    byId(id).oninput = () => { all[key] = byId(id).value; drawAll(); };
   addEventListener("beforeprint", () => addRows(Infinity));
+  drawAll();
 }
 
 function markLists() {

@@ -8,7 +8,8 @@ function read(id) {
 
 function withPosition(fault) {
   const at = fault.position;
-  return { ...fault, sentence: fault.sentence || "", position: at ? { x: at[0], y: at[1] } : null };
+  const box = Array.isArray(fault.rectangle) && fault.rectangle.length === 4 ? fault.rectangle : null;
+  return { ...fault, sentence: fault.sentence || "", rectangle: box, position: at ? { x: at[0], y: at[1] } : null };
 }
 
 const data = read("result");
@@ -20,7 +21,7 @@ const frames = data.shot.frames.map((frame) => ({ ...frame, view: frame.view || 
     worst: one.worst ? { x: one.worst[0], y: one.worst[1] } : null })) }));
 const pictures = new Map();
 
-/** The images of a frame: "full" or "small"; null where none were kept. */
+/** The images of a frame: "full", "large", "exact" or "small"; null where none were kept. */
 function picturesOf(index, size) {
   const id = `${size}-${index}`;
   if (!pictures.has(id)) {
@@ -75,8 +76,11 @@ function number(value) {
     : String(Number(value.toPrecision(4)));
 }
 
-const stops = (value) => (value > 0 ? "+" : value < 0 ? "\u2212" : "") +
-  Math.abs(Math.round(value * 10) / 10).toFixed(1);
+/** To a tenth; never "-0.0". */
+function stops(value) {
+  const tenths = Math.round(value * 10);
+  return (tenths > 0 ? "+" : tenths < 0 ? "\u2212" : "") + (Math.abs(tenths) / 10).toFixed(1);
+}
 
 const frameName = (frame) => String(frame.frame) + (frame.view ? ` ${frame.view}` : "")
   + (frame.test_frame === undefined ? "" : ` (test ${frame.test_frame})`);
@@ -154,6 +158,22 @@ function verdictOf(frame) {
   }
   const first = entries(measurement.quantities)[0];
   return first ? `${first[0]} ${number(first[1])}` : "";
+}
+
+/** What is wrong with the frame: its worst fault, and what a comparison says beside that. */
+function whyOf(frame) {
+  const fault = frame.status === "failed" && frame.faults.find(({ severity }) => severity === "error");
+  const message = frame.message || verdictOf(frame);
+  if (!fault || fault.sentence === message) return message;
+  return `${fault.code}: ${fault.sentence}${message ? `; ${message}` : ""}`;
+}
+
+/** What a quantity means, for those who do not know it. */
+function meaningOf(quantity) {
+  const percent = /^p(\d+(\.\d+)?)$/.exec(quantity);
+  if (percent) return `${quantity}: ${percent[1]} % of the pixels have no larger error.`;
+  const of = { mean: "The mean error of all pixels.", max: "The largest error of a pixel." };
+  return of[quantity] || "";
 }
 
 function plural(count, word) {

@@ -1,10 +1,11 @@
-// One frame: its images, its numbers.
+// One frame: its pictures, its faults, its numbers.
 
-// `stops` is the requested exposure; `exposure` the index of the nearest one that was drawn.
+// `frame`: what of it is decoded, null before; `fault`: the chosen one's number from 1, or 0.
 // `blink`: the timer that toggles, or null.
-const viewer = { index: 0, exposure: 0, stops: null, show: "compare", split: 50, blink: null };
+const viewer = { index: 0, frame: null, fault: 0, show: "compare", layout: "one", split: 50, blink: null };
 const SHOWS = [["compare", "Comparison"], ["error", "Error map"], ["stops", "Exposure map"],
   ["bias", "Noise or change"]];
+const CHANNELS = [["", "RGB"], ["r", "R"], ["g", "G"], ["b", "B"], ["a", "A"], ["y", "Y"]];
 
 const picture = (source, words) => make("img", { src: source, alt: words });
 
@@ -16,38 +17,46 @@ function radios(box, group, options, chosen, choose) {
   box.hidden = options.length === 0;
 }
 
+// ---- legends
+
 function legendOf(bar, low, high, words) {
   return make("div", { className: "legend", role: "img", "aria-label": words },
     make("span", {}, low), make("img", { src: bar, alt: "" }), make("span", {}, high));
 }
 
-const errorLegend = () => legendOf(data.legends.error, "0 same", "1 different",
-  "Magma colours, from black, no visible difference, to pale yellow, the largest");
+const LEGENDS = {
+  error: () => legendOf(data.legends.error, "0 same", "1 different",
+    "Magma colours, from black, no visible difference, to pale yellow, the largest"),
+  stops: ({ range: [low, high] }) => legendOf(data.legends.stops, stops(low), `${stops(high)} stops`,
+    `Viridis colours, from dark blue, ${stops(low)} stops, to yellow, ${stops(high)} stops`),
+  bias: ({ bias_range: most }) => {
+    const range = `${number(100 * most)} %`;
+    return legendOf(data.legends.bias, `\u2212${range}`, `+${range}`,
+      `From blue, ${range} darker, to orange, ${range} brighter, where that is more than noise`);
+  },
+};
 
-function stopsLegend(full) {
-  const [low, high] = full.range;
-  return legendOf(data.legends.stops, stops(low), `${stops(high)} stops`,
-    `Viridis colours, from dark blue, ${stops(low)} stops, to yellow, ${stops(high)} stops`);
-}
+// ---- wipe, toggle, blink
 
-function biasLegend(full) {
-  const range = `${number(100 * full.bias_range)} %`;
-  return legendOf(data.legends.bias, `\u2212${range}`, `+${range}`,
-    `From blue, ${range} darker, to orange, ${range} brighter, where that is more than noise`);
-}
+const isPair = () => Boolean(viewer.frame && viewer.frame.sides.reference);
 
 function setSplit(value) {
   viewer.split = Math.min(100, Math.max(0, value));
-  const left = document.querySelector(".compare .left");
-  if (!left) return;
-  left.style.clipPath = `inset(0 ${100 - viewer.split}% 0 0)`;
-  document.querySelector(".compare .edge").style.left = `${viewer.split}%`;
+  const edge = document.querySelector(".edge");
+  if (edge) edge.style.left = `${viewer.split}%`;
+  for (const [name, gone] of [["of-left", viewer.split < 3], ["of-right", viewer.split > 97]]) {
+    const tag = document.querySelector(`.tag.${name}`);
+    if (tag) tag.hidden = gone;
+  }
   byId("slide").value = viewer.split;
   byId("slide").setAttribute("aria-valuetext", `reference on the left ${Math.round(viewer.split)} %`);
+  drawPanesNow();
 }
 
 /** One picture whole, in the place of the other: the eye sees a difference that a wipe hides. */
 function toggle() {
+  if (!isPair()) return;
+  if (viewer.layout !== "one") chooseLayout("one");
   if (viewer.show !== "compare") chooseShow("compare");
   setSplit(viewer.split < 50 ? 100 : 0);
 }
@@ -60,7 +69,7 @@ function stopBlinking() {
 
 /** Twice a second, until a key or a click. */
 function blink() {
-  if (viewer.blink) {
+  if (viewer.blink || !isPair()) {
     stopBlinking();
     return;
   }
@@ -69,106 +78,126 @@ function blink() {
   byId("blink").setAttribute("aria-pressed", "true");
 }
 
-function slider(full) {
-  const at = full.exposures[viewer.exposure];
-  const words = (which) => `${which} at ${stops(at.stops)} stops`;
-  const left = picture(at.reference, words("Reference"));
-  left.className = "left";
-  const box = make("div", { className: "compare" }, picture(at.test, words("Test")), left,
-    make("div", { className: "edge" }), make("span", { className: "tag of-left" }, "Reference"),
-    make("span", { className: "tag of-right" }, "Test"));
-  const drag = (event) => {
-    if (event.type === "pointermove" && !event.buttons) return;
-    stopBlinking();
-    const area = box.getBoundingClientRect();
-    setSplit((100 * (event.clientX - area.left)) / area.width);
-    event.preventDefault();
-  };
-  box.addEventListener("pointerdown", (event) => { box.setPointerCapture(event.pointerId); drag(event); });
-  box.addEventListener("pointermove", drag);
-  for (const image of box.querySelectorAll("img")) image.draggable = false;
-  return box;
+// ---- exposure, channels
+
+/** To a tenth of a stop; null: the exposure of the frame's largest error. */
+function setStops(value) {
+  view.stops = value === null ? null : Math.min(10, Math.max(-10, Math.round(value * 10) / 10)) || 0;
+  drawExposure();
+  drawPanes();
 }
 
-/** The large image, its caption and, for the comparison, its slider. */
-function stageOf(frame, full, small) {
-  if (!full) {
-    if (!small) return [make("p", { className: "none" }, "No pictures of this frame."), "", null];
-    return [picture(small.test, "Test, thumbnail"), data.pictures.thumbnails, null];
-  }
-  if (viewer.show === "error" && full.error)
-    return [picture(full.error, "Error map"), data.pictures.error, errorLegend()];
-  if (viewer.show === "stops" && full.stops)
-    return [picture(full.stops, "Exposure map"), data.pictures.stops, stopsLegend(full)];
-  if (viewer.show === "bias" && full.bias)
-    return [picture(full.bias, "Map of noise or change"), data.pictures.bias, biasLegend(full)];
-  const at = full.exposures[viewer.exposure];
-  if (!at.reference) return [picture(at.test, `Test at ${stops(at.stops)} stops`), data.pictures.shown, null];
-  const range = make("input", { type: "range", className: "slide", id: "slide", min: 0, max: 100, step: 1,
-    "aria-label": "Where reference and test meet",
-    oninput: (event) => { stopBlinking(); setSplit(Number(event.target.value)); } });
-  return [slider(full), data.pictures.shown, range];
+function drawExposure() {
+  const shown = shownStops();
+  byId("exposure").value = shown;
+  byId("exposure").setAttribute("aria-valuetext", `${stops(shown)} stops`);
+  byId("exposure-value").textContent = `${stops(shown)}${view.stops === null ? " (worst)" : ""}`;
 }
 
-function mapFigure(source, title, legend, show) {
-  return make("figure", {}, make("h3", {}, title, make("button", { type: "button", className: "plain",
-    onclick: () => chooseShow(show), "aria-label": `${title}: show large` }, "show large")),
-  make("div", { className: "frame" }, picture(source, title)), legend);
+function setChannel(channel) {
+  view.channel = view.channel === channel ? "" : channel;
+  drawChoices();
+  drawPanes();
 }
 
+// ---- panes
+
+function panesWanted() {
+  const { sides, maps, full } = viewer.frame;
+  if (!full) return [["compare"], []];
+  const there = ["error", "stops", "bias"].filter((what) => maps[what]);
+  const pair = isPair() ? ["reference", "test"] : ["test"];
+  return viewer.layout === "side" ? [[...pair, ...there], []]
+    : [[maps[viewer.show] ? viewer.show : "compare"], there.filter((what) => what !== viewer.show)];
+}
+
+function wipeParts() {
+  return [make("div", { className: "edge", title: "Drag to wipe" }), make("span", { className: "tag of-left" }, "Reference"),
+    make("span", { className: "tag of-right" }, "Test")];
+}
+
+function paneFigure(pane) {
+  const { what } = pane;
+  const { full } = viewer.frame;
+  const title = what === "compare" && !isPair() ? "Picture" : NAMES[what];
+  pane.canvas.setAttribute("aria-label", `${title}, frame ${frameName(frames[viewer.index])}`);
+  if (pane.large && what === "compare" && isPair()) pane.box.append(...wipeParts());
+  else if (pane.large) pane.box.append(make("span", { className: "tag of-left" }, title));
+  if (pane.large && viewer.layout === "one") return pane.box;
+  const head = viewer.layout === "side" ? null : make("h3", {}, title, make("button", { type: "button", className: "plain",
+    onclick: () => chooseShow(what), "aria-label": `${title}: show large` }, "show large"));
+  return make("figure", {}, head, pane.box, LEGENDS[what] ? LEGENDS[what](full) : null);
+}
+
+const paneWatcher = new ResizeObserver(() => drawPanes());
+
+/** The panes for what the frame has; they stay while that is the same. */
 function drawPictures() {
-  const frame = frames[viewer.index];
-  const full = picturesOf(viewer.index, "full");
-  const small = picturesOf(viewer.index, "small");
-  const [large, words, below] = stageOf(frame, full, small);
-  byId("stage").className = full && full.height > full.width ? "stage tall" : "stage";
-  document.querySelector(".pictures").classList.toggle("coarse", Boolean(full) && full.width < 400);
-  byId("stage").replaceChildren(large);
-  byId("stage-caption").replaceChildren(...[below, words].filter(Boolean));
-  const maps = [];
-  if (full && full.error) maps.push(mapFigure(full.error, "Error", errorLegend(), "error"));
-  else if (!full && small && small.error)
-    maps.push(make("figure", {}, make("h3", {}, "Error"), make("div", { className: "frame" },
-      picture(small.error, "Error map, thumbnail")), errorLegend()));
-  if (full && full.stops)
-    maps.push(mapFigure(full.stops, "Exposure of the largest error", stopsLegend(full), "stops"));
-  if (full && full.bias) maps.push(mapFigure(full.bias, "Noise or change", biasLegend(full), "bias"));
-  const pair = Boolean(document.querySelector("#stage .compare"));
-  byId("toggle").disabled = byId("blink").disabled = !(full && full.exposures[0].reference);
-  if (!pair && viewer.blink) stopBlinking();
-  byId("maps").replaceChildren(...maps);
-  byId("maps").hidden = maps.length === 0;
-  byId("near").replaceChildren(...nearBoxes(frame, full));
+  const { frame } = viewer;
+  if (!frame) {
+    view.panes = [];
+    byId("stage").replaceChildren(make("p", { className: "none" }, "No pictures of this frame."));
+    byId("maps").replaceChildren();
+    byId("stage-caption").replaceChildren();
+    drawReadout();
+    return;
+  }
+  const [large, small] = panesWanted();
+  paneWatcher.disconnect();
+  const figures = [large.map((what) => makePane(what, true)), small.map((what) => makePane(what, false))];
+  view.panes = figures.flat();
+  for (const { box } of view.panes) box.style.aspectRatio = `${frame.size.width} / ${frame.size.height}`;
+  byId("stage").className = viewer.layout === "side" && frame.full ? "stage side" : "stage";
+  byId("stage").replaceChildren(...figures[0].map(paneFigure));
+  byId("maps").replaceChildren(...figures[1].map(paneFigure));
+  const shown = viewer.layout === "one" && LEGENDS[large[0]] && frame.full ? LEGENDS[large[0]](frame.full) : null;
+  byId("stage-caption").replaceChildren(...[shown, captionOf(frame, large[0])].filter(Boolean));
+  view.panes.forEach(({ box }) => paneWatcher.observe(box));
+  byId("slide").hidden = !(isPair() && viewer.layout === "one" && large[0] === "compare");
   setSplit(viewer.split);
 }
 
-function nearest(list) {
-  if (viewer.stops === null) return Math.floor(list.length / 2);
-  const away = list.map((each) => Math.abs(each.stops - viewer.stops));
-  return Math.max(0, away.indexOf(Math.min(...away)));
+/** What is shown, and how near it is to the file. */
+function captionOf(frame, what) {
+  if (!frame.full) return data.pictures.thumbnails;
+  if (viewer.layout === "one" && data.pictures[what]) return data.pictures[what];
+  const { full } = frame;
+  const parts = [`Scene-linear Rec.709${full.space && full.space !== "rec709" ? ` (from ${full.space})` : ""}, shown as sRGB.`];
+  if (frame.reduced) parts.push(`Reduced to ${data.pictures.reduced} pixels: this frame is not among the worst.`);
+  if (!wholeNumbers(frame.sides.test))
+    parts.push("Values are those of the file inside the dotted square around the worst pixel, elsewhere about right.");
+  return parts.join(" ");
 }
+
+// ---- choices
 
 function drawChoices() {
-  const full = picturesOf(viewer.index, "full");
-  const list = full ? full.exposures : [];
-  viewer.exposure = nearest(list);
-  radios(byId("exposures"), "exposure", list.map((each, i) => [i, stops(each.stops), true, `Key ${i + 1}`]),
-    viewer.exposure, chooseExposure);
-  const there = { compare: true, error: full && full.error, stops: full && full.stops, bias: full && full.bias };
-  const shows = SHOWS.filter(([key]) => key !== "bias" || there.bias);
-  radios(byId("shows"), "show", full ? shows.map(([key, text]) =>
-    [key, key === "compare" && !list[0].reference ? "Picture" : text, Boolean(there[key])]) : [],
-    there[viewer.show] ? viewer.show : "compare", chooseShow);
-}
-
-function chooseExposure(exposure) {
-  viewer.stops = picturesOf(viewer.index, "full").exposures[exposure].stops;
-  viewer.show = "compare";
-  refresh();
+  const { frame } = viewer;
+  const full = frame && frame.full;
+  const there = { compare: true, ...(full ? frame.maps : {}) };
+  const shows = SHOWS.filter(([key]) => key === "compare" || there[key]);
+  radios(byId("shows"), "show", full && shows.length > 1 ? shows.map(([key, text]) =>
+    [key, key === "compare" && !isPair() ? "Picture" : text, Boolean(there[key])]) : [],
+  there[viewer.show] ? viewer.show : "compare", chooseShow);
+  radios(byId("channels"), "channel", full ? CHANNELS.map(([key, text]) => [key, text, true,
+    key ? `Shift and ${text}` : "all channels"]) : [], view.channel, (channel) => {
+    view.channel = channel;
+    drawPanes();
+  });
+  for (const id of ["toggle", "blink"]) byId(id).disabled = !isPair();
+  byId("layout").setAttribute("aria-pressed", String(viewer.layout === "side"));
+  byId("exposures").hidden = !full;
+  for (const id of ["layout", "fit", "one-to-one"]) byId(id).disabled = !full;
 }
 
 function chooseShow(show) {
   viewer.show = show;
+  viewer.layout = "one";
+  refresh();
+}
+
+function chooseLayout(layout) {
+  viewer.layout = layout;
   refresh();
 }
 
@@ -178,34 +207,86 @@ function refresh() {
   const group = focus && focus.name;
   drawChoices();
   drawPictures();
-  if (group === "exposure" || group === "show") {
+  if (group === "show" || group === "channel") {
     const again = document.querySelector(`input[name="${group}"]:checked`);
     if (again) again.focus();
   }
 }
 
-/** "#1009", or "#1009 left" of a view: what leads to a frame. */
-const linkOf = (frame) => `#${encodeURIComponent(String(frame.frame) + (frame.view ? ` ${frame.view}` : ""))}`;
+// ---- the frame
 
-/** The frame that the page's address names, or -1. */
+/** "#1009", "#1009 left" of a view, "#1009/3" of a fault: what leads there. */
+const linkOf = (frame, fault = 0) =>
+  `#${encodeURIComponent(String(frame.frame) + (frame.view ? ` ${frame.view}` : ""))}${fault ? `/${fault}` : ""}`;
+
+/** The frame and the fault that the page's address names; the frame is -1 where it names none. */
 function linked() {
-  return frames.findIndex((frame) => linkOf(frame) === location.hash);
+  const [, head, fault] = /^(#[^/]*)(?:\/(\d+))?$/.exec(location.hash) || [null, "", 0];
+  const index = frames.findIndex((frame) => linkOf(frame) === head);
+  return { index, fault: index >= 0 && Number(fault) <= frames[index].faults.length ? Number(fault || 0) : 0 };
 }
 
-function select(index) {
-  if (index < 0 || index >= frames.length) return;
-  viewer.index = index;
-  const frame = frames[index];
+function address() {
+  const link = linkOf(frames[viewer.index], viewer.fault);
+  if (location.hash !== link) history.replaceState(null, "", link);
+}
+
+function chooseFault(number) {
+  viewer.fault = number;
+  address();
+  drawFound();
+  drawDecision();
+  const mark = marksOf(viewer.index)[number - 1];
+  const place = mark && viewer.frame && viewer.frame.full ? placeOf(mark, viewer.frame.full) : null;
+  if (place) zoomOn(place);
+  drawPanes();
+}
+
+/** The next or previous fault, in this frame or another. */
+function stepFault(by) {
+  const all = frames.flatMap((frame, index) => frame.faults.map((_, i) => ({ index, fault: i + 1 })));
+  const here = (one) => (one.index - viewer.index) * 1000 + one.fault - viewer.fault;
+  const next = by > 0 ? all.find((one) => here(one) > 0) : all.reverse().find((one) => here(one) < 0);
+  if (next) select(next.index, next.fault);
+}
+
+function drawTitle(frame) {
   byId("frame-title").replaceChildren(`Frame ${frameName(frame)} `, badge(frame.status));
-  if (location.hash !== linkOf(frame)) history.replaceState(null, "", linkOf(frame));
-  const message = frame.message || verdictOf(frame);
+  const message = whyOf(frame);
   byId("message").textContent = message;
   byId("message").classList.toggle("empty", !message);
-  byId("frame").value = index;
-  byId("previous").disabled = index === 0;
-  byId("next").disabled = index === frames.length - 1;
+  byId("frame").value = viewer.index;
+  byId("previous").disabled = viewer.index === 0;
+  byId("next").disabled = viewer.index === frames.length - 1;
+}
+
+/** Pictures are decoded meanwhile; those of the frame before stay until then. */
+async function showPictures(index) {
+  let frame = null;
+  try {
+    frame = await frameOf(index);
+  } catch (problem) {
+    byId("message").textContent = problem.message;
+  }
+  if (index !== viewer.index) return;
+  viewer.frame = frame;
+  if (!isPair() && viewer.blink) stopBlinking();
   refresh();
-  drawFacts(frame);
+  drawExposure();
+  if (viewer.fault) chooseFault(viewer.fault);
+  byId("near").replaceChildren(...nearBoxes(frames[index], frame && frame.full));
+}
+
+function select(index, fault = 0) {
+  if (index < 0 || index >= frames.length) return Promise.resolve();
+  Object.assign(viewer, { index, fault });
+  address();
+  drawTitle(frames[index]);
+  drawFound();
+  drawDecision();
+  drawFacts(frames[index]);
   markCurve();
   markLists();
+  viewer.ready = showPictures(index);
+  return viewer.ready;
 }

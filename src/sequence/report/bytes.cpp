@@ -86,4 +86,12 @@ ImageBuf colored_bytes(const ImageBuf& map, const std::string& colors, double lo
     return picture(map, bytes);
 }
 
+ImageBuf coded_bytes(const ImageBuf& map, double low, double high) {
+    const double scale = 1 / std::max(high - low, 1e-6);
+    std::vector<uint8_t> bytes;
+    for (const float value : values_of<float>(map, OIIO::TypeFloat))
+        bytes.insert(bytes.end(), 3, uint8_t(step(float((value - low) * scale), kColorSteps)));
+    return picture(map, bytes);
+}
+
 } // namespace tonetool::sequence

@@ -14,4 +14,7 @@ OIIO::ImageBuf srgb_bytes(const OIIO::ImageBuf& linear);
 OIIO::ImageBuf colored_bytes(const OIIO::ImageBuf& map, const std::string& colors, double low = 0,
                              double high = 1);
 
+/// One channel from `low` to `high` as grey codes from 0 to 255.
+OIIO::ImageBuf coded_bytes(const OIIO::ImageBuf& map, double low = 0, double high = 1);
+
 } // namespace tonetool::sequence

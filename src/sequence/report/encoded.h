@@ -8,8 +8,9 @@
 
 namespace tonetool::sequence {
 
-/// JpegMap keeps the colours of neighbours apart, for false colours.
-enum class Encoding { Jpeg, JpegMap, Png };
+/// JpegMap keeps the colours of neighbours apart, for false colours. PngBytes are no colours:
+/// nothing in the file says how to show them.
+enum class Encoding { Jpeg, JpegMap, Png, PngBytes };
 
 /// "data:image/jpeg;base64,...": the first three channels, display-encoded, 0 to 1. `quality` is
 /// JPEG's, 1 to 100. Throws a runtime_error if it cannot be encoded.

@@ -10,11 +10,14 @@
 namespace tonetool::sequence {
 
 std::vector<std::string> write_reports(const ShotResult& shot, const PictureStore& pictures,
-                                       const CheckFiles& files, std::vector<std::string>& errors) {
+                                       const CheckFiles& files, const PageLimits& limits,
+                                       std::vector<std::string>& errors) {
     std::vector<std::string> complaints;
+    if (!pictures.complaint().empty())
+        complaints.push_back(pictures.complaint());
     const auto page = files.find("report"), sheet = files.find("contactsheet");
     if (page != files.end())
-        attempt(errors, [&] { write_text(report_page(shot, pictures), page->second); });
+        attempt(errors, [&] { write_text(report_page(shot, pictures, limits), page->second); });
     if (sheet != files.end()) {
         std::string warning;
         attempt(errors, [&] {

@@ -10,7 +10,9 @@
 #include <vector>
 
 #include "sequence/page/files.h"
+#include "sequence/report/look_sentence.h"
 #include "sequence/report/report_text.h"
+#include "sequence/report/scene_pixels.h"
 #include "sequence/results/json_text.h"
 #include "sequence/results/results_json.h"
 #include "tonetool/tonetool.h"
@@ -42,8 +44,8 @@ std::vector<size_t> by_rank(const ShotResult& shot) {
 
 struct Kept {
     std::string blocks; ///< HTML elements with their data
-    std::set<size_t> full;
-    size_t small = 0;
+    std::set<size_t> full, large, exact;
+    size_t small = 0, near = 0;
 };
 
 bool is_found(const Position& at, const FrameResult& frame) {
@@ -53,12 +55,21 @@ bool is_found(const Position& at, const FrameResult& frame) {
                        [&](const Measurement& one) { return one.worst == at; });
 }
 
-// The images without those of spots that turned out to be no fault. Empty where the text is not one
-// that a store wrote: it would break the page.
-std::string trimmed(const std::string& text, const FrameResult& frame) {
-    ordered_json pictures = parsed_or_null(text);
+// The images of a text that a store wrote, null if it is not one: it would break the page.
+ordered_json images_of(const std::string& text) {
+    ordered_json images = parsed_or_null(text);
+    if (!images.is_object())
+        return nullptr;
+    for (const char* key : {"form", "of", "asked"})
+        images.erase(key);
+    return images;
+}
+
+// The images without those of spots that turned out to be no fault.
+ordered_json with_faults_only(const std::string& text, const FrameResult& frame) {
+    ordered_json pictures = images_of(text);
     if (!pictures.is_object() || !pictures.contains("spots"))
-        return "";
+        return nullptr;
     ordered_json spots = ordered_json::array();
     try {
         for (const ordered_json& spot : pictures["spots"])
@@ -67,43 +78,103 @@ std::string trimmed(const std::string& text, const FrameResult& frame) {
                     frame))
                 spots.push_back(spot);
     } catch (const std::exception&) {
-        return "";
+        return nullptr;
     }
     pictures["spots"] = spots;
-    pictures.erase("of");
-    return one_line(pictures);
+    return pictures;
 }
 
-// Adds an element of data if it fits.
-size_t put_block(std::string& blocks, const std::string& id, const std::string& text, size_t room) {
-    if (text.empty() || text.size() > room)
-        return 0;
-    blocks +=
-        format("<script type=\"application/json\" id=\"{}\">{}</script>\n", id, script_data(text));
-    return text.size();
+// Fills a page with elements of data as long as there is room.
+class Blocks {
+public:
+    explicit Blocks(size_t room) : m_room(room) {}
+
+    /// False if it does not fit, or is nothing.
+    bool put(const std::string& id, const ordered_json& images) {
+        if (images.is_null())
+            return false;
+        const std::string text = one_line(images);
+        if (text.size() > m_room)
+            return false;
+        m_html += format("<script type=\"application/json\" id=\"{}\">{}</script>\n", id,
+                         script_data(text));
+        m_room -= text.size();
+        return true;
+    }
+    size_t room() const { return m_room; }
+    void leave(size_t bytes) { m_room = bytes < m_room ? m_room - bytes : 0; }
+    void give_back(size_t bytes) { m_room += bytes; }
+    std::string html() && { return std::move(m_html); }
+
+private:
+    size_t m_room;
+    std::string m_html;
+};
+
+size_t size_of(const ordered_json& images) {
+    return images.is_null() ? 0 : one_line(images).size();
 }
 
-Kept kept(const ShotResult& shot, const PictureStore& pictures, const PageLimits& limits) {
+// Of the frames that have pictures in full some get them in the full size instead, where all the
+// others still fit.
+void put_pictures(Blocks& blocks, Kept& kept, const ShotResult& shot, const PictureStore& pictures,
+                  const std::vector<size_t>& order) {
+    std::vector<std::pair<size_t, ordered_json>> full;
+    size_t most = pictures.counts().full;
+    for (const size_t i : order) {
+        const FrameResult& frame = shot.frames[i];
+        ordered_json images = with_faults_only(pictures.text(PictureSize::Full, frame), frame);
+        const size_t size = size_of(images);
+        if (size == 0 || size > blocks.room() || full.size() == most)
+            continue;
+        blocks.leave(size);
+        full.emplace_back(i, std::move(images));
+    }
+    for (auto& [i, images] : full) {
+        const ordered_json large =
+            kept.large.size() < pictures.counts().large
+                ? images_of(pictures.text(PictureSize::Large, shot.frames[i]))
+                : nullptr;
+        const size_t before = size_of(images);
+        if (blocks.put(format("large-{}", i), large)) {
+            images.erase("pictures");
+            kept.large.insert(i);
+        }
+        kept.near += images.contains("near") ? 1 : 0;
+        blocks.give_back(before);
+        blocks.put(format("full-{}", i), images);
+        kept.full.insert(i);
+    }
+}
+
+void put_exact(Blocks& blocks, Kept& kept, const ShotResult& shot, const PictureStore& pictures) {
+    size_t tried = 0;
+    for (const size_t i : by_rank(shot)) {
+        if (tried == pictures.counts().of(PictureSize::Exact) || kept.full.count(i) == 0)
+            continue;
+        ++tried;
+        if (blocks.put(format("exact-{}", i),
+                       images_of(pictures.text(PictureSize::Exact, shot.frames[i]))))
+            kept.exact.insert(i);
+    }
+}
+
+Kept kept(const ShotResult& shot, const PictureStore& pictures, const PageLimits& limits,
+          size_t room) {
     Kept result;
     const std::vector<size_t> order = by_rank(shot);
-    size_t small = 0;
+    Blocks small(std::min(limits.small_bytes, room));
+    const size_t before = small.room();
     for (const size_t i : order) {
-        const size_t room = std::min(limits.small_bytes, limits.bytes) - small;
-        const size_t taken =
-            put_block(result.blocks, format("small-{}", i),
-                      trimmed(pictures.small(shot.frames[i]), shot.frames[i]), room);
-        result.small += taken > 0 ? 1 : 0;
-        small += taken;
+        const FrameResult& frame = shot.frames[i];
+        result.small +=
+            small.put(format("small-{}", i),
+                      with_faults_only(pictures.text(PictureSize::Small, frame), frame));
     }
-    size_t room = limits.bytes - small;
-    for (const size_t i : order) {
-        const size_t taken =
-            put_block(result.blocks, format("full-{}", i),
-                      trimmed(pictures.full(shot.frames[i]), shot.frames[i]), room);
-        if (taken > 0)
-            result.full.insert(i);
-        room -= taken;
-    }
+    Blocks large(room - (before - small.room()));
+    put_pictures(large, result, shot, pictures, order);
+    put_exact(large, result, shot, pictures);
+    result.blocks = std::move(small).html() + std::move(large).html();
     return result;
 }
 
@@ -120,10 +191,12 @@ std::string exposures_text(const ShotResult& shot) {
 
 std::string pictures_text(const ShotResult& shot, const Kept& kept, const PageLimits& limits) {
     const size_t count = shot.frames.size();
-    return format("in full of {} of {} frames, the worst first; thumbnails of {}; this file holds "
-                  "at most {} full frames and {} MB of pictures",
-                  kept.full.size(), count, kept.small, PictureStore::kMostFullFrames,
-                  limits.bytes >> 20);
+    return format(
+        "in full of {} of {} frames, the worst first, of {} of them in the size of the "
+        "file; numbers around the worst pixel of {}, of the whole frame of {}; thumbnails "
+        "of {}; this file takes at most {} MB",
+        kept.full.size(), count, kept.large.size(), kept.near, kept.exact.size(), kept.small,
+        limits.bytes >> 20);
 }
 
 using AboutRows = std::vector<std::array<std::string, 2>>;
@@ -139,10 +212,8 @@ AboutRows about(const ShotResult& shot, const Kept& kept, const PageLimits& limi
 }
 
 ordered_json captions() {
-    return {{"shown",
-             format("As compared at this exposure; large images are reduced to {} pixels. Drag "
-                    "in the picture, or use the slider.",
-                    kPictureSide)},
+    return {{"log", {kLogLow, kLogHigh}},
+            {"reduced", kPictureSide},
             {"error", "0 is no visible difference, 1 the largest. Each pixel shows the largest "
                       "error beneath it, so that a single pixel is not lost."},
             {"stops", "The exposure at which the error is largest."},
@@ -153,27 +224,40 @@ ordered_json captions() {
             {"thumbnails", "Of this frame only thumbnails were kept: it is not among the worst."}};
 }
 
+// The worst frames of which there are pictures in full.
+std::set<size_t> pictured(const ShotResult& shot, const PictureStore& pictures) {
+    std::set<size_t> found;
+    for (const size_t i : by_rank(shot))
+        if (found.size() < pictures.counts().full &&
+            !pictures.text(PictureSize::Full, shot.frames[i]).empty())
+            found.insert(i);
+    return found;
+}
+
 // Leaves out the facts of --qc, and in long shots the histograms, which would be too large.
-void trim(ordered_json& result, const Kept& kept, const PageLimits& limits) {
-    const bool many = result["frames"].size() > limits.detailed_frames;
+ordered_json trimmed(const ShotResult& shot, const PictureStore& pictures,
+                     const PageLimits& limits) {
+    ordered_json result = parse_json<ordered_json>(to_json(shot));
+    result["worst"] = shot.worst; // here they are indices
+    const bool many = shot.frames.size() > limits.detailed_frames;
+    const std::set<size_t> detailed = many ? pictured(shot, pictures) : std::set<size_t>();
     size_t index = 0;
     for (ordered_json& frame : result["frames"]) {
         frame.erase("qc");
         frame.erase("against");
-        const bool whole = !many || kept.full.count(index++) > 0;
+        const bool whole = !many || detailed.count(index++) > 0;
         for (ordered_json& measured : frame["measurements"]) {
             for (const char* key : {"histogram", "parameters", "settings"})
                 if (!whole)
                     measured.erase(key);
         }
     }
+    return result;
 }
 
-std::string data_of(const ShotResult& shot, const Kept& kept, const PageLimits& limits) {
-    ordered_json result = parse_json<ordered_json>(to_json(shot));
-    result["worst"] = shot.worst; // here they are indices
-    trim(result, kept, limits);
-    const ordered_json page{{"shot", result},
+std::string data_of(const ShotResult& shot, ordered_json result, const Kept& kept,
+                    const PageLimits& limits) {
+    const ordered_json page{{"shot", std::move(result)},
                             {"legends",
                              {{"error", legend_uri("magma")},
                               {"stops", legend_uri("viridis")},
@@ -222,9 +306,15 @@ std::string shot_name(const ShotResult& shot) {
 
 std::string report_page(const ShotResult& shot, const PictureStore& pictures,
                         const PageLimits& limits) {
-    const Kept found = kept(shot, pictures, limits);
+    ordered_json result = trimmed(shot, pictures, limits);
+    const std::string look = look_sentence(shot, result);
+    // The plain list has each frame again, and the page itself takes less than a megabyte.
+    const std::string list = list_html(shot);
+    const size_t taken = one_line(result).size() + list.size() + (size_t(1) << 20);
+    const Kept found =
+        kept(shot, pictures, limits, limits.bytes > taken ? limits.bytes - taken : 0);
     const std::string data = format("<script type=\"application/json\" id=\"result\">{}</script>\n",
-                                    script_data(data_of(shot, found, limits)));
+                                    script_data(data_of(shot, std::move(result), found, limits)));
     const std::string verdict = status_name(shot.verdict);
     return filled(page::html, {{"policy", page_policy()},
                                {"version", escaped(version())},
@@ -233,10 +323,11 @@ std::string report_page(const ShotResult& shot, const PictureStore& pictures,
                                {"verdict", escaped(verdict)},
                                {"verdict_class", page_class(shot.verdict)},
                                {"verdict_sign", page_sign(shot.verdict)},
+                               {"look", escaped(look)},
                                {"sentence", escaped(shot.sentence)},
                                {"shot", escaped(shot_name(shot))},
                                {"counts", counts_html(shot)},
-                               {"plain_list", list_html(shot)},
+                               {"plain_list", list},
                                {"licences", page::licences},
                                {"data", data + found.blocks},
                                {"chart", page::chart},

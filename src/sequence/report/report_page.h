@@ -10,11 +10,12 @@
 
 namespace tonetool::sequence {
 
-/// Bounds of the page's size: thumbnails are included first, then full images, both from the worst
-/// frame on, as long as they fit. The page says how many it holds.
+/// Bounds of the page's size: thumbnails are included first, then pictures and maps, then pictures
+/// of the full size, then numbers of all pixels, each from the worst frame on, as long as they fit.
+/// The page says how many it holds.
 struct PageLimits {
     size_t small_bytes = size_t(20) << 20; ///< size of all thumbnails
-    size_t bytes = size_t(50) << 20;       ///< size of all images
+    size_t bytes = size_t(50) << 20;       ///< size of the page
     size_t detailed_frames = 2000; ///< in larger shots frames without full images have no histogram
 };
 

@@ -4,7 +4,6 @@
 #include <OpenImageIO/imagebufalgo.h>
 #include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
 #include <stdexcept>
 
 #include "imagebuf/pixels/upright.h"
@@ -12,30 +11,21 @@
 #include "sequence/report/bytes.h"
 #include "sequence/report/encoded.h"
 #include "sequence/report/reduced.h"
-#include "sequence/results/json_text.h"
+#include "sequence/report/scene_pixels.h"
 
 namespace tonetool::sequence {
 
 namespace {
 
-using nlohmann::ordered_json;
 using OIIO::ImageBuf;
 using OIIO::ROI;
 
-constexpr int kLargeQuality = 82, kMapQuality = 85, kSmallQuality = 72;
+constexpr uint16_t kOne = 0x3c00; // as a half float
+constexpr int kLogQuality = 92, kMapQuality = 85, kSmallQuality = 72;
 
 struct Shown {
     ImageBuf reference, test; ///< 8 bits, sRGB-encoded
 };
-
-// Chooses both ends and evenly spaced exposures between them.
-std::vector<double> chosen(const std::vector<double>& exposures) {
-    const size_t n = exposures.size(), count = std::min(n, kMostExposures);
-    std::vector<double> result;
-    for (size_t i = 0; i < count; ++i)
-        result.push_back(exposures[count == 1 ? 0 : (i * (n - 1) + (count - 1) / 2) / (count - 1)]);
-    return result;
-}
 
 class Painter {
 public:
@@ -60,12 +50,11 @@ public:
     FramePictures draw() {
         FramePictures pictures;
         const PixelSize small = fitted(m_whole, kThumbnailSide);
-        const Linear linear = read(m_whole, m_request.full ? fitted(m_whole, kPictureSide) : small);
-        const std::vector<double> stops = exposures(linear);
-        const double middle = (stops.front() + stops.back()) / 2;
+        const Linear linear = read(m_whole, small);
+        const double middle = middle_exposure(linear);
         draw_small(pictures, linear, middle, small);
         if (m_request.full)
-            draw_large(pictures, linear, stops);
+            draw_large(pictures, middle);
         if (m_request.bias)
             draw_bias(pictures);
         draw_spots(pictures, middle);
@@ -96,24 +85,21 @@ private:
                    : region;
     }
 
-    std::vector<double> exposures(const Linear& linear) const {
+    double middle_exposure(const Linear& linear) const {
         if (!m_request.hdr)
-            return {0};
-        if (!m_request.exposures.empty())
-            return chosen(m_request.exposures);
+            return 0;
+        const std::vector<double>& compared = m_request.exposures;
+        if (!compared.empty())
+            return (compared.front() + compared.back()) / 2;
         std::vector<FlipExposure> found;
         std::string error;
         const ROI one_pixel(0, 1, 0, 1);
-        if (!ToneAlgo::flip_exposed(found, linear.test, linear.test, error, m_look, {}, one_pixel,
-                                    m_nthreads))
-            return {0};
-        std::vector<double> stops;
-        for (const FlipExposure& at : found)
-            stops.push_back(at.stops);
-        return chosen(stops);
+        const bool done = ToneAlgo::flip_exposed(found, linear.test, linear.test, error, m_look, {},
+                                                 one_pixel, m_nthreads);
+        return done && !found.empty() ? (found.front().stops + found.back().stops) / 2 : 0;
     }
 
-    // The pair as it is compared at one exposure: all of them together take much memory.
+    // The pair as it is compared at one exposure.
     Shown show(const Linear& linear, double stops) const {
         const ImageBuf& reference = m_request.reference ? linear.reference : linear.test;
         if (!m_request.hdr)
@@ -126,7 +112,7 @@ private:
         return {srgb_bytes(exposed.at(0).reference), srgb_bytes(exposed.at(0).test)};
     }
 
-    std::string uri(ImageBuf picture, Encoding encoding, int quality = kLargeQuality) const {
+    std::string uri(ImageBuf picture, Encoding encoding, int quality = kMapQuality) const {
         return data_uri(upright(std::move(picture), m_orientation), encoding, quality);
     }
 
@@ -151,32 +137,150 @@ private:
         }
     }
 
-    void draw_large(FramePictures& pictures, const Linear& linear,
-                    const std::vector<double>& exposures) const {
-        const PixelSize side = fitted(m_whole, kPictureSide);
-        pictures.width = side.width;
-        pictures.height = side.height;
-        if (lies_on_its_side(m_orientation))
-            std::swap(pictures.width, pictures.height);
-        for (double stops : exposures) {
-            const Shown shown = show(linear, stops);
-            pictures.exposures.push_back(
-                {stops, m_request.reference ? uri(shown.reference, Encoding::Jpeg) : "",
-                 uri(shown.test, Encoding::Jpeg)});
-        }
+    void draw_large(FramePictures& pictures, double middle) const {
+        pictures.x = m_whole.xbegin;
+        pictures.y = m_whole.ybegin;
+        pictures.width = m_whole.width();
+        pictures.height = m_whole.height();
+        pictures.orientation = m_orientation;
+        pictures.space = space_name();
+        const bool worst = m_request.stops && !m_request.spots.empty();
+        pictures.start = worst ? stops_at(m_request.spots.front(), middle) : middle;
         if (m_request.error)
-            draw_maps(pictures, side);
+            draw_maps(pictures, fitted(m_whole, kPictureSide));
+        draw_side(*m_request.test, pictures, &PairTexts::test, &NumberPictures::test);
+        if (m_request.reference) {
+            draw_side(*m_request.reference, pictures, &PairTexts::reference,
+                      &NumberPictures::reference);
+        }
+        if (pictures.near && m_request.error)
+            pictures.near->error = error_numbers(*pictures.near);
+    }
+
+    std::string space_name() const {
+        ColorChoice choice;
+        std::string ignored;
+        (void)ToneAlgo::find_color(m_request.test->spec(), m_request.look.pixels, choice, ignored);
+        return choice.space;
+    }
+
+    void draw_side(const ImageBuf& image, FramePictures& pictures, std::string PairTexts::*side,
+                   NumberTexts NumberPictures::*numbers) const {
+        const PixelOptions& options = m_request.look.pixels;
+        const ROI region = region_of(image, m_whole);
+        const PixelSize side_reduced = fitted(m_whole, kPictureSide);
+        const bool resized =
+            region.width() != m_whole.width() || region.height() != m_whole.height();
+        const PixelSize whole{m_whole.width(), m_whole.height()};
+        ScenePixels pixels = resized ? scene_means(image, options, region, whole)
+                                     : scene_pixels(image, options, region);
+        if (m_request.large)
+            pictures.large.*side = uri(log_codes(pixels), Encoding::Jpeg, kLogQuality);
+        const ScenePixels means = reduced(pixels, side_reduced);
+        pictures.pictures.*side = uri(log_codes(means), Encoding::Jpeg, kLogQuality);
+        if (std::any_of(pixels.alpha.begin(), pixels.alpha.end(),
+                        [](uint16_t half) { return half != kOne; }))
+            pictures.alpha.*side = alpha_uri(pixels);
+        draw_near(pixels, pictures, numbers);
+        if (m_request.exact == PictureRequest::Exact::All)
+            draw_exact(std::move(pixels), pictures, numbers);
+        else if (m_request.exact == PictureRequest::Exact::Means)
+            draw_exact(means, pictures, numbers);
+    }
+
+    Position centre_of_interest() const {
+        const Position centre{(m_whole.xbegin + m_whole.xend) / 2,
+                              (m_whole.ybegin + m_whole.yend) / 2};
+        return m_request.spots.empty() ? centre : m_request.spots.front();
+    }
+
+    void draw_near(const ScenePixels& pixels, FramePictures& pictures,
+                   NumberTexts NumberPictures::*numbers) const {
+        const Position at = centre_of_interest();
+        const auto along = [](int place, int size) {
+            const int side = std::min(kNearSide, size);
+            return std::clamp(place - side / 2, 0, size - side);
+        };
+        const int x = along(at.x - m_whole.xbegin, pixels.width),
+                  y = along(at.y - m_whole.ybegin, pixels.height);
+        const ROI part(x, std::min(x + kNearSide, pixels.width), y,
+                       std::min(y + kNearSide, pixels.height));
+        if (!pictures.near) {
+            pictures.near = NumberPictures{m_whole.xbegin + x,
+                                           m_whole.ybegin + y,
+                                           part.width(),
+                                           part.height(),
+                                           part.width(),
+                                           part.height(),
+                                           {},
+                                           {},
+                                           ""};
+        }
+        (*pictures.near).*numbers = number_texts(part_of(pixels, part));
+    }
+
+    void draw_exact(ScenePixels pixels, FramePictures& pictures,
+                    NumberTexts NumberPictures::*numbers) const {
+        if (!pictures.exact) {
+            pictures.exact = NumberPictures{m_whole.xbegin,
+                                            m_whole.ybegin,
+                                            m_whole.width(),
+                                            m_whole.height(),
+                                            pixels.width,
+                                            pixels.height,
+                                            {},
+                                            {},
+                                            ""};
+        }
+        (*pictures.exact).*numbers = number_texts(std::move(pixels));
+    }
+
+    NumberTexts number_texts(ScenePixels pixels) const {
+        shorten(pixels.color);
+        NumberTexts texts;
+        texts.high = uri(high_bytes(pixels), Encoding::PngBytes);
+        texts.low = uri(low_bytes(pixels), Encoding::PngBytes);
+        const auto& alpha = pixels.alpha;
+        if (alpha.empty())
+            return texts;
+        if (std::all_of(alpha.begin(), alpha.end(),
+                        [&](uint16_t one) { return one == alpha[0]; }) &&
+            std::isfinite(half_value(alpha[0])))
+            texts.one_alpha = half_value(alpha[0]);
+        else
+            texts.alpha = uri(both_bytes(alpha, pixels.width, pixels.height), Encoding::PngBytes);
+        return texts;
+    }
+
+    std::string error_numbers(const NumberPictures& near) const {
+        const ROI part(near.x, near.x + near.width, near.y, near.y + near.height,
+                       m_request.error->zbegin(), m_request.error->zend(), 0, 1);
+        std::vector<uint16_t> halves(size_t(part.width()) * size_t(part.height()));
+        if (!m_request.error->get_pixels(part, OIIO::TypeDesc::HALF, halves.data()))
+            return "";
+        shorten(halves);
+        return uri(both_bytes(halves, part.width(), part.height()), Encoding::PngBytes);
+    }
+
+    std::string alpha_uri(const ScenePixels& pixels) const {
+        std::vector<float> values;
+        values.reserve(pixels.alpha.size());
+        for (const uint16_t half : pixels.alpha)
+            values.push_back(half_value(half));
+        ImageBuf image(OIIO::ImageSpec(pixels.width, pixels.height, 1, OIIO::TypeFloat));
+        image.set_pixels(image.roi(), OIIO::TypeFloat, values.data());
+        return uri(coded_bytes(sequence::resized(image, fitted(m_whole, kPictureSide))),
+                   Encoding::Jpeg);
     }
 
     void draw_maps(FramePictures& pictures, const PixelSize& side) const {
         const ReducedMaps maps = reduced_maps(*m_request.error, m_request.stops, side);
-        pictures.error = uri(colored_bytes(maps.error, "magma"), Encoding::JpegMap, kMapQuality);
+        pictures.error = uri(coded_bytes(maps.error), Encoding::Jpeg);
         if (m_request.stops && !m_request.exposures.empty()) {
             pictures.first_stop = m_request.exposures.front();
             pictures.last_stop = m_request.exposures.back();
-            pictures.stops =
-                uri(colored_bytes(maps.stops, "viridis", pictures.first_stop, pictures.last_stop),
-                    Encoding::Jpeg, kMapQuality);
+            pictures.stops = uri(coded_bytes(maps.stops, pictures.first_stop, pictures.last_stop),
+                                 Encoding::Jpeg);
         }
     }
 
@@ -230,46 +334,10 @@ private:
     int m_orientation; ///< orientation of both images
 };
 
-ordered_json json_of(const std::vector<SpotPictures>& spots) {
-    ordered_json list = ordered_json::array();
-    for (const SpotPictures& spot : spots) {
-        list.push_back({{"x", spot.at.x},
-                        {"y", spot.at.y},
-                        {"reference", spot.reference},
-                        {"test", spot.test},
-                        {"error", spot.error}});
-    }
-    return list;
-}
-
 } // namespace
 
 FramePictures draw_pictures(const PictureRequest& request, int nthreads) {
     return Painter(request, nthreads).draw();
-}
-
-std::string full_json(const FramePictures& pictures) {
-    ordered_json to{{"width", pictures.width}, {"height", pictures.height}};
-    to["exposures"] = ordered_json::array();
-    for (const ExposurePictures& at : pictures.exposures) {
-        to["exposures"].push_back(
-            {{"stops", at.stops}, {"reference", at.reference}, {"test", at.test}});
-    }
-    to["error"] = pictures.error;
-    to["stops"] = pictures.stops;
-    to["range"] = {pictures.first_stop, pictures.last_stop};
-    if (!pictures.bias.empty()) {
-        to["bias"] = pictures.bias;
-        to["bias_range"] = pictures.bias_range;
-    }
-    to["spots"] = json_of(pictures.spots);
-    return one_line(to);
-}
-
-std::string small_json(const FramePictures& pictures) {
-    return one_line({{"test", pictures.small_test},
-                     {"error", pictures.small_error},
-                     {"spots", json_of(pictures.spots)}});
 }
 
 std::string legend_uri(const std::string& map) {

@@ -60,7 +60,7 @@ std::vector<size_t> shown_frames(const ShotResult& shot, std::string& warning) {
 }
 
 std::optional<ImageBuf> thumbnail(const FrameResult& frame, const PictureStore& pictures) {
-    const std::string text = pictures.small(frame);
+    const std::string text = pictures.text(PictureSize::Small, frame);
     const auto json = parsed_or_null(text);
     if (!json.is_object() || !json.contains("test") || !json["test"].is_string())
         return std::nullopt;

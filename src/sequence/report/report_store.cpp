@@ -4,6 +4,7 @@
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/strutil.h>
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <filesystem>
 #include <iterator>
@@ -19,7 +20,8 @@ namespace {
 
 using OIIO::Strutil::fmt::format;
 
-constexpr char kFullSize[] = "full", kSmallSize[] = "small";
+constexpr std::array<const char*, kPictureSizes> kNames{"full", "large", "exact", "small"};
+constexpr PictureSize kOfWorst[]{PictureSize::Full, PictureSize::Large, PictureSize::Exact};
 
 // The name of a view comes from the user: a / in it is written as %2f, so that it cannot lead out
 // of the folder.
@@ -46,14 +48,14 @@ std::string beginning(const FrameResult& frame) {
     measured.reference = frame.reference;
     measured.test = frame.test;
     measured.measurements = frame.measurements;
-    return format("{{\"of\":\"{:016x}\",", OIIO::Strutil::strhash(to_json(measured)));
+    return format("{{\"form\":2,\"of\":\"{:016x}\",", OIIO::Strutil::strhash(to_json(measured)));
 }
 
 } // namespace
 
-PictureStore::PictureStore(std::string folder, size_t full_frames)
+PictureStore::PictureStore(std::string folder, const PictureCounts& counts)
     : m_folder(std::move(folder)),
-      m_full_frames(full_frames) {
+      m_counts(counts) {
     std::error_code none;
     if (std::filesystem::is_symlink(std::filesystem::symlink_status(m_folder, none))) {
         throw std::runtime_error(format("\"{}\" is a symbolic link, which is not followed here "
@@ -64,112 +66,142 @@ PictureStore::PictureStore(std::string folder, size_t full_frames)
     if (!m_folder.empty() && !OIIO::Filesystem::is_directory(m_folder) &&
         !OIIO::Filesystem::create_directory(m_folder, why))
         throw std::runtime_error(format("could not make the folder \"{}\": {}", m_folder, why));
+    look_for_former_form();
+}
+
+// Version 0.1.0 kept pictures that were tone-mapped at a few exposures, which the page no longer
+// shows. Their files begin with "of".
+void PictureStore::look_for_former_form() {
+    std::error_code none;
+    if (m_folder.empty())
+        return;
+    for (const auto& entry : std::filesystem::directory_iterator(m_folder, none)) {
+        const std::string name = entry.path().string();
+        if (!OIIO::Strutil::ends_with(name, ".small.json") || !entry.is_regular_file(none) ||
+            entry.is_symlink(none))
+            continue;
+        std::array<char, 6> first{};
+        (void)OIIO::Filesystem::read_bytes(name, first.data(), first.size());
+        if (std::string(first.data(), first.size()) == "{\"of\":")
+            m_complaint = format("pictures in \"{}\" are in the form of an earlier version, which "
+                                 "cannot be shown: they are drawn anew where frames are checked, "
+                                 "and left out of a merge",
+                                 m_folder);
+        return;
+    }
 }
 
 PictureStore::Rank PictureStore::rank_of(const FrameResult& frame) {
     return {-int(frame.status), -badness(frame), frame.frame, frame.view};
 }
 
-bool PictureStore::wants_full(const FrameResult& frame) const {
+bool PictureStore::wants(PictureSize size, const FrameResult& frame) const {
     const std::lock_guard<std::mutex> lock(m_mutex);
-    return m_known.size() < m_full_frames || rank_of(frame) < *m_known.rbegin();
+    const std::set<Rank>& known = m_known[size_t(size)];
+    return known.size() < m_counts.of(size) || rank_of(frame) < *known.rbegin();
 }
 
-void PictureStore::know(const FrameResult& frame) {
-    m_known.insert(rank_of(frame));
-    if (m_known.size() > m_full_frames)
-        m_known.erase(std::prev(m_known.end()));
+void PictureStore::know(PictureSize size, const FrameResult& frame) {
+    std::set<Rank>& known = m_known[size_t(size)];
+    known.insert(rank_of(frame));
+    if (known.size() > m_counts.of(size))
+        known.erase(std::prev(known.end()));
 }
 
-bool PictureStore::insert(const FrameResult& frame) {
+bool PictureStore::insert(PictureSize size, const FrameResult& frame) {
     const Rank rank = rank_of(frame);
-    know(frame);
-    m_worst.insert(rank);
-    if (m_worst.size() > m_full_frames) {
-        const Rank best = *m_worst.rbegin();
-        m_worst.erase(best);
-        drop(key_of(std::get<2>(best), std::get<3>(best)), kFullSize);
+    know(size, frame);
+    std::set<Rank>& worst = m_worst[size_t(size)];
+    worst.insert(rank);
+    if (worst.size() > m_counts.of(size)) {
+        const Rank best = *worst.rbegin();
+        worst.erase(best);
+        drop(key_of(std::get<2>(best), std::get<3>(best)), size);
         return best != rank;
     }
     return true;
 }
 
-void PictureStore::drop(const std::string& key, const char* size) {
+void PictureStore::drop(const std::string& key, PictureSize size) {
     if (m_folder.empty())
-        m_texts.erase(key + size);
+        m_texts.erase(key + kNames[size_t(size)]);
     else
         OIIO::Filesystem::remove(file(key, size));
 }
 
+std::string PictureStore::asked() const {
+    return format("\"asked\":{},", m_counts.exact);
+}
+
 PictureTexts PictureStore::texts(const FrameResult& frame, const FramePictures& pictures) {
     const std::string start = beginning(frame);
+    const PictureTexts drawn{full_json(pictures), large_json(pictures), exact_json(pictures),
+                             small_json(pictures)};
     PictureTexts texts;
-    texts.small = start + small_json(pictures).substr(1);
-    if (!pictures.exposures.empty()) {
-        texts.full = start + full_json(pictures).substr(1);
-        const std::lock_guard<std::mutex> lock(m_mutex);
-        know(frame);
-    }
+    for (size_t i = 0; i < kPictureSizes; ++i)
+        if (!drawn[i].empty())
+            texts[i] = start + asked() + drawn[i].substr(1);
+    const std::lock_guard<std::mutex> lock(m_mutex);
+    for (const PictureSize size : kOfWorst)
+        if (!texts[size_t(size)].empty())
+            know(size, frame);
     return texts;
 }
 
 void PictureStore::add(const FrameResult& frame, const PictureTexts& pictures) {
     const std::lock_guard<std::mutex> lock(m_mutex);
     const std::string key = key_of(frame);
-    if (!pictures.full.empty() && insert(frame))
-        write(key, kFullSize, pictures.full);
-    else
-        drop(key, kFullSize);
-    write(key, kSmallSize, pictures.small);
+    for (const PictureSize size : kOfWorst) {
+        const std::string& text = pictures[size_t(size)];
+        if (!text.empty() && insert(size, frame))
+            write(key, size, text);
+        else
+            drop(key, size);
+    }
+    write(key, PictureSize::Small, pictures[size_t(PictureSize::Small)]);
 }
 
 void PictureStore::forget(const FrameResult& frame) {
     const std::lock_guard<std::mutex> lock(m_mutex);
-    drop(key_of(frame), kFullSize);
-    drop(key_of(frame), kSmallSize);
+    for (size_t i = 0; i < kPictureSizes; ++i)
+        drop(key_of(frame), PictureSize(i));
 }
 
 std::vector<std::string> PictureStore::files(int frame, const std::string& view) const {
-    if (m_folder.empty())
-        return {};
-    const std::string key = key_of(frame, view);
-    return {file(key, kFullSize), file(key, kSmallSize)};
+    std::vector<std::string> names;
+    for (size_t i = 0; i < kPictureSizes && !m_folder.empty(); ++i)
+        names.push_back(file(key_of(frame, view), PictureSize(i)));
+    return names;
 }
 
 bool PictureStore::restore(const FrameResult& frame) {
     const std::lock_guard<std::mutex> lock(m_mutex);
-    if (m_folder.empty() || read(frame, kSmallSize).empty())
+    if (m_folder.empty() ||
+        !OIIO::Strutil::starts_with(text(PictureSize::Small, frame), beginning(frame) + asked()))
         return false;
-    if (!read(frame, kFullSize).empty())
-        insert(frame);
+    for (const PictureSize size : kOfWorst)
+        if (!text(size, frame).empty())
+            insert(size, frame);
     return true;
 }
 
-std::string PictureStore::small(const FrameResult& frame) const {
-    return read(frame, kSmallSize);
+std::string PictureStore::file(const std::string& key, PictureSize size) const {
+    return m_folder + "/" + key + "." + kNames[size_t(size)] + ".json";
 }
 
-std::string PictureStore::full(const FrameResult& frame) const {
-    return read(frame, kFullSize);
-}
-
-std::string PictureStore::file(const std::string& key, const char* size) const {
-    return m_folder + "/" + key + "." + size + ".json";
-}
-
-void PictureStore::write(const std::string& key, const char* size, const std::string& text) {
+void PictureStore::write(const std::string& key, PictureSize size, const std::string& text) {
     std::string why;
     if (m_folder.empty())
-        m_texts[key + size] = text;
+        m_texts[key + kNames[size_t(size)]] = text;
     else if (!write_bytes(text, file(key, size), why, Links::Refuse))
         throw std::runtime_error(why);
 }
 
-std::string PictureStore::read(const FrameResult& frame, const char* size) const {
+std::string PictureStore::text(PictureSize size, const FrameResult& frame) const {
     const std::string key = key_of(frame);
     std::string text;
     if (m_folder.empty()) {
-        const auto found = m_texts.find(key + size);
+        const auto found = m_texts.find(key + kNames[size_t(size)]);
         text = found == m_texts.end() ? "" : found->second;
     } else if (const std::string name = file(key, size);
                std::filesystem::is_regular_file(std::filesystem::symlink_status(name))) {

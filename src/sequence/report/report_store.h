@@ -2,6 +2,8 @@
 // Keeps the images of a shot's frames while it is checked, until the report is written.
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <map>
 #include <mutex>
 #include <optional>
@@ -15,13 +17,29 @@
 
 namespace tonetool::sequence {
 
-/// The images of a frame as the page and the folder hold them.
-struct PictureTexts {
-    std::string full; ///< empty where only the thumbnails were drawn
-    std::string small;
+/// What there is of a frame, and what of all of them: `Small`.
+enum class PictureSize { Full, Large, Exact, Small };
+inline constexpr size_t kPictureSizes = 4;
+
+/// The images of a frame as the page and the folder hold them, by size; empty where nothing of it
+/// was drawn.
+using PictureTexts = std::array<std::string, kPictureSizes>;
+
+/// How many of the worst frames have what.
+struct PictureCounts {
+    size_t full = 24, large = 12;
+    /// Of the worst frame every pixel of a reduced picture has its number; or, if this is not 0,
+    /// every pixel of the file, of so many frames.
+    size_t exact = 0;
+
+    size_t of(PictureSize size) const {
+        return size == PictureSize::Full    ? full
+               : size == PictureSize::Large ? large
+                                            : std::max<size_t>(exact, 1);
+    }
 };
 
-/// Keeps the full images of the worst frames and the thumbnails of all, so that memory and disk are
+/// Keeps the images of the worst frames and the thumbnails of all, so that memory and disk are
 /// bounded; the choice does not depend on the order in which frames come. With a folder the images
 /// are files there ("0005.full.json", "0005.small.json"), so that a continued run, or a merge of
 /// the parts of several machines, finds them again. Safe to call from several threads.
@@ -31,13 +49,14 @@ public:
     /// that fails, or if the folder is a symbolic link, unless a / behind its name says that the
     /// link is meant: in a folder of --state others may have planted it. Links in place of the
     /// files are not followed, either.
-    explicit PictureStore(std::string folder = "", size_t full_frames = kMostFullFrames);
+    explicit PictureStore(std::string folder = "", const PictureCounts& counts = {});
 
-    /// Whether a frame with this status and these measurements would be kept with full images.
-    bool wants_full(const FrameResult& frame) const;
+    /// Whether a frame with this status and these measurements would be kept with such images.
+    bool wants(PictureSize size, const FrameResult& frame) const;
+    const PictureCounts& counts() const { return m_counts; }
 
-    /// Makes the texts for `add`, which may be called in another process; in this process
-    /// wants_full() knows the frame from now on.
+    /// Makes the texts for `add`, which may be called in another process; in this process wants()
+    /// knows the frame from now on.
     PictureTexts texts(const FrameResult& frame, const FramePictures& pictures);
     /// Keeps the images of a frame in place of its earlier ones. Throws a runtime_error if a file
     /// cannot be written.
@@ -49,33 +68,36 @@ public:
     void forget(const FrameResult& frame);
 
     /// Takes over the images of a frame that an earlier run has finished; false if they are not
-    /// there.
+    /// there, or were drawn for other counts.
     bool restore(const FrameResult& frame);
 
     /// The names of a frame's files; empty if images are kept in memory.
     std::vector<std::string> files(int frame, const std::string& view) const;
 
-    /// The texts of small_json() and full_json(); empty where there is none.
-    std::string small(const FrameResult& frame) const;
-    std::string full(const FrameResult& frame) const;
+    /// What was kept of a frame; empty where there is nothing.
+    std::string text(PictureSize size, const FrameResult& frame) const;
 
-    static constexpr size_t kMostFullFrames = 24;
+    /// What is wrong with what is in the folder, in words; empty: nothing is.
+    const std::string& complaint() const { return m_complaint; }
 
 private:
     using Rank = std::tuple<int, double, int, std::string>; ///< the worst first
+    using Ranks = std::array<std::set<Rank>, kPictureSizes>;
     static Rank rank_of(const FrameResult& frame);
-    bool insert(const FrameResult& frame);
-    void know(const FrameResult& frame);
-    void drop(const std::string& key, const char* size);
-    std::string file(const std::string& key, const char* size) const;
-    void write(const std::string& key, const char* size, const std::string& text);
-    std::string read(const FrameResult& frame, const char* size) const;
+    bool insert(PictureSize size, const FrameResult& frame);
+    void know(PictureSize size, const FrameResult& frame);
+    void drop(const std::string& key, PictureSize size);
+    void look_for_former_form();
+    std::string asked() const;
+    std::string file(const std::string& key, PictureSize size) const;
+    void write(const std::string& key, PictureSize size, const std::string& text);
 
     std::string m_folder;
-    size_t m_full_frames;
+    PictureCounts m_counts;
+    std::string m_complaint;
     mutable std::mutex m_mutex;
-    std::set<Rank> m_worst; ///< the frames that are kept in full
-    std::set<Rank> m_known; ///< the worst frames of those that were drawn in full
+    Ranks m_worst; ///< the frames that are kept
+    Ranks m_known; ///< the worst frames of those that were drawn
     std::map<std::string, std::string> m_texts;
 };
 

@@ -14,6 +14,7 @@
 #include "sequence/qc/qc.h"
 #include "sequence/results/automatic_limits.h"
 #include "sequence/results/measuring.h"
+#include "sequence/verdict/accepted.h"
 #include "tonetool/bias.h"
 
 namespace tonetool::sequence {
@@ -317,6 +318,7 @@ void conclude(ShotResult& shot, bool keep_records) {
     set_automatic_limits(shot.frames);
     judge_qc(shot.frames, keep_records);
     judge_against(shot.frames);
+    accept_faults(shot);
     shot.worst = by_badness(shot.frames);
     if (shot.frames.empty()) {
         shot.verdict = Status::Error;

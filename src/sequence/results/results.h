@@ -130,6 +130,15 @@ struct ShotExposures {
     }
 };
 
+/// That somebody has looked at the faults of a frame and lets them pass (--accept).
+struct Acceptance {
+    int frame = 0;
+    std::string view;
+    std::string code;  ///< of the faults
+    std::string layer; ///< empty: in any
+    std::string by, why;
+};
+
 struct ShotResult {
     /// The canonical command line: without the words that only say which frames run, how many at a
     /// time, and where results go.
@@ -143,6 +152,8 @@ struct ShotResult {
     /// Indices of the frames that did not pass, the worst first; where all did, of the frame with
     /// the largest error.
     std::vector<size_t> worst;
+
+    std::vector<Acceptance> accepted{}; ///< that conclude() heeds
 };
 
 /// Sets status and message of a frame from its measurements and faults, unless its status is
@@ -156,9 +167,9 @@ bool is_undecided(const FrameResult& frame);
 /// Whether nothing was measured of the frame although nothing is wrong with it.
 bool is_unmeasured(const FrameResult& frame);
 
-/// Sorts the frames, finds the faults of --qc anew and fills verdict, sentence and worst. A shot
-/// without any measured frame is an Error, never Passed. Throws a runtime_error if a frame is there
-/// twice.
+/// Sorts the frames, finds the faults of --qc and --against anew but for what is accepted, and fills
+/// verdict, sentence and worst. A shot without any measured frame is an Error, never Passed. Throws a
+/// runtime_error if a frame is there twice.
 /// `keep_records`: those of --qc, for the next time.
 void conclude(ShotResult& shot, bool keep_records = false);
 

@@ -8,6 +8,8 @@
 
 #include "sequence/results/json_text.h"
 #include "sequence/results/records.h"
+#include "sequence/verdict/accepted.h"
+#include "sequence/verdict/accepted_json.h"
 #include "sequence/verdict/summary.h"
 #include "sequence/verdict/trust.h"
 
@@ -306,6 +308,16 @@ ordered_json json_of(const ShotExposures& exposures) {
     return to;
 }
 
+ordered_json json_of(const Acceptance& accepted) {
+    ordered_json to{{"frame", accepted.frame}};
+    put(to, "view", accepted.view);
+    to["code"] = accepted.code;
+    put(to, "layer", accepted.layer);
+    to["by"] = accepted.by;
+    to["why"] = accepted.why;
+    return to;
+}
+
 ShotExposures exposures_of(const ordered_json& from) {
     return {number(from.at("max_luminance"), "max_luminance"),
             number(from.at("median_luminance"), "median_luminance"),
@@ -328,6 +340,8 @@ ShotResult shot_of(const std::string& text, const std::vector<std::string>& reco
         shot.check = json.at("check").get<std::vector<std::string>>();
         if (json.contains("exposures"))
             shot.exposures = exposures_of(json["exposures"]);
+        if (json.contains("accepted"))
+            shot.accepted = acceptances_in(json["accepted"]);
         each_of(json.at("frames"), "frames", [&](const ordered_json& one, const std::string&) {
             shot.frames.push_back(frame_of(one, records));
         });
@@ -360,10 +374,13 @@ void put_json(const ShotResult& shot, bool records,
                       {"verdict", status_name(shot.verdict)},
                       {"sentence", shot.sentence},
                       {"check", shot.check},
+                      {"id", check_id(shot.check)},
                       {"counts", counts_of(shot)}};
     if (shot.exposures)
         head["exposures"] = json_of(*shot.exposures);
     head["worst"] = worst_of(shot);
+    for (const Acceptance& accepted : shot.accepted)
+        head["accepted"].push_back(json_of(accepted));
     const bool any = std::any_of(shot.frames.begin(), shot.frames.end(),
                                  [](const FrameResult& frame) { return !frame.qc.empty(); });
     if (!records && any)
@@ -392,6 +409,16 @@ ShotResult shot_from_json(const std::string& from) {
         }
     }
     return shot_of(from, {});
+}
+
+std::vector<Acceptance> acceptances_in(const ordered_json& list) {
+    std::vector<Acceptance> all;
+    each_of(list, "accepted", [&](const ordered_json& one, const std::string&) {
+        all.push_back({whole_number<int>(one.at("frame"), "frame"), text(one, "view"),
+                       one.at("code").get<std::string>(), text(one, "layer"), text(one, "by"),
+                       text(one, "why")});
+    });
+    return all;
 }
 
 std::string to_json(const FrameResult& frame) {

@@ -14,10 +14,10 @@ namespace tonetool::sequence {
 inline constexpr char kResultsFormat[] = "tonetool-check";
 inline constexpr int kResultsVersion = 2;
 
-/// The text of --json: {"format", "version", "check", "verdict", "sentence", "counts",
-/// "exposures", "worst", "frames"}, with "worst" as frame numbers. Ends with a line break.
-/// Frames whose records of --qc are left out (`records`) cannot be merged, which "records": false
-/// says before them.
+/// The text of --json: {"format", "version", "verdict", "sentence", "check", "id", "counts",
+/// "exposures", "worst", "accepted", "frames"}, with "worst" as frame numbers. Ends with a line
+/// break. Frames whose records of --qc are left out (`records`) cannot be merged, which "records":
+/// false says before them.
 std::string to_json(const ShotResult& shot, bool records = true);
 /// The same in pieces, which are given to `to` in their order: a shot may have ten thousand frames.
 void put_json(const ShotResult& shot, bool records,

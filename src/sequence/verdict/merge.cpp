@@ -83,6 +83,7 @@ ShotResult merged(const std::vector<std::string>& parts, const std::vector<Item>
         }
         check_same(whole, part, first, file);
         std::move(part.frames.begin(), part.frames.end(), std::back_inserter(whole.frames));
+        std::move(part.accepted.begin(), part.accepted.end(), std::back_inserter(whole.accepted));
     }
     add_frames_without_result(whole, expected);
     conclude(whole);

@@ -12,6 +12,7 @@ namespace tonetool::sequence {
 namespace {
 
 namespace fs = OIIO::Filesystem;
+using testing::AllOf;
 using testing::HasSubstr;
 using testing::Not;
 
@@ -32,9 +33,23 @@ FrameResult frame(int number, double value) {
 // `size` is about that of a frame in the page.
 FramePictures pictures(size_t size, size_t thumbnail = 4) {
     FramePictures made;
-    made.exposures = {{0, "data:image/jpeg;base64,AAAA", std::string(size, 'A')}};
+    made.pictures = {"data:image/jpeg;base64,AAAA", std::string(size, 'A')};
     made.small_test = "data:image/jpeg;base64," + std::string(thumbnail, 'A');
     return made;
+}
+
+PictureCounts counts(size_t full) {
+    PictureCounts counts;
+    counts.full = full;
+    return counts;
+}
+
+std::string full(const PictureStore& store, const FrameResult& frame) {
+    return store.text(PictureSize::Full, frame);
+}
+
+std::string small(const PictureStore& store, const FrameResult& frame) {
+    return store.text(PictureSize::Small, frame);
 }
 
 ShotResult shot(std::vector<FrameResult> frames) {
@@ -59,17 +74,17 @@ size_t count(const std::string& text, const std::string& word) {
 
 TEST(Store, KeepsTheWorstWhateverTheOrder) {
     for (const bool forward : {true, false}) {
-        PictureStore store("", 2);
+        PictureStore store("", counts(2));
         for (int i = 0; i < 5; ++i) {
             const int number = forward ? i : 4 - i;
             store.add(frame(number, 0.1 * number), pictures(10));
         }
         for (int number = 0; number < 5; ++number) {
-            EXPECT_EQ(store.full(frame(number, 0.1 * number)).empty(), number < 3) << number;
-            EXPECT_FALSE(store.small(frame(number, 0.1 * number)).empty());
+            EXPECT_EQ(full(store, frame(number, 0.1 * number)).empty(), number < 3) << number;
+            EXPECT_FALSE(small(store, frame(number, 0.1 * number)).empty());
         }
-        EXPECT_FALSE(store.wants_full(frame(9, 0.2)));
-        EXPECT_TRUE(store.wants_full(frame(9, 0.35)));
+        EXPECT_FALSE(store.wants(PictureSize::Full, frame(9, 0.2)));
+        EXPECT_TRUE(store.wants(PictureSize::Full, frame(9, 0.35)));
     }
 }
 
@@ -87,19 +102,19 @@ protected:
 
 TEST_F(Folder, AContinuedRunFindsItsPictures) {
     {
-        PictureStore store(name + "/p", 1);
+        PictureStore store(name + "/p", counts(1));
         store.add(frame(1, 0.9), pictures(10));
         store.add(frame(2, 0.1), pictures(10));
     }
-    PictureStore store(name + "/p", 1);
+    PictureStore store(name + "/p", counts(1));
     EXPECT_TRUE(store.restore(frame(1, 0.9)));
     EXPECT_TRUE(store.restore(frame(2, 0.1)));
     EXPECT_FALSE(store.restore(frame(3, 0.1)));
-    EXPECT_FALSE(store.full(frame(1, 0.9)).empty());
-    EXPECT_TRUE(store.full(frame(2, 0.1)).empty());
+    EXPECT_FALSE(full(store, frame(1, 0.9)).empty());
+    EXPECT_TRUE(full(store, frame(2, 0.1)).empty());
     store.add(frame(4, 0.95), pictures(10));
-    EXPECT_TRUE(store.full(frame(1, 0.9)).empty());
-    EXPECT_FALSE(store.small(frame(1, 0.9)).empty());
+    EXPECT_TRUE(full(store, frame(1, 0.9)).empty());
+    EXPECT_FALSE(small(store, frame(1, 0.9)).empty());
 }
 
 TEST_F(Folder, PicturesOfWhatHasChangedSinceAreNotShown) {
@@ -109,13 +124,13 @@ TEST_F(Folder, PicturesOfWhatHasChangedSinceAreNotShown) {
     missing.frame = 1;
     missing.status = Status::Missing;
     for (const FrameResult& other : {frame(1, 0.8), missing}) {
-        EXPECT_TRUE(store.full(other).empty());
-        EXPECT_TRUE(store.small(other).empty());
+        EXPECT_TRUE(full(store, other).empty());
+        EXPECT_TRUE(small(store, other).empty());
         EXPECT_FALSE(store.restore(other));
     }
     FrameResult faulty = frame(1, 0.9);
     faulty.faults = {{"flicker", Severity::Error, "It flickers.", "", {}, {}, {}}};
-    EXPECT_FALSE(store.full(faulty).empty()); // drawn before the shot was judged
+    EXPECT_FALSE(full(store, faulty).empty()); // drawn before the shot was judged
     store.forget(missing);
     EXPECT_TRUE(files().empty());
 }
@@ -132,7 +147,7 @@ TEST_F(Folder, AViewDoesNotLeadOutOfIt) {
     FrameResult odd = frame(1, 0.9);
     odd.view = "/../../evil";
     store.add(odd, pictures(10));
-    EXPECT_FALSE(store.full(odd).empty());
+    EXPECT_FALSE(full(store, odd).empty());
     for (const std::string& file : files())
         EXPECT_THAT(file, testing::AnyOf(testing::EndsWith("/p"), HasSubstr("/p/0001.%2f%2e%2e")));
 }
@@ -186,8 +201,76 @@ TEST(Page, AThousandFramesStayBelow60MegabytesAndThePageSaysWhatIsKept) {
     EXPECT_EQ(count(page, "id=\"full-0\""), 1U);
     EXPECT_EQ(count(page, "id=\"small-0\""), 1U);
     EXPECT_THAT(data_of(page)["about"].dump(),
-                HasSubstr("in full of 7 of 1000 frames, the worst first; thumbnails of " +
-                          std::to_string(small)));
+                AllOf(HasSubstr("in full of 7 of 1000 frames, the worst first, of 0 of them"),
+                      HasSubstr("thumbnails of " + std::to_string(small))));
+}
+
+TEST(Page, PicturesOfTheFullSizeTakeThePlaceOfReducedOnesWhereAllOthersFit) {
+    PictureStore store;
+    std::vector<FrameResult> frames;
+    for (int i = 0; i < 14; ++i) {
+        FramePictures drawn = pictures(1000);
+        drawn.large = {"", "data:large-" + std::string(i == 1 ? 3 << 20 : 2000, 'A')};
+        frames.push_back(frame(i, 0.9 - 0.01 * i));
+        store.add(frames.back(), drawn);
+    }
+    PageLimits limits;
+    limits.bytes = size_t(3) << 20; // the second frame's does not fit
+    const std::string page = report_page(shot(frames), store, limits);
+    EXPECT_LT(page.size(), limits.bytes);
+    EXPECT_EQ(count(page, "id=\"full-"), 14U);
+    EXPECT_EQ(count(page, "id=\"large-"), 11U); // of the twelve worst
+    EXPECT_EQ(count(page, "id=\"large-1\""), 0U);
+    EXPECT_EQ(count(page, "\"pictures\":{\"reference\":\"data:"), 3U);
+}
+
+TEST_F(Folder, PicturesOfAnEarlierFormAreNotUsedAndThatIsSaid) {
+    fs::write_text_file(name + "/0001.small.json", "{\"of\":\"0123456789abcdef\",\"test\":\"x\"}");
+    PictureStore store(name);
+    EXPECT_THAT(store.complaint(), HasSubstr("in the form of an earlier version"));
+    EXPECT_FALSE(store.restore(frame(1, 0.9)));
+    store.add(frame(1, 0.9), pictures(10));
+    EXPECT_TRUE(store.restore(frame(1, 0.9)));
+    EXPECT_EQ(PictureStore(name).complaint(), "");
+}
+
+TEST_F(Folder, NumbersOfMoreFramesThanWereDrawnAreDrawnAnew) {
+    PictureStore(name).add(frame(1, 0.9), pictures(10));
+    PictureCounts more;
+    more.exact = 2;
+    EXPECT_FALSE(PictureStore(name, more).restore(frame(1, 0.9)));
+    EXPECT_FALSE(full(PictureStore(name, more), frame(1, 0.9)).empty()); // a merge takes them
+}
+
+FrameResult faulty(int number, const Fault& fault) {
+    FrameResult result = frame(number, 0.1);
+    result.faults = {fault};
+    judge(result);
+    return result;
+}
+
+std::string sentence(const std::vector<FrameResult>& frames) {
+    const std::string page = report_page(shot(frames), PictureStore()),
+                      open = "class=\"sentence\">";
+    const size_t begin = page.find(open) + open.size();
+    return page.substr(begin, page.find('<', begin) - begin);
+}
+
+TEST(Page, TheFirstSentenceSaysWhichFramesNeedALookAndWhy) {
+    const Fault spot{"firefly", Severity::Warning, "A firefly.", "", Position{3, 4}, {}, {}};
+    const Fault layer{"blacklayer", Severity::Error, "It is black.", "neon", {}, {}, {}};
+    FrameResult missing;
+    missing.status = Status::Missing;
+    std::vector<FrameResult> frames{frame(1, 0.1), faulty(2, spot), faulty(3, layer),
+                                    frame(4, 0.7)};
+    for (const int number : {7, 8, 10}) {
+        missing.frame = number;
+        frames.push_back(missing);
+    }
+    EXPECT_EQ(sentence(frames),
+              "6 of 7 frames need a look: 7-8 missing, 10 missing, 3 blacklayer in neon, "
+              "4 hdrflip: p99 0.7 &gt; 0.5, 2 firefly (at 3,4)");
+    EXPECT_EQ(sentence({frame(1, 0.1)}), "No frame needs a look.");
 }
 
 TEST(Page, SpotsThatTurnedOutToBeNoFaultAreLeftOut) {
@@ -223,9 +306,9 @@ TEST(Page, VeryManyFramesHaveNoHistogramsButTheWorstOnes) {
 TEST_F(Folder, ABrokenFileOfPicturesIsLeftOut) {
     PictureStore store(name);
     store.add(frame(1, 0.9), pictures(10));
-    const std::string text = store.full(frame(1, 0.9));
+    const std::string text = full(store, frame(1, 0.9));
     fs::write_text_file(name + "/0001.full.json", text.substr(0, 40));
-    fs::write_text_file(name + "/0001.small.json", store.small(frame(1, 0.9)) + "</script><b>");
+    fs::write_text_file(name + "/0001.small.json", small(store, frame(1, 0.9)) + "</script><b>");
     const std::string page = report_page(shot({frame(1, 0.9)}), store);
     EXPECT_EQ(count(page, "id=\"full-"), 0U);
     EXPECT_EQ(count(page, "id=\"small-"), 0U);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sequence/report/report_pictures.h"
 
+#include <cmath>
 #include <gmock/gmock.h>
 #include <limits>
 #include <nlohmann/json.hpp>
@@ -9,6 +10,7 @@
 #include "sequence/report/bytes.h"
 #include "sequence/report/encoded.h"
 #include "sequence/report/reduced.h"
+#include "sequence/report/scene_pixels.h"
 
 namespace tonetool::sequence {
 namespace {
@@ -122,20 +124,29 @@ TEST(Encoded, APngComesBackAsItWas) {
     EXPECT_FALSE(picture_of("no picture"));
 }
 
-TEST(Pictures, BothImagesAtFiveExposuresMapsAndTheWorstPixelFromNear) {
+// What the page makes of a code.
+double light_of(float code) {
+    return std::exp2(kLogLow + double(code) * (kLogHigh - kLogLow));
+}
+
+TEST(Pictures, LogarithmsOfBothImagesMapsAndTheWorstPixelFromNear) {
     const Compared compared;
     const FramePictures pictures = draw_pictures(compared.request());
-    ASSERT_EQ(compared.result.summary.exposures.size(), 4U);
-    ASSERT_EQ(pictures.exposures.size(), 4U);
-    EXPECT_EQ(pictures.exposures.front().stops, -2);
-    EXPECT_EQ(pictures.exposures.back().stops, 2);
     EXPECT_EQ(pictures.first_stop, -2);
+    EXPECT_EQ(pictures.last_stop, 2);
     EXPECT_EQ(pictures.width, 300);
-    const auto reference = picture_of(pictures.exposures[1].reference);
-    const auto test = picture_of(pictures.exposures[1].test);
-    ASSERT_TRUE(reference && test);
-    EXPECT_GT(test->getchannel(250, 40, 0, 0), reference->getchannel(250, 40, 0, 0) + 0.2f);
-    EXPECT_NEAR(test->getchannel(20, 150, 0, 0), reference->getchannel(20, 150, 0, 0), 0.02f);
+    EXPECT_EQ(pictures.space, "rec709");
+    EXPECT_EQ(pictures.start, compared.result.exposure_stops.getchannel(250, 40, 0, 0));
+    for (const PairTexts& pair : {pictures.pictures, pictures.large}) {
+        const auto reference = picture_of(pair.reference), test = picture_of(pair.test);
+        ASSERT_TRUE(reference && test);
+        EXPECT_NEAR(light_of(test->getchannel(20, 150, 0, 0)), 0.2, 0.02);
+        EXPECT_NEAR(light_of(reference->getchannel(250, 40, 0, 0)), 0.2, 0.02);
+        EXPECT_GT(light_of(test->getchannel(250, 40, 0, 0)), 3);
+    }
+    const auto error = picture_of(pictures.error);
+    ASSERT_TRUE(error);
+    EXPECT_NEAR(error->getchannel(250, 40, 0, 0), compared.error.getchannel(250, 40, 0, 0), 0.05);
     ASSERT_EQ(pictures.spots.size(), 1U);
     const auto near = picture_of(pictures.spots[0].test);
     ASSERT_TRUE(near);
@@ -144,16 +155,123 @@ TEST(Pictures, BothImagesAtFiveExposuresMapsAndTheWorstPixelFromNear) {
               near->getchannel(kSpotRadius - 2, kSpotRadius, 0, 0) + 0.2f);
 }
 
-TEST(Pictures, ASingleImageHasNoReferenceAndChoosesItsOwnExposures) {
+uint16_t half_at(const std::string& high, const std::string& low, int x, int y, int c) {
+    const auto byte = [&](const std::string& uri) {
+        return uint16_t(std::lround(picture_of(uri)->getchannel(x, y, 0, c) * 255));
+    };
+    return uint16_t(byte(high) << 8 | byte(low));
+}
+
+TEST(Pictures, NumbersAroundTheWorstPixelAndOfAllOfThem) {
+    const Compared compared;
+    PictureRequest request = compared.request();
+    request.exact = PictureRequest::Exact::All;
+    const FramePictures pictures = draw_pictures(request);
+    ASSERT_TRUE(pictures.near && pictures.exact);
+    EXPECT_EQ(pictures.near->x, 300 - kNearSide);
+    EXPECT_EQ(pictures.near->y, 0);
+    EXPECT_EQ(pictures.near->width, kNearSide);
+    EXPECT_EQ(pictures.near->height, 200);
+    EXPECT_EQ(pictures.exact->columns, 300);
+    const NumberTexts& test = pictures.near->test;
+    EXPECT_EQ(half_value(half_at(test.high, test.low, 250 - pictures.near->x, 40, 1)), 9);
+    // 0.2 as a half is 1.5996 / 8, whose mantissa is rounded to 7 bits here.
+    EXPECT_NEAR(half_value(half_at(test.high, test.low, 3, 4, 2)), 0.2, 0.2 / 256);
+    const NumberTexts& all = pictures.exact->test;
+    EXPECT_EQ(half_value(half_at(all.high, all.low, 250, 40, 0)), 9);
+    const double error = compared.error.getchannel(250, 40, 0, 0);
+    const auto map = picture_of(pictures.near->error);
+    ASSERT_TRUE(map);
+    const int x = 250 - pictures.near->x;
+    const auto high = std::lround(map->getchannel(x, 40, 0, 0) * 255),
+               low = std::lround(map->getchannel(x, 40, 0, 1) * 255);
+    EXPECT_NEAR(half_value(uint16_t(high << 8 | low)), error, error / 200);
+    request.exact = PictureRequest::Exact::No;
+    request.large = false;
+    const FramePictures less = draw_pictures(request);
+    EXPECT_FALSE(less.exact);
+    EXPECT_EQ(large_json(less), "");
+    EXPECT_FALSE(less.pictures.test.empty());
+}
+
+TEST(Pictures, ASingleImageHasNoReferenceAndItsMiddleFromNear) {
     const Compared compared;
     PictureRequest request;
     request.test = &compared.test;
     const FramePictures pictures = draw_pictures(request);
-    EXPECT_GE(pictures.exposures.size(), 2U);
-    EXPECT_LE(pictures.exposures.size(), kMostExposures);
-    EXPECT_TRUE(pictures.exposures[0].reference.empty());
+    EXPECT_TRUE(pictures.pictures.reference.empty());
+    EXPECT_FALSE(pictures.pictures.test.empty());
     EXPECT_TRUE(pictures.error.empty());
     EXPECT_FALSE(pictures.small_test.empty());
+    EXPECT_EQ(pictures.near->x, 150 - kNearSide / 2);
+    EXPECT_TRUE(nlohmann::json::parse(full_json(pictures))["near"]["reference"].is_null());
+}
+
+TEST(Pictures, AlphaIsANumberWhereItIsTheSameEverywhere) {
+    ImageBuf image = plain(40, 30, 4, 1);
+    image.specmod().channelnames = {"R", "G", "B", "A"};
+    image.specmod().alpha_channel = 3;
+    PictureRequest request;
+    request.test = &image;
+    FramePictures pictures = draw_pictures(request);
+    EXPECT_EQ(pictures.near->test.one_alpha, 1.0);
+    EXPECT_TRUE(pictures.alpha.test.empty());
+    const float clear[4] = {0, 0, 0, 0.25f};
+    image.setpixel(7, 8, clear);
+    pictures = draw_pictures(request);
+    EXPECT_FALSE(pictures.near->test.one_alpha);
+    const auto alpha = picture_of(pictures.near->test.alpha);
+    ASSERT_TRUE(alpha);
+    const auto high = std::lround(alpha->getchannel(7, 8, 0, 0) * 255),
+               low = std::lround(alpha->getchannel(7, 8, 0, 1) * 255);
+    EXPECT_EQ(half_value(uint16_t(high << 8 | low)), 0.25);
+    EXPECT_FALSE(pictures.alpha.test.empty());
+}
+
+TEST(ScenePixels, ColoursBecomeRec709AndWhatIsNoNumberStaysSo) {
+    ImageBuf image = plain(2, 1, 3, 0);
+    const float red[3] = {1, 0, 0}, broken[3] = {kNan, -1, 2};
+    image.setpixel(0, 0, red);
+    image.setpixel(1, 0, broken);
+    const ScenePixels stored = scene_pixels(image, {}, image.roi());
+    EXPECT_EQ(half_value(stored.color[0]), 1);
+    EXPECT_TRUE(std::isnan(half_value(stored.color[3])));
+    EXPECT_EQ(half_value(stored.color[4]), -1);
+    image.specmod().attribute("oiio:ColorSpace", "acescg");
+    const ScenePixels converted = scene_pixels(image, {}, image.roi());
+    EXPECT_NEAR(half_value(converted.color[0]), 1.705, 0.003); // AP1 to Rec.709, D60 to D65
+    EXPECT_EQ(half_value(converted.color[1]), 0);              // -0.13
+    EXPECT_TRUE(std::isnan(half_value(converted.color[3])));
+    EXPECT_TRUE(stored.alpha.empty());
+}
+
+TEST(ScenePixels, MantissasAreRoundedAndNothingElse) {
+    for (uint32_t half = 0; half < 65536; ++half) {
+        std::vector<uint16_t> one{uint16_t(half)};
+        shorten(one);
+        const float before = half_value(uint16_t(half)), after = half_value(one[0]);
+        if (!std::isfinite(before)) {
+            EXPECT_EQ(one[0], half);
+            continue;
+        }
+        EXPECT_TRUE(std::isfinite(after)) << half;
+        EXPECT_EQ(std::signbit(before), std::signbit(after));
+        // Half a step of 7 bits; the numbers below 2^-14 have a step of their own.
+        EXPECT_NEAR(after, before, std::max(std::abs(before) / 256, std::ldexp(1.0f, -22))) << half;
+    }
+}
+
+TEST(ScenePixels, LogarithmsAreFromATenthOfAPercentTo256) {
+    ScenePixels pixels;
+    pixels.width = 2;
+    pixels.height = 1;
+    pixels.color = {0, 0x3c00, 0xbc00, 0x7bff, 0x7e00, 0x1400}; // 0, 1, -1, 65504, NaN, 2^-10
+    const ImageBuf codes = log_codes(pixels);
+    std::vector<int> found;
+    for (int x = 0; x < 2; ++x)
+        for (int c = 0; c < 3; ++c)
+            found.push_back(int(std::lround(codes.getchannel(x, 0, 0, c) * 255)));
+    EXPECT_EQ(found, (std::vector<int>{0, 142, 0, 255, 0, 0})); // 10 / 18 of 255 is 141.7
 }
 
 TEST(Pictures, ThumbnailsAloneWhereThatIsAskedFor) {
@@ -161,7 +279,9 @@ TEST(Pictures, ThumbnailsAloneWhereThatIsAskedFor) {
     PictureRequest request = compared.request();
     request.full = false;
     const FramePictures pictures = draw_pictures(request);
-    EXPECT_TRUE(pictures.exposures.empty());
+    EXPECT_EQ(full_json(pictures), "");
+    EXPECT_EQ(large_json(pictures), "");
+    EXPECT_EQ(exact_json(pictures), "");
     const auto small = picture_of(pictures.small_test);
     ASSERT_TRUE(small);
     EXPECT_EQ(small->spec().width, kThumbnailSide);
@@ -185,7 +305,7 @@ TEST(Pictures, ABlackImageAndOneWithoutColour) {
     const ImageBuf black = plain(40, 30, 3, 0), depth = plain(40, 30, 1, 1);
     PictureRequest request;
     request.test = &black;
-    EXPECT_EQ(draw_pictures(request).exposures.size(), 1U);
+    EXPECT_EQ(draw_pictures(request).start, 0);
     ImageBuf z = depth;
     z.specmod().channelnames = {"Z"};
     request.test = &z;

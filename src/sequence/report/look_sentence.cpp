@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sequence/report/look_sentence.h"
+
+#include <OpenImageIO/strutil.h>
+#include <algorithm>
+#include <set>
+#include <vector>
+
+namespace tonetool::sequence {
+
+namespace {
+
+using nlohmann::ordered_json;
+using OIIO::Strutil::fmt::format;
+
+constexpr size_t kMostReasons = 6;
+
+std::string place_of(const ordered_json& fault) {
+    if (fault.contains("rectangle")) {
+        const ordered_json& at = fault["rectangle"];
+        return format(" ({}x{} at {},{})", at.at(2).get<int>(), at.at(3).get<int>(),
+                      at.at(0).get<int>(), at.at(1).get<int>());
+    }
+    if (fault.contains("position")) {
+        return format(" (at {},{})", fault["position"].at(0).get<int>(),
+                      fault["position"].at(1).get<int>());
+    }
+    return "";
+}
+
+std::string reason_of(const Fault& fault, const ordered_json& json) {
+    return fault.code + (fault.layer.empty() ? "" : " in " + fault.layer) + place_of(json);
+}
+
+std::string reason_of(const FrameResult& frame, const ordered_json& json) {
+    if (frame.status > Status::Failed)
+        return status_name(frame.status);
+    // A fault says what is wrong, a limit only that something is.
+    const Severity wanted = frame.status == Status::Failed ? Severity::Error : Severity::Warning;
+    for (size_t i = 0; i < frame.faults.size(); ++i)
+        if (frame.faults[i].severity == wanted)
+            return reason_of(frame.faults[i], json.at("faults").at(i));
+    return frame.message;
+}
+
+// Frames one after another with the same reason.
+struct Run {
+    const FrameResult *first, *last;
+    std::string reason;
+};
+
+std::string name_of(const FrameResult& frame) {
+    return std::to_string(frame.frame) + (frame.view.empty() ? "" : " " + frame.view);
+}
+
+std::string text_of(const Run& run) {
+    return name_of(*run.first) + (run.first == run.last ? "" : "-" + name_of(*run.last)) + " " +
+           run.reason;
+}
+
+std::vector<Run> runs_of(const ShotResult& shot, const ordered_json& result) {
+    std::vector<Run> runs;
+    for (size_t i = 0; i < shot.frames.size(); ++i) {
+        const FrameResult& frame = shot.frames[i];
+        if (frame.status <= Status::Measured)
+            continue;
+        const std::string reason = reason_of(frame, result.at("frames").at(i));
+        const bool next = !runs.empty() && runs.back().reason == reason &&
+                          runs.back().last + 1 == &frame &&
+                          runs.back().last->frame + 1 == frame.frame && frame.view.empty();
+        if (next)
+            runs.back().last = &frame;
+        else
+            runs.push_back({&frame, &frame, reason});
+    }
+    std::stable_sort(runs.begin(), runs.end(),
+                     [](const Run& a, const Run& b) { return a.first->status > b.first->status; });
+    return runs;
+}
+
+std::string accepted_text(const ShotResult& shot) {
+    std::set<size_t> frames;
+    for (const Acceptance& accepted : shot.accepted)
+        for (size_t i = 0; i < shot.frames.size(); ++i)
+            if (shot.frames[i].frame == accepted.frame && shot.frames[i].view == accepted.view)
+                frames.insert(i);
+    return frames.empty() ? ""
+                          : format("; faults of {} {} accepted", frames.size(),
+                                   frames.size() == 1 ? "frame are" : "frames are");
+}
+
+} // namespace
+
+std::string look_sentence(const ShotResult& shot, const ordered_json& result) {
+    const std::vector<Run> runs = runs_of(shot, result);
+    const size_t all = shot.frames.size();
+    if (runs.empty()) {
+        const char* what = shot.verdict == Status::Passed
+                               ? "No frame needs a look"
+                               : "Measured only: no limit says which frames need a look";
+        return what + accepted_text(shot) + ".";
+    }
+    const auto bad = std::count_if(shot.frames.begin(), shot.frames.end(), [](const auto& frame) {
+        return frame.status > Status::Measured;
+    });
+    if (all == 1 && shot.frames.front().frame == 0)
+        return "The image needs a look: " + runs.front().reason + accepted_text(shot);
+    std::vector<std::string> texts;
+    size_t told = 0;
+    for (size_t i = 0; i < std::min(kMostReasons, runs.size()); ++i) {
+        texts.push_back(text_of(runs[i]));
+        told += size_t(runs[i].last - runs[i].first) + 1;
+    }
+    if (told < size_t(bad))
+        texts.push_back(format("... {} more", size_t(bad) - told));
+    return format("{} of {} frames {} a look: {}{}", bad, all, bad == 1 ? "needs" : "need",
+                  OIIO::Strutil::join(texts, ", "), accepted_text(shot));
+}
+
+} // namespace tonetool::sequence
