@@ -49,13 +49,13 @@ void push_given(Session& session, OIIO::ImageBuf& pixels, size_t index) {
     const bool unread = pixels.spec().undefined() || pixels.storage() == OIIO::ImageBuf::IMAGECACHE;
     const OIIO::ImageSpec native = unread ? pixels.nativespec() : pixels.spec();
     const std::string name = pixels.name().empty() ? which : std::string(pixels.name());
+    const auto integers = chain::integers_of(native, std::string(pixels.file_format_name()));
     read_given(pixels, which);
     const DataFormat format{native.format, {}, native.get_int_attribute("oiio:BitsPerSample")};
-    const bool integer = !native.format.is_floating_point();
     std::vector<OIIO::ImageBuf> levels(1);
     const bool is_float = pixels.spec().deep || pixels.spec().format == OIIO::TypeFloat;
     levels[0] = is_float ? std::move(pixels) : pixels.copy(OIIO::TypeFloat);
-    auto part = std::make_shared<Part>(std::move(levels), format, integer);
+    auto part = std::make_shared<Part>(std::move(levels), format, integers);
     session.stack.types.widest = format;
     session.stack.first_header = session.stack.first_header.value_or(part->header());
     session.stack.push(std::make_shared<Image>(name, std::vector<PartPtr>{part}));

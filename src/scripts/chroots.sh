@@ -36,9 +36,12 @@ in_chroot() {
         mount --bind "$tree" "$root/tonetool"
         mount -o remount,bind,ro "$root/tonetool"
         mount --bind "$root/build" "$root/tonetool/build"
-        exec chroot "$root" /usr/bin/env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin HOME=/root \
+        # This shell stays, to take in processes whose parents are gone, as the first of a system
+        # must: Slurm waits for jobs that it has killed until they are.
+        chroot "$root" /usr/bin/env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin HOME=/root \
             LANG=C.UTF-8 TERM="${TERM:-dumb}" ${http_proxy:+http_proxy="$http_proxy"} \
             CXX="${CXX:-g++}" DEBIAN_FRONTEND=noninteractive "$@"
+        exit
     ' bash "$root" "$tree" "$chroots/archives" "$@"
 }
 

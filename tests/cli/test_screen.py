@@ -297,10 +297,22 @@ def test_colour_is_decoded_before_it_is_associated(tonetool, make_image, kind, e
     stored = np.concatenate([straight[..., :3] * straight[..., 3:], straight[..., 3:]], -1)
     make_image(f"b.{extension}", channels=RGB + ["A"], kind=kind, pixels=stored)
     tonetool("a.exr", f"b.{extension}", f"--ldrflip:fail={limit}")
-    tonetool(f"b.{extension}", "--tonemap:curve=linear:encode=none", "-o", "c.exr")
-    assert np.abs(read("c.exr")[0][..., :3] - light[..., :3]).max() < 0.02
+    for before in ([], ["--flop", "--flop"]): # also of what a command made of it
+        tonetool(f"b.{extension}", *before, "--tonemap:curve=linear:encode=none", "-o", "c.exr")
+        assert np.abs(read("c.exr")[0][..., :3] - light[..., :3]).max() < 0.02
     # A decoded image is one.
     tonetool("a.exr", "c.exr", "--hdrflip:fail=0.05")
+
+
+def test_gamma_is_applied_before_colour_is_associated(tonetool, make_image, png_with, read):
+    straight = np.random.default_rng(7).random((12, 16, 4))
+    straight[..., 3] = 0.5 + straight[..., 3] / 2
+    stored = np.concatenate([straight[..., :3] * straight[..., 3:], straight[..., 3:]], -1)
+    make_image("plain.png", channels=RGB + ["A"], kind="uint16", pixels=stored)
+    tagged = png_with("plain.png", "tagged.png", gamma(1.8))
+    tonetool(tagged, "--tonemap:curve=linear:encode=none", "-o", "light.exr")
+    light = straight[..., :3] ** 1.8 * straight[..., 3:]
+    assert np.abs(read("light.exr")[0][..., :3] - light).max() < 0.002
 
 
 def test_grey_pictures_and_data(tonetool, make_image, read):

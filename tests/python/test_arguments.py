@@ -160,7 +160,14 @@ def cut(tmp_path, name, image, share=0.6):
     return oiio.ImageBuf(str(path))
 
 
-@pytest.mark.parametrize("name, kind", [("cut.exr", np.float32), ("cut.tif", np.float32), ("cut.png", np.uint8)])
+CUT = [("cut.exr", np.float32), ("cut.png", np.uint8)]
+# ImageBuf says of a TIFF file that it was read whole. That of OpenImageIO 2.4 leaves the pixels in the
+# file until they are wanted, so that they can be read otherwise; that of 2.5 reads them at once.
+if oiio.VERSION < 20500:
+    CUT.append(("cut.tif", np.float32))
+
+
+@pytest.mark.parametrize("name, kind", CUT)
 @pytest.mark.parametrize("call", [
     tonetool.encode_srgb, tonetool.image, tonetool.tonemap, tonetool.luminance_stats,
     lambda b: tonetool.tonemap(b, calibration="mean"), lambda b: tonetool.calibrate(b, pixels={"from": "rec709"}),
@@ -171,7 +178,7 @@ def test_truncated_file(tmp_path, noise, name, kind, call):
     broken = cut(tmp_path, name, (noise * 255).astype(kind) if kind == np.uint8 else noise)
     with pytest.raises(tonetool.Error, match=re.escape(name)):
         call(broken)
-    if not broken.read(force=True):  # of a TIFF file OpenImageIO 2.4 says that it was read
+    if not broken.read(force=True):
         broken.geterror()  # whoever looks at it takes it
         with pytest.raises(tonetool.Error, match=re.escape(name)):
             call(broken)

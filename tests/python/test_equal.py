@@ -69,6 +69,24 @@ def test_tonemap(pair, program, tmp_path):
     assert type(found.image) is type(ref) and found.summary.curve == "agx"
 
 
+@pytest.mark.parametrize("extension", ["png", "tif"])
+def test_tonemap_of_integers_with_alpha(extension, program, tmp_path):
+    file = str(tmp_path / f"straight.{extension}")
+    pixels = np.random.default_rng(8).random((12, 16, 4), np.float32)
+    pixels[..., 3] = 0.5 + pixels[..., 3] / 2
+    pixels[..., :3] *= pixels[..., 3:]
+    out = oiio.ImageOutput.create(file)
+    assert out.open(file, oiio.ImageSpec(16, 12, 4, "uint16"))
+    assert out.write_image(pixels)
+    out.close()
+    command = "--tonemap:curve=linear:encode=none"
+    program(file, command, "-d", "float", "-o", "light.exr")
+    found = tonetool.tonemap(oiio.ImageBuf(file), curve="linear", encode="none")
+    assert same(found.image, tmp_path / "light.exr")
+    (light,) = tonetool.chain(command, [oiio.ImageBuf(file)]).images
+    assert same(light, tmp_path / "light.exr")
+
+
 def test_tonemap_measured(pair, program, tmp_path):
     ref_file, _, ref, _ = pair
     program(ref_file, "--tonemap:curve=drago:method=mean:key=1:white=max:encode=none:clamp=0", "-d",

@@ -104,20 +104,26 @@ OIIO::ImageBuf black_image(const OIIO::ImageSpec& spec, const std::string& file)
 
 } // namespace
 
-Part::Part(std::string file, int subimage, std::vector<OIIO::ImageSpec> levels, ReadOptions how)
+Integers integers_of(const OIIO::ImageSpec& header, const std::string& file_format) {
+    if (header.format.is_floating_point())
+        return Integers::None;
+    return oiio::encodes_with_alpha(header, file_format) ? Integers::Light : Integers::Encoded;
+}
+
+Part::Part(std::string file, int subimage, std::vector<OIIO::ImageSpec> levels, Integers integers,
+           ReadOptions how)
     : m_headers(std::move(levels)),
       m_format(format_of(m_headers.front())),
       m_file(std::move(file)),
       m_state(state_of(m_file)),
       m_how(std::move(how)),
       m_subimage(subimage),
-      m_integer_encoded(!m_headers.front().format.is_floating_point()),
+      m_integers(integers),
       m_pixels(m_headers.size()) {}
 
-Part::Part(std::vector<OIIO::ImageBuf> levels, std::optional<DataFormat> format,
-           bool integer_encoded)
+Part::Part(std::vector<OIIO::ImageBuf> levels, std::optional<DataFormat> format, Integers integers)
     : m_format(std::move(format)),
-      m_integer_encoded(integer_encoded),
+      m_integers(integers),
       m_pixels(std::move(levels)) {
     for (OIIO::ImageBuf& level : m_pixels) {
         level.specmod().erase_attribute(kStoredType); // left over from the view that it was made of
@@ -126,8 +132,8 @@ Part::Part(std::vector<OIIO::ImageBuf> levels, std::optional<DataFormat> format,
 }
 
 PartPtr Part::with_headers(PartPtr source, const std::function<void(OIIO::ImageSpec&)>& edit) {
-    auto part = std::make_shared<Part>(std::vector<OIIO::ImageBuf>(), source->m_format,
-                                       source->m_integer_encoded);
+    auto part =
+        std::make_shared<Part>(std::vector<OIIO::ImageBuf>(), source->m_format, source->m_integers);
     part->m_headers = source->m_headers;
     part->m_pixels.resize(source->m_pixels.size());
     std::for_each(part->m_headers.begin(), part->m_headers.end(), edit);
@@ -196,11 +202,12 @@ void Part::read(int level) {
 
 void Part::tag_encoding(OIIO::ImageSpec& spec) const {
     bool told = spec.find_attribute("oiio:ColorSpace") || spec.find_attribute("chromaticities");
-    if (!m_integer_encoded)
+    if (!integer_encoded())
         return;
     if (!told)
         spec.attribute("oiio:ColorSpace", "sRGB");
-    if (!spec.find_attribute("tonemap:curve")) // whose colour was encoded with its alpha in it
+    // Colour that was encoded with its alpha in it is decoded so.
+    if (m_integers == Integers::Encoded && !spec.find_attribute("tonemap:curve"))
         spec.attribute(kStoredType, m_format ? m_format->type.c_str() : "uint8");
 }
 
@@ -248,8 +255,9 @@ ImagePtr Image::open(const std::string& filename, const ReadOptions& how) {
     auto input = open_input(filename, how);
     std::vector<PartPtr> parts;
     for (int subimage = 0; input->seek_subimage(subimage, 0); ++subimage) {
-        parts.push_back(std::make_shared<Part>(filename, subimage,
-                                               level_headers(*input, filename, subimage), how));
+        const Integers integers = integers_of(input->spec(), input->format_name());
+        parts.push_back(std::make_shared<Part>(
+            filename, subimage, level_headers(*input, filename, subimage), integers, how));
     }
     (void)input->geterror();
     if (parts.empty())
@@ -285,7 +293,7 @@ ImagePtr Image::derived(const Image& from, std::vector<std::vector<OIIO::ImageBu
     for (std::vector<OIIO::ImageBuf>& levels : subimages) {
         const Part& source = from.part(std::min(parts.size(), from.part_count() - 1));
         std::optional<DataFormat> own = source.from_file() ? std::nullopt : source.format();
-        parts.push_back(std::make_shared<Part>(std::move(levels), own, source.integer_encoded()));
+        parts.push_back(std::make_shared<Part>(std::move(levels), own, source.integers()));
     }
     return std::make_shared<Image>(from.name(), std::move(parts));
 }
@@ -299,7 +307,7 @@ ImagePtr Image::derived(const Image& from, OIIO::ImageBuf pixels) {
 ImagePtr Image::created(std::string name, OIIO::ImageBuf pixels, std::optional<DataFormat> format) {
     std::vector<OIIO::ImageBuf> levels;
     levels.push_back(std::move(pixels));
-    auto part = std::make_shared<Part>(std::move(levels), std::move(format), false);
+    auto part = std::make_shared<Part>(std::move(levels), std::move(format), Integers::None);
     return std::make_shared<Image>(std::move(name), std::vector<PartPtr>{part});
 }
 

@@ -28,6 +28,16 @@ struct ReadOptions {
     OIIO::TypeDesc type = OIIO::TypeFloat; ///< unknown: the file's own
 };
 
+/// Whether values come from an integer file, and what its reader multiplied by alpha.
+enum class Integers {
+    None,
+    Encoded, ///< the encoded values
+    Light    ///< light, which was encoded after that
+};
+
+/// The integers of a file of that format with this header.
+Integers integers_of(const OIIO::ImageSpec& header, const std::string& file_format);
+
 /// The time and size of a file, which tell whether it is still the one that was opened.
 struct FileState {
     std::filesystem::file_time_type written{};
@@ -39,11 +49,11 @@ struct FileState {
 class Part {
 public:
     /// A subimage of a file, whose levels have these headers.
-    Part(std::string file, int subimage, std::vector<OIIO::ImageSpec> levels, ReadOptions how);
+    Part(std::string file, int subimage, std::vector<OIIO::ImageSpec> levels, Integers integers,
+         ReadOptions how);
     /// Pixels that a command made, one ImageBuf for each level. Without a format they are written
     /// in the widest data type of the images that were read.
-    Part(std::vector<OIIO::ImageBuf> levels, std::optional<DataFormat> format,
-         bool integer_encoded);
+    Part(std::vector<OIIO::ImageBuf> levels, std::optional<DataFormat> format, Integers integers);
 
     /// The same pixels under headers that `edit` changes in anything but their size and type.
     static std::shared_ptr<Part> with_headers(std::shared_ptr<Part> source,
@@ -56,7 +66,8 @@ public:
     const std::optional<DataFormat>& format() const { return m_format; }
     bool from_file() const { return m_source ? m_source->from_file() : !m_file.empty(); }
     /// The values come from an integer file: display-encoded unless the header says otherwise.
-    bool integer_encoded() const { return m_integer_encoded; }
+    bool integer_encoded() const { return m_integers != Integers::None; }
+    Integers integers() const { return m_integers; }
 
     /// The pixels as float (deep images in their own types). Throws a CommandError if they cannot
     /// be read.
@@ -91,7 +102,7 @@ private:
     FileState m_state; ///< of the file when its header was read
     ReadOptions m_how;
     int m_subimage = 0;
-    bool m_integer_encoded = false;
+    Integers m_integers = Integers::None;
     /// Of the MIP levels; an uninitialized one has not been read yet.
     std::vector<OIIO::ImageBuf> m_pixels;
     std::shared_ptr<OIIO::ImageCache> m_cache; ///< of the header, for color_source

@@ -46,7 +46,7 @@ const Entry kEnvironment[] = {
      "Folders in which OpenImageIO looks for plugins; a program that is to read "
      "recipes finds tone.imageio.so there. --doctor says whether it does."},
     {"OPENIMAGEIO_THREADS", "Number of threads, where --threads says none."},
-    {"OPENIMAGEIO_FONTS", "Folders of fonts for --text and --filmstrip."}};
+    {"OPENIMAGEIO_FONTS", "Folders of fonts for --text and --contactsheet."}};
 
 const Entry kFiles[] = {
     {"*.tone", "Recipes: command lines that are read as images. See --help recipes."},
@@ -114,18 +114,21 @@ std::string topic_sections() {
     return text;
 }
 
+// Flush left: groff 1.23 takes the string AD in each paragraph, older ones keep the request.
+constexpr const char* kFlushLeft = ".ds AD l\n.ad l\n";
+
 } // namespace
 
 std::string man_page() {
-    return ".TH TONETOOL 1 \"\" \"tonetool " TONETOOL_VERSION "\" \"User Commands\"\n.ad l\n" +
-           section("NAME") + "tonetool \\- compare and tone map HDR images\n" +
-           section("SYNOPSIS") + ".B tonetool\n[\\fIfilename\\fR|\\fIcommand\\fR]...\n" +
-           section("DESCRIPTION") + verbatim(usage_text().substr(usage_text().find('\n') + 1)) +
-           section("EXAMPLES") + entries(kExamples) + section("SUBJECTS") + topic_sections() +
-           section("COMMANDS") + command_sections() + section("EXIT STATUS") +
-           verbatim(kExitStatusText) + section("ENVIRONMENT") + entries(kEnvironment) +
-           section("FILES") + entries(kFiles) + section("SEE ALSO") +
-           ".BR oiiotool (1),\n.BR idiff (1),\n.BR iinfo (1)\n";
+    return ".TH TONETOOL 1 \"\" \"tonetool " TONETOOL_VERSION "\" \"User Commands\"\n" +
+           std::string(kFlushLeft) + section("NAME") +
+           "tonetool \\- compare and tone map HDR images\n" + section("SYNOPSIS") +
+           ".B tonetool\n[\\fIfilename\\fR|\\fIcommand\\fR]...\n" + section("DESCRIPTION") +
+           verbatim(usage_text().substr(usage_text().find('\n') + 1)) + section("EXAMPLES") +
+           entries(kExamples) + section("SUBJECTS") + topic_sections() + section("COMMANDS") +
+           command_sections() + section("EXIT STATUS") + verbatim(kExitStatusText) +
+           section("ENVIRONMENT") + entries(kEnvironment) + section("FILES") + entries(kFiles) +
+           section("SEE ALSO") + ".BR oiiotool (1),\n.BR idiff (1),\n.BR iinfo (1)\n";
 }
 
 } // namespace tonetool::chain

@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "imagebuf/pixels/guard.h"
+#include "imagebuf/pixels/label_font.h"
 #include "imagebuf/pixels/oiio_compat.h"
 #include "imagebuf/pixels/upright.h"
 #include "metrics/refusal.h"
@@ -23,20 +24,14 @@ using OIIO::Strutil::fmt::format;
 using ToneAlgo::FilmstripOptions;
 namespace IBA = OIIO::ImageBufAlgo;
 
-constexpr const char* kFonts[] = {"/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf",
-                                  "/usr/share/fonts/dejavu/DejaVuSans.ttf",
-                                  "/usr/share/fonts/TTF/DejaVuSans.ttf"};
 constexpr double kMostPixels = 1 << 28;
 constexpr float kBackground[3] = {0.13f, 0.13f, 0.13f};
 constexpr float kInk[3] = {0.9f, 0.9f, 0.9f};
 
 std::string find_font(const std::string& asked) {
-    if (!asked.empty())
-        return OIIO::Filesystem::is_regular(asked) ? asked : "";
-    for (const char* font : kFonts)
-        if (OIIO::Filesystem::is_regular(font))
-            return font;
-    return "";
+    if (asked.empty())
+        return label_font_file();
+    return OIIO::Filesystem::is_regular(asked) ? asked : "";
 }
 
 // Where everything goes, in pixels.

@@ -15,6 +15,11 @@
 //   PNM files       2.5 writes all of them from the last row to the first, as only those of floats
 //                   are; it reads those of floats that way too, unless they are opened with a
 //                   configuration. 2.4 writes 8 bits whatever is asked for, 2.5 16 and floats too.
+//   PNG files       2.5.14 multiplies light by alpha, and encodes it again; before, the encoded
+//   values
+//                   were multiplied.
+//   ImageBuf(name)  2.5 reads the pixels at once; in 2.4 they stay in the file, behind an
+//   ImageCache. fonts           2.5 looks for them by name in a few folders, not in those below.
 //   origins         2.5 numbers rows from 0 in formats that have no origin, 2.4 from the image's.
 //   names           TypeFloat, TypeInt, TypeString, paropt, parallel_for_chunked, Strutil::fmt and
 //                   string_view are spelt the same in all of them.
@@ -85,6 +90,22 @@ inline OIIO::ImageBuf unread_file(const std::string& file, int subimage, const H
 inline std::unique_ptr<OIIO::ImageInput> open_input(const std::string& file) {
     const OIIO::ImageSpec configuration;
     return OIIO::ImageInput::open(file, &configuration);
+}
+
+/// Whether a reader gives integers of light that alpha is in, so that they are decoded as they are.
+/// `file` is the header of a file of that format.
+inline bool encodes_with_alpha([[maybe_unused]] const OIIO::ImageSpec& file,
+                               [[maybe_unused]] const std::string& format) {
+#if OIIO_VERSION >= 20514
+    int light = 1; // where the version leaves no choice
+    (void)OIIO::getattribute("png:linear_premult", light);
+    const std::string space = file.get_string_attribute("oiio:ColorSpace");
+    return format == "png" && light != 0 &&
+           (OIIO::Strutil::iequals(space, "sRGB") ||
+            file.get_float_attribute("oiio:Gamma", 1) != 1);
+#else
+    return false;
+#endif
 }
 
 /// Whether PNM files hold 16 bits and floats where these are asked for.

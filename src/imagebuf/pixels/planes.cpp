@@ -5,6 +5,7 @@
 
 #include "imagebuf/pixels/colorimetry.h"
 #include "imagebuf/pixels/has_pixels.h"
+#include "imagebuf/pixels/oiio_compat.h"
 #include "metrics/refusal.h"
 
 namespace tonetool {
@@ -91,7 +92,9 @@ OIIO::ImageSpec deciding_spec(const ImageBuf& image) {
         spec.format = OIIO::TypeDesc(stored);
     if (native.nchannels != spec.nchannels)
         return spec;
-    if (!native.format.is_floating_point())
+    if (oiio::encodes_with_alpha(native, std::string(image.file_format_name())))
+        spec.format = OIIO::TypeFloat; // with the tag that the file has
+    else if (!native.format.is_floating_point())
         spec.format = native.format;
     spec.channelformats = native.channelformats;
     return spec;

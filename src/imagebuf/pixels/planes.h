@@ -73,6 +73,7 @@ std::vector<int> channels_of(const ColorChoice& choice);
 
 /// The header `find_color` decides by: the image's spec with the data format of its file, which
 /// tells display-encoded integers from linear floats, and the whole EXPOSURE of a Radiance file.
+/// Integers of light that alpha is in count as the floats that they encode.
 OIIO::ImageSpec deciding_spec(const OIIO::ImageBuf& image);
 
 } // namespace tonetool

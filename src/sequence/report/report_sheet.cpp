@@ -9,6 +9,7 @@
 #include <optional>
 #include <stdexcept>
 
+#include "imagebuf/pixels/label_font.h"
 #include "sequence/report/encoded.h"
 #include "sequence/results/json_text.h"
 
@@ -21,7 +22,6 @@ using OIIO::ROI;
 using OIIO::Strutil::fmt::format;
 namespace IBA = OIIO::ImageBufAlgo;
 
-constexpr char kFont[] = "DejaVuSans";
 constexpr int kMargin = 10, kEdge = 4, kTextSize = 13, kLabel = 22;
 constexpr std::array<float, 3> kBackground{0.13f, 0.13f, 0.13f}, kInk{0.92f, 0.92f, 0.92f},
     kEmpty{0.05f, 0.05f, 0.05f};
@@ -65,6 +65,12 @@ std::optional<ImageBuf> thumbnail(const FrameResult& frame, const PictureStore& 
     if (!json.is_object() || !json.contains("test") || !json["test"].is_string())
         return std::nullopt;
     return picture_of(json["test"].get<std::string>());
+}
+
+// Where it is not installed, OpenImageIO may find it in folders of OPENIMAGEIO_FONTS.
+std::string font_of_labels() {
+    const std::string file = label_font_file();
+    return file.empty() ? kLabelFont : file;
 }
 
 class Sheet {
@@ -113,7 +119,7 @@ private:
     }
 
     void write(int x, int y, const std::string& text) {
-        if (m_labelled && !IBA::render_text(m_image, x, y, text, kTextSize, kFont, kInk,
+        if (m_labelled && !IBA::render_text(m_image, x, y, text, kTextSize, m_font, kInk,
                                             IBA::TextAlignX::Left, IBA::TextAlignY::Top)) {
             (void)m_image.geterror();
             m_labelled = false;
@@ -122,6 +128,7 @@ private:
 
     int m_cell_height, m_columns = 1;
     bool m_labelled = true;
+    std::string m_font = font_of_labels();
     ImageBuf m_image;
 };
 
@@ -143,7 +150,8 @@ ImageBuf contact_sheet(const ShotResult& shot, const PictureStore& pictures, std
         sheet.put(i, shot.frames[frames[i]], thumbnails[i], height);
     if (!sheet.labelled()) {
         warning += warning.empty() ? "" : "; ";
-        warning += std::string("no font \"") + kFont + "\" found: the contact sheet has no labels";
+        warning +=
+            std::string("no font \"") + kLabelFont + "\" found: the contact sheet has no labels";
     }
     return std::move(sheet.image());
 }

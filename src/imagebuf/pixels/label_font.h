@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The font of labels. Header only: the rooms below the library's write labels, too.
+#pragma once
+
+#include <OpenImageIO/filesystem.h>
+#include <string>
+
+namespace tonetool {
+
+inline constexpr const char* kLabelFont = "DejaVuSans";
+
+/// The file of that font where distributions install it, else empty.
+inline std::string label_font_file() {
+    for (const char* folder : {"/usr/share/fonts/truetype/dejavu/", "/usr/share/fonts/dejavu/",
+                               "/usr/share/fonts/TTF/"}) {
+        const std::string file = folder + std::string(kLabelFont) + ".ttf";
+        if (OIIO::Filesystem::is_regular(file))
+            return file;
+    }
+    return "";
+}
+
+} // namespace tonetool
