@@ -57,11 +57,12 @@ void FingerprintScan::add_row(int64_t y, const std::vector<float>& rgb, int64_t 
     }
 }
 
-std::vector<int> FingerprintScan::codes() const {
-    std::vector<int> codes;
+std::vector<uint16_t> FingerprintScan::codes() const {
+    std::vector<uint16_t> codes;
     for (const Point& point : m_points) {
-        const auto code = int((point.hash >> 33) & 0xffff);
-        codes.push_back(point.constant || point.rows < kSize ? 0 : std::max(code, 1));
+        const auto code = uint16_t((point.hash >> 33) & 0xffff);
+        const bool is_known = !point.constant && point.rows == kSize;
+        codes.push_back(is_known ? std::max<uint16_t>(code, 1) : uint16_t(0));
     }
     return codes;
 }

@@ -23,7 +23,7 @@ public:
     /// A row of interleaved colours, whose first pixel is at x. Rows are added from the top.
     void add_row(int64_t y, const std::vector<float>& rgb, int64_t x);
     /// By row, then column: 16 bits of a hash, at least 1; 0 where all pixels have one colour.
-    std::vector<int> codes() const;
+    std::vector<uint16_t> codes() const;
 
 private:
     struct Point {

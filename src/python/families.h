@@ -22,6 +22,7 @@ void add_luminance(Module& module);
 void add_display(Module& module);
 void add_lut(Module& module);
 void add_qc(Module& module);
+void add_against(Module& module);
 void add_write(Module& module);
 void add_chain(Module& module);
 

@@ -90,6 +90,10 @@ struct Python<int> : PythonInteger<int> {};
 template <>
 struct Python<int64_t> : PythonInteger<int64_t> {};
 template <>
+struct Python<int16_t> : PythonInteger<int16_t> {};
+template <>
+struct Python<uint16_t> : PythonInteger<uint16_t> {};
+template <>
 struct Python<uint64_t> {
     static std::string wanted() { return "int"; }
     static uint64_t from(py::handle v, const std::string& where) {

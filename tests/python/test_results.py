@@ -62,6 +62,7 @@ MAKERS = {
     "cg_tmo": lambda: tonetool.cg_tmo(cornell()[0]),
     "luminance_stats": lambda: tonetool.luminance_stats(cornell()[0]),
     "find_color": lambda: tonetool.find_color(cornell()[0]),
+    "against_facts": lambda: tonetool.against_facts(*cornell()),
     "qc_facts": lambda: tonetool.qc_facts(cornell()[0]),
     "qc_facts of a place of one colour": lambda: tonetool.qc_facts(with_a_hole()),
     "tone_curve": lambda: next(curve for curve in tonetool.tone_curves() if len(curve.parameters) > 2),

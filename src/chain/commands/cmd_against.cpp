@@ -70,6 +70,15 @@ void show_differences(Session& session, const Call& call, const sequence::Agains
     *session.check.result = before;
 }
 
+// What of the command's words can be wrong, before any image is read.
+void check_words(Session&, const Call& call) {
+    (void)fault_limits(call, sequence::against_rules());
+    AgainstOptions options;
+    read_kinds(call, options);
+    for (const auto& [layer, kind] : options.kinds)
+        check_choice("kind=" + layer, kind, ToneAlgo::against_kinds());
+}
+
 void run_against(Session& session, const Call& call) {
     const Image &approved = *call.images[0], &image = *call.images[1];
     const sequence::FaultLimits limits = fault_limits(call, sequence::against_rules());
@@ -121,6 +130,7 @@ Rows against_commands() {
                     "Compare each layer with the approved version: approved, new -> both; "
                     "severities: off, info, warning, error",
                     run_against)
+                .checked(check_words)
                 .images(2, 2)
                 .modifiers(pixel_modifiers(), own_modifiers(),
                            fault_modifiers(sequence::against_rules()))};

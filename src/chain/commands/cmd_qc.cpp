@@ -80,7 +80,9 @@ Rows qc_commands() {
     return {command("qc",
                     "Look for faults that need no reference; severities: off, info, warning, error",
                     run_qc)
-                .checked([](Session&, const Call& call) { (void)limits_of(call); })
+                .checked([](Session&, const Call& call) {
+                    (void)fault_limits(call, sequence::qc_rules());
+                })
                 .images(1, 1)
                 .modifiers(pixel_modifiers())
                 .modifier("groups", "NAME,...", "light groups that must add up to the beauty (all)")

@@ -44,25 +44,26 @@ QcLayer layer_of(const QcScan::Layer& from) {
     return layer;
 }
 
-int thousandths_of_stops(double luminance) {
+int16_t thousandths_of_stops(double luminance) {
     if (!(luminance > 0))
         return QcPicture::kDark;
-    return std::clamp(int(std::lround(1000 * std::log2(luminance))), QcPicture::kDark, 32767);
+    return int16_t(
+        std::clamp(int(std::lround(1000 * std::log2(luminance))), QcPicture::kDark, 32767));
 }
 
 // In parts of a stop, within the range of a byte.
-int eighths_of_stops(double luminance) {
+int16_t eighths_of_stops(double luminance) {
     if (!(luminance > 0))
         return QcPicture::kPeakDark;
-    return std::clamp(int(std::lround(8 * std::log2(luminance))), QcPicture::kPeakDark,
-                      QcPicture::kPeakBright);
+    return int16_t(std::clamp(int(std::lround(8 * std::log2(luminance))), QcPicture::kPeakDark,
+                              QcPicture::kPeakBright));
 }
 
 // A colour over green in 1/32 stop; where there is neither, they are equal.
-int tint_of(double color, double green) {
+int16_t tint_of(double color, double green) {
     constexpr double dark = 1e-9;
     const double stops = std::log2((std::max(color, 0.0) + dark) / (std::max(green, 0.0) + dark));
-    return int(std::clamp<long>(std::lround(32 * stops), -128, 127));
+    return int16_t(std::clamp<long>(std::lround(32 * stops), -128, 127));
 }
 
 QcGuide guide_of(const QcScan& scan, const QcScan::Guide& from) {

@@ -24,10 +24,10 @@ bool is_magenta(const float* pixel, const std::vector<int>& channels) {
 
 } // namespace
 
-int QcGuide::code(double value) {
+int16_t QcGuide::code(double value) {
     constexpr double most = 32767;
     const double size = std::round(1000 * std::log2(1 + 1000 * std::abs(value)));
-    return int(std::copysign(std::min(size, most), value));
+    return int16_t(std::copysign(std::min(size, most), value));
 }
 
 double QcGuide::value(int code) {

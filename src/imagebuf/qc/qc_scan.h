@@ -59,7 +59,7 @@ public:
     const std::vector<double>& cell_colors() const { return m_colors; }
     const std::vector<double>& cell_peaks() const { return m_peaks; }
     const std::vector<Guide>& guides() const { return m_guides; }
-    std::vector<int> fingerprints() const { return m_fingerprints.codes(); }
+    std::vector<uint16_t> fingerprints() const { return m_fingerprints.codes(); }
     const metrics::DetailScan& detail() const { return m_detail; }
     double magenta() const;
     double speed() const { return m_speed.quantile(0.95); }

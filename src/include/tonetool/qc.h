@@ -59,9 +59,9 @@ struct QcGuide {
     int channels = 0;
     /// Of each cell the means of the channels, by code(); what is beyond 1e9, or not finite, counts
     /// as 0.
-    std::vector<int> cells;
+    std::vector<int16_t> cells;
     /// sign(x) log2(1 + 1000 |x|) in 1/1000: relative above 0.001, linear below, in 16 bits.
-    TONETOOL_API static int code(double value);
+    TONETOOL_API static int16_t code(double value);
     TONETOOL_API static double value(int code);
 };
 
@@ -93,16 +93,16 @@ struct QcPicture {
     /// Means of luminance over the display window, kWide x kHigh from the top, in 1/1000 stop, at
     /// least kDark: whole numbers, since thumbnails are compared and must be the same when they are
     /// read back.
-    std::vector<int> thumbnail;
+    std::vector<int16_t> thumbnail;
     static constexpr int kWide = 32, kHigh = 18, kDark = -30000;
     /// Of the mean colours of the same cells: red and blue over green in 1/32 stop, -128 to 127.
-    std::vector<int> red, blue;
+    std::vector<int16_t> red, blue;
     /// The largest components in kPeaksWide x kPeaksHigh cells, in 1/8 stop, at least kPeakDark.
-    std::vector<int> peaks;
+    std::vector<int16_t> peaks;
     static constexpr int kPeaksWide = 64, kPeaksHigh = 36, kPeakDark = -112, kPeakBright = 143;
     /// In the middle of these finer cells: 16 bits that tell 4 x 4 pixels, 0 where they have one
     /// colour.
-    std::vector<int> fingerprints;
+    std::vector<uint16_t> fingerprints;
     std::string hash;   ///< hash of its pixel values
     QcCount alpha_low;  ///< below 0 by more than kAlphaSlack, or NaN
     QcCount alpha_high; ///< above 1 by as much

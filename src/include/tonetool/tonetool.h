@@ -2,6 +2,7 @@
 // Everything tonetool offers to C++.
 #pragma once
 
+#include "tonetool/against.h"
 #include "tonetool/bias.h"
 #include "tonetool/cgtmo.h"
 #include "tonetool/color_tags.h"

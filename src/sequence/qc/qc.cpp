@@ -230,4 +230,13 @@ double median(std::vector<double> values) {
     return *middle;
 }
 
+double median_without(const std::vector<double>& sorted, double value) {
+    if (sorted.size() < 2)
+        return 0;
+    const size_t middle = (sorted.size() - 1) / 2;
+    const auto left_out =
+        size_t(std::lower_bound(sorted.begin(), sorted.end(), value) - sorted.begin());
+    return sorted[left_out <= middle ? middle + 1 : middle];
+}
+
 } // namespace tonetool::sequence

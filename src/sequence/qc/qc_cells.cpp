@@ -18,51 +18,47 @@ using Bytes = std::vector<unsigned char>;
 constexpr size_t kPackedCells = size_t(QcPicture::kWide) * QcPicture::kHigh;
 constexpr size_t kPackedPeaks = size_t(QcPicture::kPeaksWide) * QcPicture::kPeaksHigh;
 
-// A list of whole numbers: how many, from which on, and in how many bytes each.
-struct CellList {
-    std::vector<int>* values;
-    size_t count;
-    int least;
-    size_t bytes;
-};
-
-std::vector<CellList> lists_of(QcFacts& facts) {
+// Visits the lists of whole numbers: how many they are, from which on, and in how many bytes each.
+template <class Facts, class Visit>
+void visit_lists(Facts& facts, const Visit& visit) {
     constexpr int least_of_16 = -32768, least_of_8 = -128;
-    QcPicture& picture = facts.picture;
-    std::vector<CellList> lists = {{&picture.thumbnail, kPackedCells, least_of_16, 2},
-                                   {&picture.red, kPackedCells, least_of_8, 1},
-                                   {&picture.blue, kPackedCells, least_of_8, 1},
-                                   {&picture.peaks, kPackedPeaks, QcPicture::kPeakDark, 1},
-                                   {&picture.fingerprints, kPackedPeaks, 0, 2}};
-    for (QcGuide& guide : facts.guides)
-        lists.push_back({&guide.cells, kPackedCells * size_t(guide.channels), least_of_16, 2});
-    return lists;
+    auto& picture = facts.picture;
+    visit(picture.thumbnail, kPackedCells, least_of_16, size_t(2));
+    visit(picture.red, kPackedCells, least_of_8, size_t(1));
+    visit(picture.blue, kPackedCells, least_of_8, size_t(1));
+    visit(picture.peaks, kPackedPeaks, int(QcPicture::kPeakDark), size_t(1));
+    visit(picture.fingerprints, kPackedPeaks, 0, size_t(2));
+    for (auto& guide : facts.guides)
+        visit(guide.cells, kPackedCells * size_t(guide.channels), least_of_16, size_t(2));
 }
 
-void put_list(Bytes& bytes, const CellList& list) {
-    for (const int value : *list.values) {
-        const auto code = unsigned(value - list.least);
+template <class List>
+void put_list(Bytes& bytes, const List& list, int least, size_t size) {
+    for (const int value : list) {
+        const auto code = unsigned(value - least);
         bytes.push_back(static_cast<unsigned char>(code & 0xff));
-        if (list.bytes == 2)
+        if (size == 2)
             bytes.push_back(static_cast<unsigned char>(code >> 8 & 0xff));
     }
 }
 
-void read_list(const Bytes& bytes, size_t& at, const CellList& list) {
-    list.values->clear();
-    for (size_t i = 0; i < list.count; ++i, at += list.bytes) {
-        const int high = list.bytes == 2 ? bytes[at + 1] : 0;
-        list.values->push_back(list.least + bytes[at] + 256 * high);
+template <class List>
+void read_list(const Bytes& bytes, size_t& at, List& list, size_t count, int least, size_t size) {
+    list.resize(count);
+    for (auto& value : list) {
+        const int high = size == 2 ? bytes[at + 1] : 0;
+        value = static_cast<typename List::value_type>(least + bytes[at] + 256 * high);
+        at += size;
     }
 }
 
 } // namespace
 
 std::string cells_text(const QcFacts& facts) {
-    QcFacts copy = facts;
     Bytes raw;
-    for (const CellList& list : lists_of(copy))
-        put_list(raw, list);
+    visit_lists(facts, [&](const auto& list, size_t, int least, size_t size) {
+        put_list(raw, list, least, size);
+    });
     constexpr int level = 9;
     const std::unique_ptr<libdeflate_compressor, decltype(&libdeflate_free_compressor)> compressor(
         libdeflate_alloc_compressor(level), libdeflate_free_compressor);
@@ -75,12 +71,11 @@ std::string cells_text(const QcFacts& facts) {
 }
 
 void read_cells(const std::string& text, QcFacts& facts) {
-    const std::vector<CellList> lists = lists_of(facts);
-    size_t size = 0;
-    for (const CellList& list : lists)
-        size += list.count * list.bytes;
+    size_t all = 0;
+    visit_lists(facts,
+                [&](const auto&, size_t count, int, size_t size) { all += count * size; });
     const Bytes packed = bytes_of_base64(text);
-    Bytes raw(size);
+    Bytes raw(all);
     const std::unique_ptr<libdeflate_decompressor, decltype(&libdeflate_free_decompressor)>
         decompressor(libdeflate_alloc_decompressor(), libdeflate_free_decompressor);
     if (!decompressor)
@@ -89,8 +84,9 @@ void read_cells(const std::string& text, QcFacts& facts) {
                                    raw.size(), nullptr) != LIBDEFLATE_SUCCESS)
         throw std::runtime_error("\"cells\" is damaged");
     size_t at = 0;
-    for (const CellList& list : lists)
-        read_list(raw, at, list);
+    visit_lists(facts, [&](auto& list, size_t count, int least, size_t size) {
+        read_list(raw, at, list, count, least, size);
+    });
 }
 
 } // namespace tonetool::sequence

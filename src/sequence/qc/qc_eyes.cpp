@@ -21,33 +21,51 @@ QcFrame* find_frame(QcShot& shot, int number) {
     return found == shot.frames.end() ? nullptr : &*found;
 }
 
-// A layer is told once. One of few pixels may be hidden behind something in one eye.
-void compare_layers(QcShot& shot, QcFrame& frame, const QcFrame& other, const std::string& view,
-                    std::set<std::string>& told) {
+// The layers that are black in all frames of a view, and those that are lit in one.
+struct Lights {
+    std::map<std::string, QcLayer> black;
+    std::set<std::string> lit;
+};
+
+// A layer of few pixels may be hidden behind something in one eye.
+Lights lights_of(QcShot& shot) {
     constexpr int64_t enough = 25;
-    for (const QcLayer& layer : frame.facts.layers) {
-        const QcLayer* same = find_layer(other.facts, layer.name);
-        const bool finite = layer.nan.pixels + layer.inf.pixels == 0;
-        if (same && finite && layer.lit == 0 && same->lit >= enough &&
-            told.insert(layer.name).second)
-            shot.add(frame, "oneeye",
-                     format("{} is black, but not in view {}", layer_text(layer), printable(view)),
-                     {layer.name, {}, {}, {}, {}});
+    std::map<std::string, QcLayer> all;
+    Lights lights;
+    for (const QcFrame* frame : shot.measured()) {
+        for (const QcLayer& layer : frame->facts.layers) {
+            all.emplace(layer.name, layer);
+            if (layer.lit >= enough)
+                lights.lit.insert(layer.name);
+            if (layer.lit > 0 || layer.nan.pixels + layer.inf.pixels > 0)
+                all[layer.name].lit = 1;
+        }
     }
+    for (const auto& [name, layer] : all)
+        if (layer.lit == 0)
+            lights.black.emplace(name, layer);
+    return lights;
 }
 
-void compare_views(QcShot& shot, QcShot& others, const std::string& view) {
-    std::set<std::string> here, there;
+// What is black in some frames alone is another fault.
+void compare_layers(QcShot& shot, QcShot& others, const std::string& view) {
+    const Lights here = lights_of(shot), there = lights_of(others);
+    for (const auto& [name, layer] : here.black)
+        if (there.lit.count(name) > 0)
+            shot.add(*shot.measured().front(), "oneeye",
+                     format("{} is black, but not in view {}", layer_text(layer), printable(view)),
+                     {name, {}, {}, {}, {}});
+}
+
+void compare_views(QcShot& shot, const std::string& name, QcShot& others, const std::string& view) {
     for (QcFrame& frame : shot.frames) {
         QcFrame* other = frame.measured ? find_frame(others, frame.number) : nullptr;
-        if (!other || frame.blank || other->blank)
-            continue;
-        if (has_picture(frame.facts) && frame.facts.picture.hash == other->facts.picture.hash)
-            others.add(*other, "sameeyes",
-                       format("the same pixels as view {}", printable(frame.result->view)));
-        compare_layers(shot, frame, *other, view, here);
-        compare_layers(others, *other, frame, frame.result->view, there);
+        if (other && !frame.blank && !other->blank && has_picture(frame.facts) &&
+            frame.facts.picture.hash == other->facts.picture.hash)
+            others.add(*other, "sameeyes", format("the same pixels as view {}", printable(name)));
     }
+    compare_layers(shot, others, view);
+    compare_layers(others, shot, name);
 }
 
 } // namespace
@@ -55,7 +73,7 @@ void compare_views(QcShot& shot, QcShot& others, const std::string& view) {
 void find_eye_faults(std::map<std::string, QcShot>& views) {
     for (auto first = views.begin(); first != views.end(); ++first)
         for (auto second = std::next(first); second != views.end(); ++second)
-            compare_views(first->second, second->second, second->first);
+            compare_views(first->second, first->first, second->second, second->first);
 }
 
 } // namespace tonetool::sequence

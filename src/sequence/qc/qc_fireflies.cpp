@@ -125,19 +125,21 @@ Spikes spikes_of(QcFrame& frame, const Neighbours& neighbours, double usual_mean
     return spikes;
 }
 
-// How large, in units of its neighbourhood, a spike of frame i must be.
-double limit_of(const QcShot& shot, const std::vector<Spikes>& all, size_t i) {
-    std::vector<double> largest;
-    for (size_t k = 0; k < all.size(); ++k)
-        if (k != i)
-            largest.push_back(all[k].largest());
-    return std::max(shot.threshold("firefly"),
-                    kNoise * std::max(all[i].noise(), median(std::move(largest))));
+// How large, in units of its neighbourhood, a spike of each frame must be.
+std::vector<double> limits_of(const QcShot& shot, const std::vector<Spikes>& all) {
+    std::vector<double> sorted, limits;
+    for (const Spikes& spikes : all)
+        sorted.push_back(spikes.largest());
+    std::sort(sorted.begin(), sorted.end());
+    for (const Spikes& spikes : all)
+        limits.push_back(std::max(
+            shot.threshold("firefly"),
+            kNoise * std::max(spikes.noise(), median_without(sorted, spikes.largest()))));
+    return limits;
 }
 
-void judge_frame(QcShot& shot, const std::vector<Spikes>& all, size_t i) {
+void judge_frame(QcShot& shot, const std::vector<Spikes>& all, size_t i, double limit) {
     const std::vector<Lone>& lone = all[i].lone;
-    const double limit = limit_of(shot, all, i);
     const auto end =
         std::find_if(lone.begin(), lone.end(), [&](const Lone& at) { return at.ratio <= limit; });
     const auto count = end - lone.begin();
@@ -208,11 +210,12 @@ void find_fireflies(QcShot& shot) {
             neighbours.push_back(frames[i + 1]);
         all.push_back(spikes_of(*frames[i], neighbours, usual_mean));
     }
+    const std::vector<double> limits = limits_of(shot, all);
     size_t sparks = 0;
     for (size_t i = 0; i < all.size(); ++i)
-        sparks += all[i].largest() > limit_of(shot, all, i);
+        sparks += all[i].largest() > limits[i];
     for (size_t i = 0; i < all.size() && sparks <= std::max<size_t>(2, all.size() / 4); ++i)
-        judge_frame(shot, all, i);
+        judge_frame(shot, all, i, limits[i]);
     find_hot_pixels(shot, frames, usual_mean);
 }
 

@@ -113,7 +113,12 @@ public:
           m_frames(frames),
           m_motion(motion),
           m_layer(layer),
-          m_told(told) {}
+          m_told(told) {
+        std::vector<double> distances;
+        for (size_t i = 1; i < frames.size(); ++i)
+            distances.push_back(frames[i]->number - frames[i - 1]->number);
+        m_distance = median(std::move(distances));
+    }
 
     void find() {
         find_order();
@@ -139,17 +144,14 @@ private:
     const QcGuide& m_layer;
     std::string m_name = "layer " + shown_layer(m_layer.layer); ///< for sentences
     std::set<size_t>& m_told;
+    double m_distance = 0; ///< the usual one of the numbers
 };
 
 // Whether these frames follow each other, and no other rule explains a change between them.
 bool MotionSearch::is_joined(size_t first, size_t last) const {
-    std::vector<double> distances;
-    for (size_t i = 1; i < m_frames.size(); ++i)
-        distances.push_back(m_frames[i]->number - m_frames[i - 1]->number);
-    const double usual = median(std::move(distances));
     for (size_t i = first + 1; i <= last; ++i)
         if (m_frames[i]->changed || m_frames[i]->held ||
-            m_frames[i]->number - m_frames[i - 1]->number != usual ||
+            m_frames[i]->number - m_frames[i - 1]->number != m_distance ||
             !same_windows(*m_frames[i - 1], *m_frames[i]))
             return false;
     return true;

@@ -43,6 +43,9 @@ public:
         for (size_t i = 1; i < m_frames.size(); ++i)
             m_gains.push_back(gain(m_thumbnails[i - 1], m_thumbnails[i]));
         m_usual_step = usual_step_of(m_thumbnails);
+        for (size_t i = 1; i < m_gains.size(); ++i)
+            m_sorted_gains.push_back(std::abs(m_gains[i]));
+        std::sort(m_sorted_gains.begin(), m_sorted_gains.end());
     }
 
     void find() {
@@ -63,17 +66,14 @@ private:
     std::vector<QcFrame*> m_frames;
     std::vector<Thumbnail> m_thumbnails;
     std::vector<double> m_gains; ///< stops by which each frame is brighter than the one before
+    std::vector<double> m_sorted_gains; ///< their sizes
     double m_usual_step = 0;     ///< usual distance of consecutive thumbnails in stops
     double m_unusual = 0;        ///< detours up to this are usual
 };
 
 // The median change of brightness over all steps but one.
 double Flicker::usual_gain(size_t but) const {
-    std::vector<double> others;
-    for (size_t i = 1; i < m_gains.size(); ++i)
-        if (i != but)
-            others.push_back(std::abs(m_gains[i]));
-    return median(std::move(others));
+    return median_without(m_sorted_gains, std::abs(m_gains[but]));
 }
 
 // The distance, in stops, of frames [first, last] from the path between the frame before and the

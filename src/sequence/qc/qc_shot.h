@@ -79,6 +79,8 @@ std::string frames_text(int first, int last);
 /// "the picture", "layer X".
 std::string layer_text(const QcLayer& layer);
 double median(std::vector<double> values);
+/// median() of sorted values but one of this size.
+double median_without(const std::vector<double>& sorted, double value);
 
 // The searches. Their files say which faults each adds.
 void find_picture_faults(const QcShot& shot, QcFrame& frame);

@@ -97,8 +97,8 @@ bool is_bucket(const Frames& frames, const Pair& pair, const std::vector<size_t>
     if (double(points.size()) < full * double(all) || squares_in(points) < enough ||
         !same_windows(*frames[pair.first], *frames[pair.second]))
         return false;
-    const std::vector<int>& a = frames[pair.first]->facts.picture.fingerprints;
-    const std::vector<int>& b = frames[pair.second]->facts.picture.fingerprints;
+    const std::vector<uint16_t>& a = frames[pair.first]->facts.picture.fingerprints;
+    const std::vector<uint16_t>& b = frames[pair.second]->facts.picture.fingerprints;
     size_t same = 0;
     for (size_t i = 0; i < a.size(); ++i)
         same += a[i] > 0 && a[i] == b[i];

@@ -347,6 +347,7 @@ ShotResult shot_of(const std::string& text, const std::vector<std::string>& reco
         });
         check_limits(shot);
         conclude(shot, true);
+        check_searches(shot);
         std::vector<Status> said;
         for (const ordered_json& frame : json.at("frames"))
             said.push_back(status(frame));

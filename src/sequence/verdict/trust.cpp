@@ -5,7 +5,8 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "sequence/results/json_text.h"
+#include "sequence/against/against_record.h"
+#include "sequence/qc/qc_json.h"
 #include "sequence/verdict/asked.h"
 #include "sequence/verdict/contradiction.h"
 #include "sequence/verdict/held.h"
@@ -48,34 +49,10 @@ void check_measurement(const FrameResult& frame, const Measurement& measured, co
     throw std::runtime_error(name_of(frame) + ": " + measured.command + first);
 }
 
-// The facts that a search has left, with the limits that the check gives it.
-void check_search(const FrameResult& frame, const std::string& command,
-                  const std::map<std::string, std::string>& limits) {
-    const std::string& facts = command == "qc" ? frame.qc : frame.against;
-    if (facts.empty()) {
-        throw std::runtime_error(
-            format("{} has nothing of --{}, which the check has", name_of(frame), command));
-    }
-    const auto found = parse_json<nlohmann::ordered_json>(facts);
-    std::map<std::string, std::string> kept;
-    for (const auto& [code, limit] : found.at("limits").items())
-        kept[code] = limit.get<std::string>();
-    const bool open = std::any_of(limits.begin(), limits.end(), [](const auto& one) {
-        return one.second.find('{') != std::string::npos;
-    });
-    if (!open && kept != limits) {
-        throw std::runtime_error(
-            format("{} was searched by --{} with other limits than those of the check",
-                   name_of(frame), command));
-    }
-}
-
 // What a frame that nothing kept from being checked must have.
 void check_whole(const FrameResult& frame, const Check& check) {
     if (check.open || check.blocks || frame.status > Status::Failed)
         return;
-    for (const auto& [command, limits] : check.searches)
-        check_search(frame, command, limits);
     for (const auto& [command, words] : check.asked) {
         const auto count = std::count_if(
             frame.measurements.begin(), frame.measurements.end(),
@@ -84,6 +61,32 @@ void check_whole(const FrameResult& frame, const Check& check) {
             throw std::runtime_error(format("{} has {} measurements by {}, but the check has {}",
                                             name_of(frame), count, command, words.size()));
         }
+    }
+}
+
+using LimitTexts = std::map<std::string, std::string>;
+
+// The limits that a search was given, as it has kept them.
+LimitTexts kept_limits(const FrameResult& frame, const std::string& command) {
+    const bool qc = command == "qc";
+    const std::string& facts = qc ? frame.qc : frame.against;
+    if (facts.empty()) {
+        throw std::runtime_error(
+            format("{} has nothing of --{}, which the check has", name_of(frame), command));
+    }
+    if (qc && frame.record)
+        return frame.record->limits.texts();
+    return qc ? qc_from_json(facts).limits.texts() : against_from_json(facts).limits.texts();
+}
+
+void check_search(const FrameResult& frame, const std::string& command, const LimitTexts& limits) {
+    const bool open = std::any_of(limits.begin(), limits.end(), [](const auto& one) {
+        return one.second.find('{') != std::string::npos;
+    });
+    if (kept_limits(frame, command) != limits && !open) {
+        throw std::runtime_error(
+            format("{} was searched by --{} with other limits than those of the check",
+                   name_of(frame), command));
     }
 }
 
@@ -112,6 +115,16 @@ void check_limits(const ShotResult& shot) {
             check_measurement(frame, measured, check);
         check_whole(frame, check);
     }
+}
+
+void check_searches(const ShotResult& shot) {
+    const Check check = check_of(shot.check);
+    if (check.open || check.blocks)
+        return;
+    for (const FrameResult& frame : shot.frames)
+        if (frame.status <= Status::Failed)
+            for (const auto& [command, limits] : check.searches)
+                check_search(frame, command, limits);
 }
 
 } // namespace tonetool::sequence

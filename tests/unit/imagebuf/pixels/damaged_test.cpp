@@ -161,6 +161,16 @@ std::vector<Function> numbers_and_files() {
              PanoramaStats stats;
              return panorama_stats(stats, c.bad, c.error, linear<PanoramaOptions>());
          }},
+        {"against_facts", "approved",
+         [](const Call& c) {
+             AgainstFacts facts;
+             return against_facts(facts, {&c.bad}, {&c.good}, c.error, linear<AgainstOptions>());
+         }},
+        {"against_facts", "new",
+         [](const Call& c) {
+             AgainstFacts facts;
+             return against_facts(facts, {&c.good}, {&c.bad}, c.error, linear<AgainstOptions>());
+         }},
         {"qc_facts", "alone",
          [](const Call& c) {
              QcFacts facts;

@@ -31,7 +31,7 @@ QcFacts facts_of(int number, double stops = 0) {
     for (int y = 0; y < QcPicture::kHigh; ++y) {
         for (int x = 0; x < QcPicture::kWide; ++x) {
             const double wall = std::sin(0.9 * x + 0.05 * number) + std::sin(0.7 * y - 0.3 * x);
-            facts.picture.thumbnail.push_back(int(std::lround(1000 * (wall + stops))));
+            facts.picture.thumbnail.push_back(int16_t(std::lround(1000 * (wall + stops))));
         }
     }
     facts.picture.red.assign(facts.picture.thumbnail.size(), 8);
@@ -39,7 +39,7 @@ QcFacts facts_of(int number, double stops = 0) {
     std::mt19937 noise(unsigned(number) + 1);
     for (int i = 0; i < QcPicture::kPeaksWide * QcPicture::kPeaksHigh; ++i) {
         facts.picture.peaks.push_back(20);
-        facts.picture.fingerprints.push_back(int(noise() % 65535) + 1);
+        facts.picture.fingerprints.push_back(uint16_t(noise() % 65535 + 1));
     }
     facts.picture.groups = 1;
     facts.picture.group_sum = 1;
@@ -79,7 +79,7 @@ std::vector<std::string> codes_of(std::vector<FrameResult> frames) {
 }
 
 void brighter(QcFacts& facts) {
-    for (int& cell : facts.picture.thumbnail)
+    for (int16_t& cell : facts.picture.thumbnail)
         cell += 800;
     facts.picture.hash += "brighter";
 }
@@ -131,7 +131,7 @@ TEST(Qc, ALampADarkPlaceAndAMatteAreNoHoles) {
         QcFacts facts = facts_of(number), black = facts, element = facts, moving = facts;
         if (number == 6 || number == 9)
             with_rectangle(facts, 160, 1);
-        for (int& cell : black.picture.thumbnail)
+        for (int16_t& cell : black.picture.thumbnail)
             cell = QcPicture::kDark;
         black.picture.thumbnail[0] = 0;
         element.picture.alpha_clear = 0.3;
@@ -453,8 +453,8 @@ TEST(Qc, ARecordThatIsNoneIsRefused) {
     places.picture.red[9] = -128;
     places.picture.thumbnail[10] = QcPicture::kDark;
     places.picture.fingerprints[11] = 65535;
-    places.guides = {{"Depth.Z", 1, std::vector<int>(QcPicture::kWide * QcPicture::kHigh, -32767)},
-                     {"Normal", 3, std::vector<int>(3 * QcPicture::kWide * QcPicture::kHigh, 5)}};
+    places.guides = {{"Depth.Z", 1, std::vector<int16_t>(QcPicture::kWide * QcPicture::kHigh, -32767)},
+                     {"Normal", 3, std::vector<int16_t>(3 * QcPicture::kWide * QcPicture::kHigh, 5)}};
     const std::string more = to_json(QcRecord{places});
     const QcRecord read = qc_from_json(more);
     EXPECT_EQ(to_json(read), more);

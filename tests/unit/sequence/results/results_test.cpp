@@ -193,9 +193,9 @@ std::string qc_text() {
     record.facts.picture.groups = 1;
     QcPicture& picture = record.facts.picture;
     picture.thumbnail.resize(size_t(QcPicture::kWide) * QcPicture::kHigh, -2474);
-    picture.red = picture.blue = std::vector<int>(picture.thumbnail.size());
+    picture.red = picture.blue = std::vector<int16_t>(picture.thumbnail.size());
     picture.peaks.resize(size_t(QcPicture::kPeaksWide) * QcPicture::kPeaksHigh);
-    picture.fingerprints = picture.peaks;
+    picture.fingerprints.resize(picture.peaks.size());
     record.limits.set("light", "0.1,error");
     return to_json(record);
 }

@@ -26,7 +26,7 @@ FrameResult faulty(int number, const std::vector<std::string>& layers) {
 
 ShotResult shot(const std::vector<Acceptance>& accepted) {
     ShotResult result;
-    result.check = {"a.#.exr", "--qc"};
+    result.check = {"a.#.exr"};
     result.frames = {faulty(1, {"neon"}), faulty(2, {"neon", "key"})};
     result.accepted = accepted;
     conclude(result);
