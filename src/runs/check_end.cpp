@@ -147,7 +147,7 @@ void write_statistics(const CheckPlan& check, const std::string& text) {
 int conclude_check(const sequence::ShotResult& shot, const FramePlan& plan,
                    const sequence::PictureStore& pictures, const std::string& unkept,
                    std::ostream& out, std::ostream& err) {
-    out << sequence::faults_text(shot);
+    out << sequence::faults_text(shot, plan.verbose);
     out << "check: " << status_name(shot.verdict) << ", " << printable(shot.sentence) << std::endl;
     const sequence::CheckFiles files = plan.check.written();
     Strings errors = sequence::write_results(shot, files, plan.check.json_records);

@@ -53,7 +53,7 @@ public:
 
 private:
     size_t m_channels;
-    std::vector<std::vector<double>> m_cells;
+    std::vector<std::vector<float>> m_cells; ///< ten thousand frames may be held
     double m_deviation = 0, m_usual = 0;
     std::vector<double> m_steps;
 };
@@ -61,20 +61,20 @@ private:
 Motion::Motion(const Frames& frames, const QcGuide& like) : m_channels(size_t(like.channels)) {
     double sum = 0, squares = 0;
     for (const QcFrame* frame : frames) {
-        std::vector<double>& cells = m_cells.emplace_back();
+        std::vector<float>& cells = m_cells.emplace_back();
         for (const int code : find_guide(frame->facts, like)->cells) {
-            cells.push_back(QcGuide::value(code));
-            sum += cells.back();
+            cells.push_back(float(QcGuide::value(code)));
+            sum += double(cells.back());
         }
     }
     const double count = double(m_cells.size() * m_cells.front().size());
-    for (const std::vector<double>& cells : m_cells)
-        for (const double value : cells)
-            squares += (value - sum / count) * (value - sum / count);
+    for (const std::vector<float>& cells : m_cells)
+        for (const float value : cells)
+            squares += (double(value) - sum / count) * (double(value) - sum / count);
     m_deviation = std::sqrt(squares / count);
-    for (std::vector<double>& cells : m_cells)
-        for (double& value : cells)
-            value /= m_deviation + 1e-12;
+    for (std::vector<float>& cells : m_cells)
+        for (float& value : cells)
+            value = float(double(value) / (m_deviation + 1e-12));
     for (size_t i = 0; i + 1 < m_cells.size(); ++i)
         m_steps.push_back(apart(i, i + 1));
     m_usual = median(m_steps);
@@ -83,23 +83,23 @@ Motion::Motion(const Frames& frames, const QcGuide& like) : m_channels(size_t(li
 double Motion::apart(size_t a, size_t b) const {
     double sum = 0;
     for (size_t i = 0; i < m_cells[a].size(); ++i)
-        sum += std::abs(m_cells[a][i] - m_cells[b][i]);
+        sum += std::abs(double(m_cells[a][i]) - double(m_cells[b][i]));
     return sum / double(m_cells[a].size());
 }
 
 double Motion::apart(size_t a, size_t b, size_t cell) const {
     double most = 0;
     for (size_t i = cell * m_channels; i < (cell + 1) * m_channels; ++i)
-        most = std::max(most, std::abs(m_cells[a][i] - m_cells[b][i]));
+        most = std::max(most, std::abs(double(m_cells[a][i]) - double(m_cells[b][i])));
     return most;
 }
 
 std::vector<double> Motion::bends(size_t i) const {
     std::vector<double> bends(kCells);
     for (size_t at = 0; at < m_cells[i].size(); ++at) {
-        const double way = (m_cells[i - 1][at] + m_cells[i + 1][at]) / 2;
+        const double way = (double(m_cells[i - 1][at]) + double(m_cells[i + 1][at])) / 2;
         double& bend = bends[at / m_channels];
-        bend = std::max(bend, std::abs(m_cells[i][at] - way));
+        bend = std::max(bend, std::abs(double(m_cells[i][at]) - way));
     }
     return bends;
 }

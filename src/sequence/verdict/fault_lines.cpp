@@ -15,6 +15,9 @@ namespace {
 
 using OIIO::Strutil::fmt::format;
 
+// A frame of another moment differs in every layer.
+constexpr size_t kMostDifferences = 4;
+
 // Whether two frames have the same difference, however much of it.
 bool is_same(const Fault& a, const Fault& b) {
     return a.command == b.command && a.code == b.code && a.layer == b.layer &&
@@ -68,13 +71,22 @@ public:
                     m_frames[i]->view);
     }
 
+    /// Of a frame with more of them than a person reads.
+    std::string rest_of(size_t i, size_t count) const {
+        const std::string& view = m_frames[i]->view;
+        return format("against: frame {}{}{}: and {}, which -v prints\n", m_frames[i]->frame,
+                      view.empty() ? "" : " ", printable(view),
+                      count == 1 ? std::string("1 more difference")
+                                 : std::to_string(count) + " more differences");
+    }
+
 private:
     std::vector<const FrameResult*> m_frames;
 };
 
 } // namespace
 
-std::string faults_text(const ShotResult& shot) {
+std::string faults_text(const ShotResult& shot, bool all) {
     std::map<std::string, std::vector<const FrameResult*>> views;
     for (const FrameResult& frame : shot.frames)
         views[frame.view].push_back(&frame);
@@ -86,8 +98,15 @@ std::string faults_text(const ShotResult& shot) {
     for (const FrameResult& frame : shot.frames) {
         const ViewFaults& of_view = faults.at(frame.view);
         const size_t i = place[frame.view]++;
-        for (const Fault& fault : frame.faults)
-            text += of_view.line_of(i, fault);
+        size_t differences = 0;
+        for (const Fault& fault : frame.faults) {
+            const std::string line = of_view.line_of(i, fault);
+            differences += !line.empty() && !fault.command.empty();
+            if (all || fault.command.empty() || differences <= kMostDifferences)
+                text += line;
+        }
+        if (!all && differences > kMostDifferences)
+            text += of_view.rest_of(i, differences - kMostDifferences);
     }
     return text;
 }
