@@ -223,19 +223,25 @@ void MotionSearch::find_order() {
     }
 }
 
+// Steps to frames that are held, as on twos, are none.
 void MotionSearch::find_ends() {
     constexpr double unusual = 5, still = 0.01;
-    const std::vector<double>& steps = m_motion.steps();
-    const size_t last = steps.size();
-    const auto is_cut_off = [&](double step, size_t from) {
-        const auto begin = steps.begin() + std::ptrdiff_t(from);
-        const double beside = median(std::vector<double>(begin, begin + 3));
-        return step > unusual * std::max(beside, still) && step > unusual * m_motion.usual();
+    constexpr size_t near = 3;
+    const size_t last = m_motion.frames() - 1;
+    std::vector<double> steps;
+    for (size_t i = 0; i < last; ++i)
+        if (!m_frames[i + 1]->held)
+            steps.push_back(m_motion.step(i));
+    // The others: the nearest first.
+    const auto is_cut_off = [&](double step, std::vector<double> others) {
+        const double usual = median(others);
+        others.resize(std::min<size_t>(others.size(), near));
+        return step > unusual * std::max({median(others), still, usual});
     };
-    if (is_joined(0, 1) && is_cut_off(steps.front(), 1))
+    if (is_joined(0, 1) && is_cut_off(steps.front(), {steps.begin() + 1, steps.end()}))
         tell(0, "cutatend",
              format("by {} it is of another camera than the frames that follow", m_name));
-    if (is_joined(last - 1, last) && is_cut_off(steps.back(), last - 4))
+    if (is_joined(last - 1, last) && is_cut_off(steps.back(), {steps.rbegin() + 1, steps.rend()}))
         tell(last, "cutatend",
              format("by {} it is of another camera than the frames before it", m_name));
 }

@@ -300,6 +300,16 @@ TEST(QcRules, CutAtEnd) {
     EXPECT_THAT(found_with(in(7, 12, other)), IsEmpty());
     EXPECT_THAT(found_with(at(12, [](QcFacts& facts) { facts.guides = {guide_of(13)}; })),
                 IsEmpty());
+    // On threes, where the last frame begins the next three; a fixed camera, and another one.
+    EXPECT_THAT(found_with([](QcFacts& facts, int number) { facts = render_of(number / 3 * 3); }),
+                IsEmpty());
+    EXPECT_THAT(found_with([&](QcFacts& facts, int number) {
+                    facts.guides = {guide_of(0)};
+                    facts.layers[2].hash = number < 12 ? "here" : "there";
+                    if (number == 12)
+                        other(facts);
+                }),
+                ElementsAre("12 cutatend"));
 }
 
 TEST(QcRules, HotPixel) {
