@@ -233,7 +233,7 @@ def test_compressions_that_lose_digits(against, name):
     assert against(approved, new)[1] == []
 
 
-def test_ids_are_compared_by_their_bits(against, layers):
+def test_ids_are_compared_by_their_bits(against, layers, tonetool):
     """Ids that are patterns of NaN, of the order of pairs, and of another rank."""
     ids = np.array([0x7FC01234, 0xFFC00007, 0x00000001, 0x80000001], np.uint32).view(np.float32)
     value = np.stack([np.resize(ids, (HEIGHT, WIDTH)), np.full((HEIGHT, WIDTH), 0.75),
@@ -243,6 +243,7 @@ def test_ids_are_compared_by_their_bits(against, layers):
     turned = layer("CryptoObject00", lambda a: value[..., [2, 3, 0, 1]])(new_frame(), 0, None)
     assert against(approved, turned)[1] == []
     assert layers()["CryptoObject00"] == {"mismatch": 0}
+    assert "qc: " not in tonetool("approved.exr", "--qc").out
     signs = value.view(np.uint32) ^ np.array([0x80000000, 0, 0, 0], np.uint32)
     other = layer("CryptoObject00", lambda a: signs.view(np.float32))(new_frame(), 0, None)
     assert against(None, other)[1] == ["error id"]
