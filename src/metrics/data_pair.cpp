@@ -35,15 +35,18 @@ double largest(const float* pixel, size_t channels) {
     return most;
 }
 
+// Infinities and NaN are equal where both have them, and as far as can be from numbers.
+double value_difference(float a, float b) {
+    if (bits_of(a) == bits_of(b) || (std::isnan(a) && std::isnan(b)))
+        return 0;
+    const double difference = std::abs(double(a) - double(b));
+    return std::isfinite(difference) ? difference : HUGE_VAL;
+}
+
 double largest_difference(const PixelPair& pixel) {
     double most = 0;
-    for (size_t c = 0; c < pixel.channels; ++c) {
-        if (bits_of(pixel.a[c]) == bits_of(pixel.b[c]))
-            continue;
-        const double difference = std::abs(double(pixel.a[c]) - double(pixel.b[c]));
-        if (!(difference <= most)) // NaN is more
-            most = std::isfinite(difference) ? difference : HUGE_VAL;
-    }
+    for (size_t c = 0; c < pixel.channels; ++c)
+        most = std::max(most, value_difference(pixel.a[c], pixel.b[c]));
     return most;
 }
 
@@ -71,8 +74,10 @@ double position_difference(const PixelPair& pixel, const float* depth) {
     return sky ? 0 : distance_of(pixel, size);
 }
 
-double length_of(const float* v) {
-    return std::sqrt(double(v[0]) * v[0] + double(v[1]) * v[1] + double(v[2]) * v[2]);
+// What is not finite has no direction.
+bool is_normal(const float* v) {
+    const double square = double(v[0]) * v[0] + double(v[1]) * v[1] + double(v[2]) * v[2];
+    return square > 0.25 && std::isfinite(square);
 }
 
 double angle_of(const float* a, const float* b) {
@@ -87,12 +92,12 @@ double angle_of(const float* a, const float* b) {
 double motion_difference(const PixelPair& pixel) {
     double most = 0;
     for (size_t c = 0; c < pixel.channels; c += 2) {
-        const double x = double(pixel.a[c]) - double(pixel.b[c]);
+        const double x = value_difference(pixel.a[c], pixel.b[c]);
         const bool has_y = c + 1 < pixel.channels;
-        const double y = has_y ? double(pixel.a[c + 1]) - double(pixel.b[c + 1]) : 0;
+        const double y = has_y ? value_difference(pixel.a[c + 1], pixel.b[c + 1]) : 0;
         most = std::max(most, std::sqrt(x * x + y * y));
     }
-    return same_bits(pixel) ? 0 : std::isfinite(most) ? most : HUGE_VAL;
+    return most;
 }
 
 // The coverage of an id in a pixel.
@@ -132,7 +137,7 @@ double difference_of(PairKind kind, const PixelPair& pixel, const float* depth, 
     case PairKind::Position:
         return position_difference(pixel, depth);
     case PairKind::Normal: {
-        const bool a = length_of(pixel.a) > 0.5, b = length_of(pixel.b) > 0.5;
+        const bool a = is_normal(pixel.a), b = is_normal(pixel.b);
         row.both += a && b;
         row.one += a != b;
         const double angle = a && b ? angle_of(pixel.a, pixel.b) : 0;
@@ -141,7 +146,7 @@ double difference_of(PairKind kind, const PixelPair& pixel, const float* depth, 
         return angle;
     }
     case PairKind::Motion: {
-        const double distance = motion_difference(pixel);
+        const double distance = std::min(motion_difference(pixel), double(DataPair::kSky));
         row.codes.push_back(StepHistogram::code(float(distance)));
         return distance;
     }

@@ -39,7 +39,7 @@ void FingerprintScan::add(Point& point, const std::vector<float>& rgb, int64_t a
             std::memcpy(bits.data(), &rgb[3 * size_t(x)], sizeof bits);
         const bool is_first = point.rows == 0 && x == at;
         for (size_t c = 0; c < 3; ++c) {
-            point.hash = point.hash * multiplier + bits[c] + increment;
+            point.hash = (point.hash + bits[c]) * multiplier + increment;
             if (is_first)
                 point.first[c] = bits[c];
             point.constant = point.constant && bits[c] == point.first[c];

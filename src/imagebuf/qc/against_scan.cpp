@@ -84,16 +84,16 @@ std::vector<size_t> AgainstScan::listed(size_t side) const {
     return listed;
 }
 
-// By the whole name; without that of the view layer where no layer has the whole name.
+// By the whole name; without that of the view layer where no layer has the whole name. A beauty
+// without a name, as the first part of a file may have it, is that of the other file.
 void AgainstScan::match_layers() {
+    using Layer = LayerReader::Layer;
     const std::vector<size_t> ours = listed(1);
-    const auto name_of = [&](size_t side, size_t i) -> const std::string& {
-        return m_sides[side].reader.layers()[i].name;
-    };
     std::set<size_t> taken;
     const auto match = [&](size_t theirs, const auto& same) {
+        const Layer& approved = m_sides[0].reader.layers()[theirs];
         const auto found = std::find_if(ours.begin(), ours.end(), [&](size_t i) {
-            return taken.count(i) == 0 && same(name_of(0, theirs), name_of(1, i));
+            return taken.count(i) == 0 && same(approved, m_sides[1].reader.layers()[i]);
         });
         if (found == ours.end())
             return false;
@@ -103,11 +103,13 @@ void AgainstScan::match_layers() {
     };
     std::vector<size_t> left;
     for (const size_t i : listed(0))
-        if (!match(i, [](const auto& a, const auto& b) { return a == b; }))
+        if (!match(i, [](const Layer& a, const Layer& b) { return a.name == b.name; }))
             left.push_back(i);
     for (const size_t i : left)
-        match(i, [](const auto& a, const auto& b) {
-            return split_layer(a).layer_name == split_layer(b).layer_name;
+        match(i, [](const Layer& a, const Layer& b) {
+            const bool nameless = a.name.empty() || b.name.empty();
+            return split_layer(a.name).layer_name == split_layer(b.name).layer_name ||
+                   (nameless && a.kind == "picture" && b.kind == "picture");
         });
     std::sort(m_same.begin(), m_same.end());
     for (const auto& [theirs, same] : m_same)

@@ -133,6 +133,7 @@ private:
     void tell(size_t i, const std::string& code, const std::string& sentence);
     void find_odd();
     bool is_odd(size_t i, const std::vector<double>& bends, double limit) const;
+    bool is_exchanged(size_t i) const;
     void find_order();
     void find_ends();
     void find_skips();
@@ -198,35 +199,51 @@ void MotionSearch::find_odd() {
 }
 
 // Two frames whose places were exchanged: by the other order the way is shorter.
-void MotionSearch::find_order() {
+bool MotionSearch::is_exchanged(size_t i) const {
     constexpr double moves = 0.005, shorter = 0.8, longest = 1.6;
-    for (size_t i = 1; i + 2 < m_motion.frames(); ++i) {
-        const double here = m_motion.step(i);
-        if (m_motion.usual() > moves && is_joined(i - 1, i + 2) &&
-            m_motion.apart(i - 1, i + 1) < shorter * m_motion.step(i - 1) &&
-            m_motion.apart(i, i + 2) < shorter * m_motion.step(i + 1) &&
-            here < longest * m_motion.usual() && m_motion.apart(i - 1, i + 2) > here) {
-            tell(i, "order",
-                 format("by {} frames {} and {} are in the wrong order", m_name,
-                        m_frames[i]->number, m_frames[i + 1]->number));
-            m_told.insert({i - 1, i + 1, i + 2});
-        }
+    const double here = m_motion.step(i);
+    return m_motion.usual() > moves && is_joined(i - 1, i + 2) &&
+           m_motion.apart(i - 1, i + 1) < shorter * m_motion.step(i - 1) &&
+           m_motion.apart(i, i + 2) < shorter * m_motion.step(i + 1) &&
+           here < longest * m_motion.usual() && m_motion.apart(i - 1, i + 2) > here;
+}
+
+// Where it happens often, the camera shakes.
+void MotionSearch::find_order() {
+    constexpr size_t often = 10;
+    std::vector<size_t> found;
+    for (size_t i = 1; i + 2 < m_motion.frames(); ++i)
+        if (is_exchanged(i))
+            found.push_back(i);
+    if (found.size() > std::max<size_t>(1, m_motion.frames() / often))
+        return;
+    for (const size_t i : found) {
+        tell(i, "order",
+             format("by {} frames {} and {} are in the wrong order", m_name, m_frames[i]->number,
+                    m_frames[i + 1]->number));
+        m_told.insert({i - 1, i + 1, i + 2});
     }
 }
 
+// Steps to frames that are held, as on twos, are none.
 void MotionSearch::find_ends() {
     constexpr double unusual = 5, still = 0.01;
-    const std::vector<double>& steps = m_motion.steps();
-    const size_t last = steps.size();
-    const auto is_cut_off = [&](double step, size_t from) {
-        const auto begin = steps.begin() + std::ptrdiff_t(from);
-        const double beside = median(std::vector<double>(begin, begin + 3));
-        return step > unusual * std::max(beside, still) && step > unusual * m_motion.usual();
+    constexpr size_t near = 3;
+    const size_t last = m_motion.frames() - 1;
+    std::vector<double> steps;
+    for (size_t i = 0; i < last; ++i)
+        if (!m_frames[i + 1]->held)
+            steps.push_back(m_motion.step(i));
+    // The others: the nearest first.
+    const auto is_cut_off = [&](double step, std::vector<double> others) {
+        const double usual = median(others);
+        others.resize(std::min<size_t>(others.size(), near));
+        return step > unusual * std::max({median(others), still, usual});
     };
-    if (is_joined(0, 1) && is_cut_off(steps.front(), 1))
+    if (is_joined(0, 1) && is_cut_off(steps.front(), {steps.begin() + 1, steps.end()}))
         tell(0, "cutatend",
              format("by {} it is of another camera than the frames that follow", m_name));
-    if (is_joined(last - 1, last) && is_cut_off(steps.back(), last - 4))
+    if (is_joined(last - 1, last) && is_cut_off(steps.back(), {steps.rbegin() + 1, steps.rend()}))
         tell(last, "cutatend",
              format("by {} it is of another camera than the frames before it", m_name));
 }

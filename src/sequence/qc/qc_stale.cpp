@@ -77,14 +77,36 @@ Block block_of(const std::vector<size_t>& points) {
     return block;
 }
 
+// Points are sorted.
+bool has_point(const std::vector<size_t>& points, size_t x, size_t y) {
+    return x < kWide && y < kHigh &&
+           std::binary_search(points.begin(), points.end(), y * kWide + x);
+}
+
+// Without the points that no other is beside, where they are so few: of each 30 pairs of frames one
+// has such a point by chance.
+void drop_chance(std::vector<size_t>& points) {
+    constexpr size_t few = 2;
+    std::vector<size_t> joined;
+    for (const size_t point : points) {
+        const size_t x = point % kWide, y = point / kWide;
+        bool beside = false;
+        for (size_t j = y - (y > 0); j <= y + 1; ++j)
+            for (size_t i = x - (x > 0); i <= x + 1; ++i)
+                beside = beside || ((i != x || j != y) && has_point(points, i, j));
+        if (beside)
+            joined.push_back(point);
+    }
+    if (points.size() - joined.size() <= few)
+        points = std::move(joined);
+}
+
 // How many squares of 2 x 2 points there are. By chance a square is shared once in 2^64.
 size_t squares_in(const std::vector<size_t>& points) {
-    const auto has = [&](size_t point) {
-        return std::binary_search(points.begin(), points.end(), point);
-    };
     return size_t(std::count_if(points.begin(), points.end(), [&](size_t point) {
-        return point % kWide + 1 < kWide && has(point + 1) && has(point + kWide) &&
-               has(point + kWide + 1);
+        const size_t x = point % kWide, y = point / kWide;
+        return has_point(points, x + 1, y) && has_point(points, x, y + 1) &&
+               has_point(points, x + 1, y + 1);
     }));
 }
 
@@ -92,6 +114,8 @@ size_t squares_in(const std::vector<size_t>& points) {
 bool is_bucket(const Frames& frames, const Pair& pair, const std::vector<size_t>& points) {
     constexpr double full = 0.9, most = 0.6;
     constexpr size_t enough = 2;
+    if (points.empty())
+        return false;
     const Block block = block_of(points);
     const size_t all = (block.x1 - block.x0 + 1) * (block.y1 - block.y0 + 1);
     if (double(points.size()) < full * double(all) || squares_in(points) < enough ||
@@ -140,8 +164,9 @@ void find_stale_buckets(QcShot& shot) {
         const std::vector<size_t>* points = nullptr;
     };
     std::map<size_t, Stale> found;
-    const Shared shared = shared_points(frames);
-    for (const auto& [pair, points] : shared) {
+    Shared shared = shared_points(frames);
+    for (auto& [pair, points] : shared) {
+        drop_chance(points);
         if (!is_bucket(frames, pair, points))
             continue;
         const auto& [a, b] = pair;

@@ -234,6 +234,9 @@ def walks_in(moment):
     return frame
 
 
+SHAKES = np.random.default_rng(4).normal(0, 1.5, (LAST - FIRST + 2, 2))
+FIRE = np.random.default_rng(4).uniform(0.6, 1.5, LAST - FIRST + 2)
+
 # Shots without a fault, by the moment from 1 on, and all that may be told of them.
 HEALTHY = {
     "pan": (pan, set()),
@@ -242,7 +245,10 @@ HEALTHY = {
     "lamp switched on": (lambda i: lock(i, change=times("Combined_rim", lambda i: i >= 13)),
                          {("warning", "blacklayer")}),
     "on twos": (lambda i: pan(i // 2 * 2), set()),
+    "on threes": (lambda i: pan(i // 3 * 3), set()),
     "still, then moves": (lambda i: pan(max(i, 10)), {("warning", "frozen")}),
     "few samples": (lambda i: pan(i, samples=8), set()),
     "walks in": (walks_in, {("info", "black")}),
+    "shakes": (lambda i: pan(i, left=25 + SHAKES[i][0], top=25 + SHAKES[i][1]), set()),
+    "fire": (lambda i: lock(i, change=times("Combined_rim", lambda i: FIRE[i])), set()),
 }

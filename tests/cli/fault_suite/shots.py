@@ -28,7 +28,7 @@ class Frame:
 
     def __init__(self, layers, attributes):
         self.layers, self.attributes = layers, attributes
-        self.compression, self.color_type = "zip", "half"
+        self.compression, self.color_type, self.data_type = "zip", "half", "float"
         self.origin, self.display = (0, 0), (WIDTH, HEIGHT)
 
     def colors(self):
@@ -43,7 +43,7 @@ class Frame:
         """Name, data type and values of each."""
         for name, layer in self.layers.items():
             parts = self.PARTS.get(name, "RGBA")
-            kind = self.color_type if parts == "RGBA" else "float"
+            kind = self.color_type if parts == "RGBA" else self.data_type
             for i in range(layer.shape[2]):
                 yield f"{name}.{parts[i]}", kind, layer[..., i]
 
@@ -57,7 +57,7 @@ class Frame:
         spec.full_width, spec.full_height = self.display
         spec.attribute("compression", self.compression)
         for key, value in self.attributes.items():
-            spec.attribute(key, value)
+            spec.attribute(key, *(value if isinstance(value, tuple) else (value,)))
         output = oiio.ImageOutput.create(str(path))
         assert output.open(str(path), spec), output.geterror()
         assert output.write_image(pixels), output.geterror()
