@@ -169,10 +169,12 @@ int conclude_check(const sequence::ShotResult& shot, const FramePlan& plan,
     return !errors.empty() ? 1 : plan.check.has("exit-zero") ? 0 : status;
 }
 
-int merge_parts(const FramePlan& plan, std::ostream& out, std::ostream& err) {
+namespace {
+
+// The files of the parts, if all can be written that is made of them.
+Strings parts_of(const FramePlan& plan) {
     const CheckPlan& check = plan.check;
-    const Strings& texts = plan.line.texts;
-    Strings named = words_at(texts, check.inputs);
+    Strings named = words_at(plan.line.texts, check.inputs);
     if (named != check.essence) {
         throw CommandError("--merge takes results alone (valid: --merge PART.json ... with --json, "
                            "--csv and the like)");
@@ -183,15 +185,31 @@ int merge_parts(const FramePlan& plan, std::ostream& out, std::ostream& err) {
     for (const std::string& list : check.part_lists)
         for (const std::string& line : sequence::lines_of(list))
             named.push_back(line);
-    const Strings parts = sequence::part_files(named);
+    Strings parts = sequence::part_files(named);
     refuse_to_write_over(plan, parts);
-    sequence::try_places(check.written_places());
+    sequence::CheckFiles places = check.written_places();
+    places.erase("pictures"); // which are read here
+    sequence::try_places(places);
+    if (check.has("pictures") && !OIIO::Filesystem::is_directory(check.argument("pictures")))
+        throw CommandError("--pictures: there is no folder \"" + check.argument("pictures") + "\"");
+    return parts;
+}
+
+void merge_exposures(const FramePlan& plan, const Strings& parts, std::ostream& out) {
+    const std::string text = sequence::merged_exposures(parts);
+    if (plan.check.only_validates)
+        out << places_text(plan);
+    else
+        write_statistics(plan.check, text);
+}
+
+} // namespace
+
+int merge_parts(const FramePlan& plan, std::ostream& out, std::ostream& err) {
+    const CheckPlan& check = plan.check;
+    const Strings parts = parts_of(plan);
     if (check.has("statistics")) {
-        const std::string text = sequence::merged_exposures(parts);
-        if (check.only_validates)
-            out << places_text(plan);
-        else
-            write_statistics(check, text);
+        merge_exposures(plan, parts, out);
         return 0;
     }
     Strings complaints;
@@ -200,11 +218,9 @@ int merge_parts(const FramePlan& plan, std::ostream& out, std::ostream& err) {
         shot.accepted.insert(shot.accepted.begin(), accepted.begin(), accepted.end());
         conclude(shot);
     }
-    chain::Session session(out, err, full_command_line(plan.line, texts, plan.line.compat));
+    chain::Session session(out, err, full_command_line(plan.line, plan.line.texts, plan.line.compat));
     for (const std::string& complaint : complaints)
         session.error("merge", complaint);
-    if (check.has("pictures") && !OIIO::Filesystem::is_directory(check.argument("pictures")))
-        throw CommandError("--pictures: there is no folder \"" + check.argument("pictures") + "\"");
     if (check.only_validates) {
         out << "dry run: " << shot.frames.size() << " frames in " << parts.size() << " parts\n"
             << places_text(plan);

@@ -155,6 +155,20 @@ def test_the_verdict_comes_before_the_files_and_each_that_can_be_is_written(tone
     assert (tmp_path / "c.xml").exists()
 
 
+def test_each_file_that_is_not_written_is_a_line(tonetool, make_image, tmp_path):
+    make_image("a.exr")
+    make_image("b.exr", seed=2)
+    results = {"--csv": "c.csv", "--junit": "c.xml", "--report": "c.html", "--bad-frames": "bad.txt"}
+    for name in results.values():
+        (tmp_path / name).symlink_to("/dev/full")
+    ran = tonetool("a.exr", "b.exr", "--hdrflip:fail=0.01:print=0", *(word for item in results.items() for word in item),
+                   "--json", "c.json", status=1)
+    assert ran.out.splitlines()[-1].startswith("check: failed")
+    errors = [line for line in ran.err.splitlines() if line.startswith("tonetool ERROR")]
+    assert len(errors) == 4 and all(any(name in line for line in errors) for name in results.values())
+    assert load(tmp_path / "c.json")["verdict"] == "failed"
+
+
 def test_the_workers_end_with_the_program(program, shot):
     with subprocess.Popen([program, "--jobs", "2", "ref.#.exr", "test.#.exr", FLIP, "-o",
                            "map.#.exr", "--json", "c.json"], cwd=shot, stdout=subprocess.DEVNULL,

@@ -55,7 +55,9 @@ that fail or warn print a line, with -v each does.
   --state DIR          a run that was killed goes on where it was
   --jobs N             N frames at a time
   --frames 1-100       the frames that must be there
-  --merge              joins the results of a farm's tasks; tonetool-slurm does it all on Slurm
+  --dry-run            only looks whether the line can run and which frames are there
+  --merge              joins the results of a farm's tasks, --json files of version 1 (others are
+                       refused); tonetool-slurm does it all on Slurm
 
 exposures=shot compares all frames at one range of exposures, so that their errors can be compared.
 --biascheck tells noise from a change of the light (--help biascheck).
@@ -186,7 +188,8 @@ const char* const kExit = R"(Exit status
 
 An error is never reported as a pass; of several statuses an error counts most, then 3, then 2. In a
 sequence the worst frame counts: one that is missing, unreadable, of another size or whose threshold
-could not be tested is an error. --compat: 1 for all failures, as oiiotool has it.
+could not be tested is an error. --compat: 1 for all failures, as oiiotool has it. Ctrl-C, TERM and HUP
+end a check with 130, 143 and 129: no result is written, and --state has kept the finished frames.
 )";
 
 } // namespace
