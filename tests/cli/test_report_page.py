@@ -372,6 +372,24 @@ def test_zoom_at_the_pointer_shows_the_right_pixel(page):
     assert page.ask("view.zoom") is None
 
 
+def test_pictures_that_lie_on_their_side(page):
+    """What is shown of a pixel leads back to that pixel, in each of Exif's orientations."""
+    assert page.ask("""[1, 2, 3, 4, 5, 6, 7, 8].every((orientation) => {
+      const full = { x: 10, y: 20, width: 30, height: 7, orientation };
+      const lies = orientation > 4;
+      const seen = new Set();
+      for (let y = 20; y < 27; y++) for (let x = 10; x < 40; x++) {
+        const place = shownPlace(full, { x, y, width: 1, height: 1 });
+        if (!inside({ x: 0, y: 0, width: lies ? 7 : 30, height: lies ? 30 : 7 }, place.x, place.y)) return false;
+        if (String(filePixel(full, place.x, place.y)) !== String([x, y])) return false;
+        seen.add(`${place.x} ${place.y}`);
+      }
+      return seen.size === 210; })""")
+    # Orientation 6: the first row of the file is at the right, its first pixel above.
+    assert page.ask("shownPlace({ x: 0, y: 0, width: 30, height: 7, orientation: 6 },"
+                    " { x: 2, y: 1, width: 3, height: 1 })") == {"x": 5, "y": 2, "width": 1, "height": 3}
+
+
 def test_wheel_drag_and_double_click(page):
     select(page, 5)
     page.keys("c")

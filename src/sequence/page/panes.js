@@ -344,7 +344,7 @@ function readoutOf(frame, x, y) {
   if (error) rows.push(["Error", `${error.exact ? "" : "about "}${error.value.toFixed(2)}`]);
   if (maps.stops) {
     const [low, high] = full.range;
-    rows.push(["Largest at", `${stops(low + mapAt(maps.stops, x, y) * (high - low))} stops`]);
+    rows.push(["Worst at", `${stops(low + mapAt(maps.stops, x, y) * (high - low))} stops`]);
   }
   return rows;
 }
