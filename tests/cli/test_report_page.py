@@ -372,6 +372,24 @@ def test_zoom_at_the_pointer_shows_the_right_pixel(page):
     assert page.ask("view.zoom") is None
 
 
+def test_pictures_that_lie_on_their_side(page):
+    """What is shown of a pixel leads back to that pixel, in each of Exif's orientations."""
+    assert page.ask("""[1, 2, 3, 4, 5, 6, 7, 8].every((orientation) => {
+      const full = { x: 10, y: 20, width: 30, height: 7, orientation };
+      const lies = orientation > 4;
+      const seen = new Set();
+      for (let y = 20; y < 27; y++) for (let x = 10; x < 40; x++) {
+        const place = shownPlace(full, { x, y, width: 1, height: 1 });
+        if (!inside({ x: 0, y: 0, width: lies ? 7 : 30, height: lies ? 30 : 7 }, place.x, place.y)) return false;
+        if (String(filePixel(full, place.x, place.y)) !== String([x, y])) return false;
+        seen.add(`${place.x} ${place.y}`);
+      }
+      return seen.size === 210; })""")
+    # Orientation 6: the first row of the file is at the right, its first pixel above.
+    assert page.ask("shownPlace({ x: 0, y: 0, width: 30, height: 7, orientation: 6 },"
+                    " { x: 2, y: 1, width: 3, height: 1 })") == {"x": 5, "y": 2, "width": 1, "height": 3}
+
+
 def test_wheel_drag_and_double_click(page):
     select(page, 5)
     page.keys("c")
@@ -398,7 +416,9 @@ def test_wheel_drag_and_double_click(page):
 
 def test_exposures_by_mouse_and_by_keys(page):
     select(page, 5)
+    assert page.text("#exposure-value") == "0.0"  # as rendered
     worst = page.ask("viewer.frame.full.start")
+    page.keys("0")
     assert page.text("#exposure-value").endswith("(worst)")
     seen = [page.shown()]
     page.keys(".")
@@ -478,7 +498,7 @@ def test_decisions_are_kept_and_exported(page, page_file):
     scale, left, top = page.ask(TRANSFORM)
     assert float(rectangle.get_attribute("x")) == pytest.approx(left + 8 * scale)
     assert float(rectangle.get_attribute("width")) == pytest.approx(6 * scale)
-    assert scale > page.ask("fitting(largePane())")  # it is near
+    assert scale == max(8, page.ask("fitting(largePane())"))
     assert page.all(".pane.large circle.mark.warning")
     page.keys("j")
     assert page.ask("location.hash") == "#5/2" and page.ask("viewer.fault") == 2
@@ -747,7 +767,7 @@ def test_a_thousand_frames_open_at_once(driver, program, tmp_path):
         page = Page(driver, file)
         took.append(page.ask("performance.timing.loadEventEnd - performance.timing.navigationStart"))
     assert page.complaints() == []
-    assert min(took) < 3000, took
+    assert min(took) < 2000, took
     assert page.frame() == "5"
     page.keys(Keys.END)
     page.ready()

@@ -25,9 +25,16 @@ function decidedFaults() {
   return viewer.fault ? [faults[viewer.fault - 1]] : faults.filter((fault) => fault.severity !== "info");
 }
 
+/** What kept a frame from being checked is no fault of it that could be let pass. */
+const canAccept = (frame) => classOf(frame.status) !== "error";
+
 function decide(what) {
   const frame = frames[viewer.index];
   const faults = decidedFaults();
+  if (what === "accepted" && faults.length && !canAccept(frame)) {
+    byId("decided").textContent = `A frame that is ${frame.status} cannot be accepted: there is nothing to look at.`;
+    return;
+  }
   if (!faults.length) {
     byId("decided").textContent = "This frame has no fault to accept: limits of a comparison are those of the command line.";
     return;
@@ -68,7 +75,7 @@ function drawDecision() {
   const states = new Set(faults.map((fault) => (decisionOf(frame, fault) || { what: "" }).what));
   for (const what of ["accepted", "rejected"]) {
     byId(what).setAttribute("aria-pressed", String(states.size === 1 && states.has(what)));
-    byId(what).disabled = faults.length === 0;
+    byId(what).disabled = faults.length === 0 || (what === "accepted" && !canAccept(frame));
   }
   const first = faults.map((fault) => decisionOf(frame, fault)).find(Boolean);
   byId("note").value = first ? first.why : "";

@@ -108,7 +108,8 @@ function start() {
   if (!hasFrames) return;
   startAll();
   const { index, fault } = linked();
-  viewer.index = index >= 0 ? index : data.shot.worst.length ? data.shot.worst[0] : 0;
+  const { worst } = data.shot; // the first of them that can be looked at
+  viewer.index = index >= 0 ? index : worst.find((one) => picturesOf(one, "small")) ?? worst[0] ?? 0;
   startCurve();
   select(viewer.index, fault);
   document.addEventListener("keydown", onKey);

@@ -1,8 +1,9 @@
 // Panes that show one frame, all at the same place and in the same scale.
 
+// `stops`: the exposure, null for that of the frame's largest error;
 // `zoom`: pixels of the screen for one of the picture in the large pane, null for all that fits;
 // x and y: what of the picture is in the middle, from 0 to 1.
-const view = { zoom: null, x: 0.5, y: 0.5, stops: null, channel: "", marks: true, panes: [], pointer: null, pins: [] };
+const view = { zoom: null, x: 0.5, y: 0.5, stops: 0, channel: "", marks: true, panes: [], pointer: null, pins: [] };
 const NAMES = { compare: "Reference and test", reference: "Reference", test: "Test", error: "Error map",
   stops: "Exposure map", bias: "Noise or change" };
 const MOST_ZOOM = 64;
@@ -99,7 +100,7 @@ function panBy(dx, dy) {
 /** A rectangle of the picture, with some room around it. */
 function zoomOn({ x, y, width, height }) {
   const { width: w, height: h } = sizeOf(largePane());
-  const room = Math.min(w / Math.max(width * 3, 24), h / Math.max(height * 3, 24), 16);
+  const room = Math.min(w / Math.max(width * 3, 80), h / Math.max(height * 3, 45), 8);
   zoomTo(Math.max(room, fitting(largePane())), x + width / 2, y + height / 2);
 }
 
@@ -344,7 +345,7 @@ function readoutOf(frame, x, y) {
   if (error) rows.push(["Error", `${error.exact ? "" : "about "}${error.value.toFixed(2)}`]);
   if (maps.stops) {
     const [low, high] = full.range;
-    rows.push(["Largest at", `${stops(low + mapAt(maps.stops, x, y) * (high - low))} stops`]);
+    rows.push(["Worst at", `${stops(low + mapAt(maps.stops, x, y) * (high - low))} stops`]);
   }
   return rows;
 }

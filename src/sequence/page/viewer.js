@@ -139,6 +139,7 @@ function drawPictures() {
     byId("stage").replaceChildren(make("p", { className: "none" }, "No pictures of this frame."));
     byId("maps").replaceChildren();
     byId("stage-caption").replaceChildren();
+    byId("slide").hidden = true;
     drawReadout();
     return;
   }

@@ -106,6 +106,13 @@ bool says_space_again(const PixelOptions& options) {
     return !options.config.empty() && !options.from.empty();
 }
 
+std::vector<size_t> targets(int from, int to) {
+    std::vector<size_t> all(static_cast<size_t>(from));
+    for (int x = 0; x < from; ++x)
+        all[size_t(x)] = size_t(target(x, from, to));
+    return all;
+}
+
 PixelSize fitted(const ROI& region, int longest) {
     const double scale = std::min(1.0, double(longest) / std::max(region.width(), region.height()));
     return {std::max(1, int(std::lround(region.width() * scale))),
@@ -150,15 +157,14 @@ ImageBuf reduced_color(const ImageBuf& image, const PixelOptions& options, const
     spec.height = spec.full_height = side.height;
     ImageBuf result(spec);
     Rows rows(image, region, first, count);
+    const std::vector<size_t> columns = targets(region.width(), side.width);
     int y = 0;
     for (int to = 0; to < side.height; ++to) {
         RowSums sums(side.width);
         for (; y < region.height() && target(y, region.height(), side.height) == to; ++y) {
             const std::vector<float>& row = rows.read(region.ybegin + y);
-            for (int x = 0; x < region.width(); ++x) {
-                sums.add(size_t(target(x, region.width(), side.width)),
-                         row.data() + size_t(x) * size_t(count), order);
-            }
+            for (size_t x = 0; x < columns.size(); ++x)
+                sums.add(columns[x], row.data() + x * size_t(count), order);
         }
         sums.write(result, to);
     }
@@ -169,16 +175,17 @@ ReducedMaps reduced_maps(const ImageBuf& error, const ImageBuf* stops, const Pix
     const ROI all = error.roi();
     const size_t width = size_t(side.width);
     std::vector<float> most(width * size_t(side.height), -1.0f), at(most.size());
+    const std::vector<size_t> columns = targets(all.width(), side.width);
     Rows errors(error, all, 0, 1), exposures(stops ? *stops : error, all, 0, 1);
     for (int y = 0; y < all.height(); ++y) {
         const std::vector<float>& row = errors.read(all.ybegin + y);
         const std::vector<float>& of = exposures.read(all.ybegin + y);
         const size_t line = size_t(target(y, all.height(), side.height)) * width;
-        for (int x = 0; x < all.width(); ++x) {
-            const size_t i = line + size_t(target(x, all.width(), side.width));
-            if (row[size_t(x)] > most[i]) {
-                most[i] = row[size_t(x)];
-                at[i] = of[size_t(x)];
+        for (size_t x = 0; x < columns.size(); ++x) {
+            const size_t i = line + columns[x];
+            if (row[x] > most[i]) {
+                most[i] = row[x];
+                at[i] = of[x];
             }
         }
     }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <OpenImageIO/imagebuf.h>
+#include <vector>
 
 #include "tonetool/pixels.h"
 
@@ -14,6 +15,9 @@ struct PixelSize {
 
 /// The size of a region whose longer side is at most `longest`; never larger than the region.
 PixelSize fitted(const OIIO::ROI& region, int longest);
+
+/// Of each of `from` pixels the one of `to` that it falls on when it is reduced.
+std::vector<size_t> targets(int from, int to);
 
 /// The region of `to` that corresponds to the region `part` of `from`.
 OIIO::ROI scaled(const OIIO::ROI& part, const OIIO::ROI& from, const OIIO::ROI& to);

@@ -55,19 +55,19 @@ bool is_found(const Position& at, const FrameResult& frame) {
                        [&](const Measurement& one) { return one.worst == at; });
 }
 
-// The images of a text that a store wrote, null if it is not one: it would break the page.
-ordered_json images_of(const std::string& text) {
-    ordered_json images = parsed_or_null(text);
-    if (!images.is_object())
-        return nullptr;
-    for (const char* key : {"form", "of", "asked"})
-        images.erase(key);
-    return images;
+// The text of what a store wrote without what it says of the frame, empty if it is damaged: it
+// would break the page.
+std::string images_text(const std::string& text) {
+    size_t begin = 0;
+    for (int key = 0; key < 3 && begin != std::string::npos; ++key) // form, of, asked
+        begin = text.find(',', begin + 1);
+    return begin == std::string::npos || !ordered_json::accept(text) ? ""
+                                                                     : "{" + text.substr(begin + 1);
 }
 
 // The images without those of spots that turned out to be no fault.
 ordered_json with_faults_only(const std::string& text, const FrameResult& frame) {
-    ordered_json pictures = images_of(text);
+    ordered_json pictures = parsed_or_null(images_text(text));
     if (!pictures.is_object() || !pictures.contains("spots"))
         return nullptr;
     ordered_json spots = ordered_json::array();
@@ -90,11 +90,8 @@ public:
     explicit Blocks(size_t room) : m_room(room) {}
 
     /// False if it does not fit, or is nothing.
-    bool put(const std::string& id, const ordered_json& images) {
-        if (images.is_null())
-            return false;
-        const std::string text = one_line(images);
-        if (text.size() > m_room)
+    bool put(const std::string& id, const std::string& text) {
+        if (text.empty() || text.size() > m_room)
             return false;
         m_html += format("<script type=\"application/json\" id=\"{}\">{}</script>\n", id,
                          script_data(text));
@@ -111,51 +108,79 @@ private:
     std::string m_html;
 };
 
-size_t size_of(const ordered_json& images) {
-    return images.is_null() ? 0 : one_line(images).size();
+std::string text_of(const ordered_json& images) {
+    return images.is_null() ? "" : one_line(images);
 }
 
-// Of the frames that have pictures in full some get them in the full size instead, where all the
-// others still fit.
-void put_pictures(Blocks& blocks, Kept& kept, const ShotResult& shot, const PictureStore& pictures,
-                  const std::vector<size_t>& order) {
-    std::vector<std::pair<size_t, ordered_json>> full;
-    size_t most = pictures.counts().full;
-    for (const size_t i : order) {
-        const FrameResult& frame = shot.frames[i];
-        ordered_json images = with_faults_only(pictures.text(PictureSize::Full, frame), frame);
-        const size_t size = size_of(images);
-        if (size == 0 || size > blocks.room() || full.size() == most)
-            continue;
-        blocks.leave(size);
-        full.emplace_back(i, std::move(images));
-    }
-    for (auto& [i, images] : full) {
-        const ordered_json large =
-            kept.large.size() < pictures.counts().large
-                ? images_of(pictures.text(PictureSize::Large, shot.frames[i]))
-                : nullptr;
-        const size_t before = size_of(images);
-        if (blocks.put(format("large-{}", i), large)) {
-            images.erase("pictures");
-            kept.large.insert(i);
-        }
-        kept.near += images.contains("near") ? 1 : 0;
-        blocks.give_back(before);
-        blocks.put(format("full-{}", i), images);
-        kept.full.insert(i);
-    }
-}
+struct FullFrame {
+    size_t index;
+    ordered_json images;
+    std::string text;
+};
 
-void put_exact(Blocks& blocks, Kept& kept, const ShotResult& shot, const PictureStore& pictures) {
-    size_t tried = 0;
+// Those that fit; there is room for them from now on.
+std::vector<FullFrame> full_frames(Blocks& blocks, const ShotResult& shot,
+                                   const PictureStore& pictures) {
+    std::vector<FullFrame> all;
     for (const size_t i : by_rank(shot)) {
-        if (tried == pictures.counts().of(PictureSize::Exact) || kept.full.count(i) == 0)
+        if (all.size() == pictures.counts().full)
+            break;
+        const FrameResult& frame = shot.frames[i];
+        FullFrame one{i, with_faults_only(pictures.text(PictureSize::Full, frame), frame), ""};
+        one.text = text_of(one.images);
+        if (one.text.empty() || one.text.size() > blocks.room())
             continue;
-        ++tried;
-        if (blocks.put(format("exact-{}", i),
-                       images_of(pictures.text(PictureSize::Exact, shot.frames[i]))))
+        blocks.leave(one.text.size());
+        all.push_back(std::move(one));
+    }
+    return all;
+}
+
+// Of the frames that have pictures in full some get them in the size of the file instead, where
+// all the others still fit.
+void put_large(Blocks& blocks, Kept& kept, const ShotResult& shot, const PictureStore& pictures,
+               std::vector<FullFrame>& full) {
+    for (FullFrame& one : full) {
+        if (kept.large.size() == pictures.counts().large)
+            return;
+        const std::string large =
+            images_text(pictures.text(PictureSize::Large, shot.frames[one.index]));
+        if (!blocks.put(format("large-{}", one.index), large))
+            continue;
+        kept.large.insert(one.index);
+        one.images.erase("pictures");
+        blocks.give_back(one.text.size());
+        one.text = one_line(one.images);
+        blocks.leave(one.text.size());
+    }
+}
+
+void put_exact(Blocks& blocks, Kept& kept, const ShotResult& shot, const PictureStore& pictures,
+               const std::vector<FullFrame>& full) {
+    const size_t most = std::min(full.size(), pictures.counts().of(PictureSize::Exact));
+    for (size_t k = 0; k < most; ++k) {
+        const size_t i = full[k].index;
+        const std::string text = pictures.text(PictureSize::Exact, shot.frames[i]);
+        if (blocks.put(format("exact-{}", i), images_text(text)))
             kept.exact.insert(i);
+    }
+}
+
+// What was asked for comes first.
+void put_pictures(Blocks& blocks, Kept& kept, const ShotResult& shot,
+                  const PictureStore& pictures) {
+    std::vector<FullFrame> full = full_frames(blocks, shot, pictures);
+    const bool asked = pictures.counts().exact > 0;
+    if (asked)
+        put_exact(blocks, kept, shot, pictures, full);
+    put_large(blocks, kept, shot, pictures, full);
+    if (!asked)
+        put_exact(blocks, kept, shot, pictures, full);
+    for (const FullFrame& one : full) {
+        blocks.give_back(one.text.size());
+        blocks.put(format("full-{}", one.index), one.text);
+        kept.full.insert(one.index);
+        kept.near += one.images.contains("near") ? 1 : 0;
     }
 }
 
@@ -169,11 +194,10 @@ Kept kept(const ShotResult& shot, const PictureStore& pictures, const PageLimits
         const FrameResult& frame = shot.frames[i];
         result.small +=
             small.put(format("small-{}", i),
-                      with_faults_only(pictures.text(PictureSize::Small, frame), frame));
+                      text_of(with_faults_only(pictures.text(PictureSize::Small, frame), frame)));
     }
     Blocks large(room - (before - small.room()));
-    put_pictures(large, result, shot, pictures, order);
-    put_exact(large, result, shot, pictures);
+    put_pictures(large, result, shot, pictures);
     result.blocks = std::move(small).html() + std::move(large).html();
     return result;
 }

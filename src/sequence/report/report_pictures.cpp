@@ -21,7 +21,8 @@ using OIIO::ImageBuf;
 using OIIO::ROI;
 
 constexpr uint16_t kOne = 0x3c00; // as a half float
-constexpr int kLogQuality = 92, kMapQuality = 85, kSmallQuality = 72;
+constexpr int kLogQuality = 88, kReducedQuality = 82, kMapQuality = 60, kStopsQuality = 40,
+              kSmallQuality = 72;
 
 struct Shown {
     ImageBuf reference, test; ///< 8 bits, sRGB-encoded
@@ -153,7 +154,7 @@ private:
             draw_side(*m_request.reference, pictures, &PairTexts::reference,
                       &NumberPictures::reference);
         }
-        if (pictures.near && m_request.error)
+        if (m_request.large && pictures.near && m_request.error)
             pictures.near->error = error_numbers(*pictures.near);
     }
 
@@ -177,7 +178,7 @@ private:
         if (m_request.large)
             pictures.large.*side = uri(log_codes(pixels), Encoding::Jpeg, kLogQuality);
         const ScenePixels means = reduced(pixels, side_reduced);
-        pictures.pictures.*side = uri(log_codes(means), Encoding::Jpeg, kLogQuality);
+        pictures.pictures.*side = uri(log_codes(means), Encoding::Jpeg, kReducedQuality);
         if (std::any_of(pixels.alpha.begin(), pixels.alpha.end(),
                         [](uint16_t half) { return half != kOne; }))
             pictures.alpha.*side = alpha_uri(pixels);
@@ -280,7 +281,7 @@ private:
             pictures.first_stop = m_request.exposures.front();
             pictures.last_stop = m_request.exposures.back();
             pictures.stops = uri(coded_bytes(maps.stops, pictures.first_stop, pictures.last_stop),
-                                 Encoding::Jpeg);
+                                 Encoding::Jpeg, kStopsQuality);
         }
     }
 

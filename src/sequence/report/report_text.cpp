@@ -49,6 +49,8 @@ std::string escaped(const std::string& text) {
 }
 
 std::string script_data(const std::string& json) {
+    if (json.find_first_of("<>&") == std::string::npos) // as in pictures, which are long
+        return json;
     std::string data;
     data.reserve(json.size());
     for (const char c : json) {

@@ -103,16 +103,16 @@ class MeanRow {
 public:
     explicit MeanRow(int width) : m_sums(size_t(width) * 3), m_counts(size_t(width)) {}
 
-    void add(const uint16_t* row, int width) {
+    /// `columns`: the pixel that each one of the row falls on.
+    void add(const uint16_t* row, const std::vector<size_t>& columns) {
         static const std::vector<float> values = value_table();
-        const auto to = int64_t(m_counts.size());
-        for (int64_t x = 0; x < width; ++x, row += 3) {
-            const auto at = size_t(x * to / width);
+        for (const size_t at : columns) {
             const bool finite = std::max({row[0] & kMagnitude, row[1] & kMagnitude,
                                           row[2] & kMagnitude}) < kInfinity;
             m_counts[at] += finite ? 1 : 0;
             for (size_t c = 0; c < 3 && finite; ++c)
                 m_sums[3 * at + c] += values[row[c]];
+            row += 3;
         }
     }
 
@@ -174,11 +174,12 @@ ScenePixels scene_means(const ImageBuf& image, const PixelOptions& options, cons
 ScenePixels reduced(const ScenePixels& pixels, const PixelSize& side) {
     std::vector<float> means;
     means.reserve(size_t(side.width) * size_t(side.height) * 3);
+    const std::vector<size_t> columns = targets(pixels.width, side.width);
     int64_t y = 0;
     for (int to = 0; to < side.height; ++to) {
         MeanRow row(side.width);
         for (; y < pixels.height && y * side.height / pixels.height == to; ++y)
-            row.add(pixels.color.data() + 3 * y * pixels.width, pixels.width);
+            row.add(pixels.color.data() + 3 * y * pixels.width, columns);
         row.append_to(means);
     }
     Halves color(means.size());
