@@ -35,7 +35,7 @@ Picture noise(int64_t x, int64_t y, int64_t width, int64_t height) {
 constexpr int64_t kLeft = 10, kTop = 20, kWidth = 160, kHeight = 90;
 constexpr size_t kWide = 8, kHigh = 6;
 
-std::vector<int> codes_of(const Picture& picture) {
+std::vector<uint16_t> codes_of(const Picture& picture) {
     FingerprintScan scan(kLeft, kTop, kWidth, kHeight, kWide, kHigh);
     for (int64_t row = 0; row < picture.height; ++row) {
         const auto begin = picture.rgb.begin() + std::ptrdiff_t(3 * row * picture.width);
@@ -46,7 +46,7 @@ std::vector<int> codes_of(const Picture& picture) {
 }
 
 TEST(FingerprintScan, PicturesHaveCodesAndWhatIsConstantHasNone) {
-    const std::vector<int> codes = codes_of(noise(kLeft, kTop, kWidth, kHeight));
+    const std::vector<uint16_t> codes = codes_of(noise(kLeft, kTop, kWidth, kHeight));
     ASSERT_EQ(codes.size(), kWide * kHigh);
     EXPECT_THAT(codes, Each(Ge(1)));
     EXPECT_THAT(codes, Each(Le(65535)));
@@ -59,13 +59,13 @@ TEST(FingerprintScan, PicturesHaveCodesAndWhatIsConstantHasNone) {
 }
 
 TEST(FingerprintScan, APixelInTheMiddleOfACellChangesItsCodeAlone) {
-    const std::vector<int> before = codes_of(noise(kLeft, kTop, kWidth, kHeight));
+    const std::vector<uint16_t> before = codes_of(noise(kLeft, kTop, kWidth, kHeight));
     // Cells are 20 x 15 pixels; the squares are at their centres.
     const int64_t x = kLeft + 3 * 20 + 10, y = kTop + 2 * 15 + 7;
     for (const int64_t offset : {-2, 1}) {
         Picture changed = noise(kLeft, kTop, kWidth, kHeight);
         changed.at(x + offset, y + offset)[2] *= 1.001f;
-        std::vector<int> after = codes_of(changed);
+        std::vector<uint16_t> after = codes_of(changed);
         EXPECT_NE(after[2 * kWide + 3], before[2 * kWide + 3]);
         after[2 * kWide + 3] = before[2 * kWide + 3];
         EXPECT_EQ(after, before);
@@ -78,16 +78,16 @@ TEST(FingerprintScan, APixelInTheMiddleOfACellChangesItsCodeAlone) {
 }
 
 TEST(FingerprintScan, OverscanDoesNotMatter) {
-    const std::vector<int> codes = codes_of(noise(kLeft, kTop, kWidth, kHeight));
+    const std::vector<uint16_t> codes = codes_of(noise(kLeft, kTop, kWidth, kHeight));
     EXPECT_EQ(codes_of(noise(0, 0, kWidth + 40, kHeight + 40)), codes);
     EXPECT_EQ(codes_of(noise(kLeft - 3, kTop + 1, kWidth + 3, kHeight - 2)), codes);
 }
 
 // Pixels beside the picture are black, and where rows lack there is no code.
 TEST(FingerprintScan, ACroppedPictureHasTheCodesOfWhatItHas) {
-    const std::vector<int> codes = codes_of(noise(kLeft, kTop, kWidth, kHeight));
-    const std::vector<int> right = codes_of(noise(kLeft + 80, kTop, 80, kHeight));
-    const std::vector<int> upper = codes_of(noise(kLeft, kTop, kWidth, 45));
+    const std::vector<uint16_t> codes = codes_of(noise(kLeft, kTop, kWidth, kHeight));
+    const std::vector<uint16_t> right = codes_of(noise(kLeft + 80, kTop, 80, kHeight));
+    const std::vector<uint16_t> upper = codes_of(noise(kLeft, kTop, kWidth, 45));
     for (size_t i = 0; i < codes.size(); ++i) {
         EXPECT_EQ(right[i], i % kWide < 4 ? 0 : codes[i]) << i;
         EXPECT_EQ(upper[i], i / kWide < 3 ? codes[i] : 0) << i;

@@ -66,7 +66,7 @@ Change at(int number, const std::function<void(QcFacts&)>& change) {
 
 std::function<void(QcFacts&)> brighter(int milli_stops) {
     return [=](QcFacts& facts) {
-        for (int& cell : facts.picture.thumbnail)
+        for (int16_t& cell : facts.picture.thumbnail)
             cell += milli_stops;
     };
 }
@@ -207,7 +207,7 @@ TEST(QcRules, StaleBucket) {
     EXPECT_THAT(found_with(with_points_of(3, 8, 8, 6, 2)), IsEmpty()); // no rectangle
     // A still part under a fixed seed, which all frames share, or many one after the other.
     for (const int last : {12, 9}) {
-        const std::vector<int> still = render_of(1).picture.fingerprints;
+        const std::vector<uint16_t> still = render_of(1).picture.fingerprints;
         EXPECT_THAT(found_with(in(4, last,
                                   [&](QcFacts& facts) {
                                       for (size_t i = 0; i < 640; ++i)

@@ -24,7 +24,7 @@ inline QcFacts facts_of(int number, double stops = 0) {
     for (int y = 0; y < QcPicture::kHigh; ++y) {
         for (int x = 0; x < QcPicture::kWide; ++x) {
             const double wall = std::sin(0.9 * x + 0.05 * number) + std::sin(0.7 * y - 0.3 * x);
-            facts.picture.thumbnail.push_back(int(std::lround(1000 * (wall + stops))));
+            facts.picture.thumbnail.push_back(int16_t(std::lround(1000 * (wall + stops))));
         }
     }
     facts.picture.red.assign(facts.picture.thumbnail.size(), 8);
@@ -32,7 +32,7 @@ inline QcFacts facts_of(int number, double stops = 0) {
     std::mt19937 noise(unsigned(number) + 1);
     for (int i = 0; i < QcPicture::kPeaksWide * QcPicture::kPeaksHigh; ++i) {
         facts.picture.peaks.push_back(20);
-        facts.picture.fingerprints.push_back(int(noise() % 65535) + 1);
+        facts.picture.fingerprints.push_back(uint16_t(noise() % 65535 + 1));
     }
     facts.picture.groups = 1;
     facts.picture.group_sum = 1;
