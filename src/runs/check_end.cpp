@@ -218,7 +218,8 @@ int merge_parts(const FramePlan& plan, std::ostream& out, std::ostream& err) {
         shot.accepted.insert(shot.accepted.begin(), accepted.begin(), accepted.end());
         conclude(shot);
     }
-    chain::Session session(out, err, full_command_line(plan.line, plan.line.texts, plan.line.compat));
+    chain::Session session(out, err,
+                           full_command_line(plan.line, plan.line.texts, plan.line.compat));
     for (const std::string& complaint : complaints)
         session.error("merge", complaint);
     if (check.only_validates) {

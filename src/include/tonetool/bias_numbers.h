@@ -84,7 +84,7 @@ struct BiasResult {
     BiasVerdict verdict = BiasVerdict::NotEnoughSamples;
     BiasReason reason = BiasReason::Undecided;
     BiasTest options;
-    int x = 0, y = 0; ///< of the first pixel
+    int x = 0, y = 0;                                     ///< of the first pixel
     int width = 0, height = 0, references = 0, tests = 0; ///< references, tests: seeds
     int64_t nonfinite = 0;                                ///< pixels that count as 0 on both sides
 

@@ -9,8 +9,8 @@
 
 namespace tonetool {
 
-/// "OpenImageIO 2.4.7.1", then OpenColorIO, OpenEXR, and the instruction set that the kernels use on
-/// this machine, "instruction set AVX2".
+/// "OpenImageIO 2.4.7.1", then OpenColorIO, OpenEXR, and the instruction set that the kernels use
+/// on this machine, "instruction set AVX2".
 TONETOOL_API std::vector<std::string> library_versions();
 
 } // namespace tonetool

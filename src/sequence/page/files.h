@@ -7,7 +7,7 @@ namespace tonetool::sequence::page {
 extern const char* const html;  ///< template with {{names}}
 extern const char* const style; ///< CSS
 extern const char* const script;
-extern const char* const chart; ///< Chart.js
+extern const char* const chart;    ///< Chart.js
 extern const char* const licences; ///< of Chart.js, HTML
 
 // SHA-256 in hexadecimal digits.

@@ -72,8 +72,7 @@ std::string cells_text(const QcFacts& facts) {
 
 void read_cells(const std::string& text, QcFacts& facts) {
     size_t all = 0;
-    visit_lists(facts,
-                [&](const auto&, size_t count, int, size_t size) { all += count * size; });
+    visit_lists(facts, [&](const auto&, size_t count, int, size_t size) { all += count * size; });
     const Bytes packed = bytes_of_base64(text);
     Bytes raw(all);
     const std::unique_ptr<libdeflate_decompressor, decltype(&libdeflate_free_decompressor)>

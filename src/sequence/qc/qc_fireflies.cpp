@@ -132,9 +132,9 @@ std::vector<double> limits_of(const QcShot& shot, const std::vector<Spikes>& all
         sorted.push_back(spikes.largest());
     std::sort(sorted.begin(), sorted.end());
     for (const Spikes& spikes : all)
-        limits.push_back(std::max(
-            shot.threshold("firefly"),
-            kNoise * std::max(spikes.noise(), median_without(sorted, spikes.largest()))));
+        limits.push_back(
+            std::max(shot.threshold("firefly"),
+                     kNoise * std::max(spikes.noise(), median_without(sorted, spikes.largest()))));
     return limits;
 }
 

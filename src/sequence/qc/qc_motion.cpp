@@ -67,8 +67,8 @@ private:
     std::vector<Thumbnail> m_thumbnails;
     std::vector<double> m_gains; ///< stops by which each frame is brighter than the one before
     std::vector<double> m_sorted_gains; ///< their sizes
-    double m_usual_step = 0;     ///< usual distance of consecutive thumbnails in stops
-    double m_unusual = 0;        ///< detours up to this are usual
+    double m_usual_step = 0;            ///< usual distance of consecutive thumbnails in stops
+    double m_unusual = 0;               ///< detours up to this are usual
 };
 
 // The median change of brightness over all steps but one.

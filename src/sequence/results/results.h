@@ -167,10 +167,10 @@ bool is_undecided(const FrameResult& frame);
 /// Whether nothing was measured of the frame although nothing is wrong with it.
 bool is_unmeasured(const FrameResult& frame);
 
-/// Sorts the frames, finds the faults of --qc and --against anew but for what is accepted, and fills
-/// verdict, sentence and worst. A shot without any measured frame is an Error, never Passed. Throws a
-/// runtime_error if a frame is there twice.
-/// `keep_records`: those of --qc, for the next time.
+/// Sorts the frames, finds the faults of --qc and --against anew but for what is accepted, and
+/// fills verdict, sentence and worst. A shot without any measured frame is an Error, never Passed.
+/// Throws a runtime_error if a frame is there twice. `keep_records`: those of --qc, for the next
+/// time.
 void conclude(ShotResult& shot, bool keep_records = false);
 
 /// A quantity by its name.

@@ -19,6 +19,18 @@ namespace {
 
 using nlohmann::ordered_json;
 
+ordered_json json_of(const Acceptance& accepted) {
+    ordered_json to{{"frame", accepted.frame}};
+    if (!accepted.view.empty())
+        to["view"] = accepted.view;
+    to["code"] = accepted.code;
+    if (!accepted.layer.empty())
+        to["layer"] = accepted.layer;
+    to["by"] = accepted.by;
+    to["why"] = accepted.why;
+    return to;
+}
+
 void check_has_records(const ordered_json& from) {
     if (!from.value("records", true)) {
         throw std::runtime_error("was written by --json:records=0, without what --qc measured, "
@@ -109,8 +121,9 @@ ShotResult shot_from_json(const std::string& from) {
 std::vector<Acceptance> acceptances_in(const ordered_json& list) {
     std::vector<Acceptance> all;
     each_of(list, "accepted", [&](const ordered_json& one, const std::string&) {
-        all.push_back({whole_number<int>(one.at("frame"), "frame"), one.value("view", std::string()),
-                       one.at("code").get<std::string>(), one.value("layer", std::string()), one.value("by", std::string()),
+        all.push_back({whole_number<int>(one.at("frame"), "frame"),
+                       one.value("view", std::string()), one.at("code").get<std::string>(),
+                       one.value("layer", std::string()), one.value("by", std::string()),
                        one.value("why", std::string())});
     });
     return all;

@@ -17,8 +17,8 @@ void judge_from_numbers(FrameResult& frame);
 /// contradict each other. What an expression says is not known here. A frame that was checked has a
 /// measurement of every word, unless the check has --if, --while or --for.
 void check_limits(const ShotResult& shot);
-/// Throws a runtime_error unless each frame has what --qc and --against of the check have kept, with
-/// the limits that it gives them.
+/// Throws a runtime_error unless each frame has what --qc and --against of the check have kept,
+/// with the limits that it gives them.
 void check_searches(const ShotResult& shot);
 
 } // namespace tonetool::sequence

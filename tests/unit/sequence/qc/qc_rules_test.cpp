@@ -67,15 +67,15 @@ Change at(int number, const std::function<void(QcFacts&)>& change) {
 std::function<void(QcFacts&)> brighter(int milli_stops) {
     return [=](QcFacts& facts) {
         for (int16_t& cell : facts.picture.thumbnail)
-            cell += milli_stops;
+            cell = int16_t(cell + milli_stops);
     };
 }
 
 std::function<void(QcFacts&)> tinted(int red, int blue) {
     return [=](QcFacts& facts) {
         for (size_t i = 0; i < kCells; ++i) {
-            facts.picture.red[i] += red;
-            facts.picture.blue[i] += blue;
+            facts.picture.red[i] = int16_t(facts.picture.red[i] + red);
+            facts.picture.blue[i] = int16_t(facts.picture.blue[i] + blue);
         }
     };
 }
@@ -190,7 +190,7 @@ Change with_points_of(int from, int number, size_t width, size_t height, size_t 
         for (size_t y = 0; y < height; ++y)
             for (size_t x = 0; x < width; ++x) {
                 const size_t point = (10 + y) * size_t(QcPicture::kPeaksWide) + 20 + apart * x;
-                facts.picture.peaks[point] = here == number ? from : here;
+                facts.picture.peaks[point] = int16_t(here == number ? from : here);
                 if (here == number)
                     facts.picture.fingerprints[point] = other.fingerprints[point];
             }

@@ -408,8 +408,9 @@ TEST(Qc, ARecordThatIsNoneIsRefused) {
     places.picture.red[9] = -128;
     places.picture.thumbnail[10] = QcPicture::kDark;
     places.picture.fingerprints[11] = 65535;
-    places.guides = {{"Depth.Z", 1, std::vector<int16_t>(QcPicture::kWide * QcPicture::kHigh, -32767)},
-                     {"Normal", 3, std::vector<int16_t>(3 * QcPicture::kWide * QcPicture::kHigh, 5)}};
+    places.guides = {
+        {"Depth.Z", 1, std::vector<int16_t>(QcPicture::kWide * QcPicture::kHigh, -32767)},
+        {"Normal", 3, std::vector<int16_t>(3 * QcPicture::kWide * QcPicture::kHigh, 5)}};
     const std::string more = to_json(QcRecord{places});
     const QcRecord read = qc_from_json(more);
     EXPECT_EQ(to_json(read), more);
