@@ -37,6 +37,20 @@ uint64_t share_of_memory(int parallel) {
                : std::max(enough, OIIO::Sysutil::physical_memory() / 2 / uint64_t(parallel));
 }
 
+// Whether a command that draws a pair for the report runs whatever comes of the others.
+bool draws_pairs(const chain::ParsedLine& line) {
+    const auto is_of = [](const chain::Word& word, const Strings& names) {
+        return word.row &&
+               std::find(names.begin(), names.end(), word.row->names.front()) != names.end();
+    };
+    const auto any = [&](const Strings& names) {
+        return std::any_of(line.words.begin(), line.words.end(),
+                           [&](const chain::Word& word) { return is_of(word, names); });
+    };
+    return any({"hdrflip", "ldrflip", "flipdiff", "errormap", "biascheck"}) &&
+           !any({"if", "while", "for"});
+}
+
 std::string crashed(const std::string& how) {
     return "the libraries that read or compare its files crashed: " + how;
 }
@@ -243,6 +257,7 @@ CheckedFrames::Checked CheckedFrames::check(size_t index) const {
     std::ostringstream out, err;
     Session session = m_context.session(index, out, err);
     sequence::FramePainter painter{m_pictures, {}};
+    painter.pair_comes = draws_pairs(plan.line);
     session.check.result = &result;
     session.check.painter = draws(plan.check) ? &painter : nullptr;
     m_context.run_commands(session, index);

@@ -130,6 +130,16 @@ def beauty(file):
     return pixels
 
 
+def test_a_comparison_after_qc_gives_the_pictures(tonetool, anim):
+    tonetool(*frames(5, 5), "--qc", FLIP, "--report", "page.html", status=3)
+    data = blocks((anim / "page.html").read_text())
+    assert data["large-0"]["reference"] and data["large-0"]["test"] and data["full-0"]["error"]
+    # Where nothing is compared after all, the image itself is drawn.
+    tonetool("--frames", "5", "-q", "test.#.exr", "--qc", "--report", "page.html")
+    data = blocks((anim / "page.html").read_text())
+    assert data["large-0"]["reference"] == "" and data["large-0"]["test"]
+
+
 def test_numbers_are_those_of_the_file_and_more_of_them_where_asked(tonetool, anim, read):
     line = [*frames(4, 6), FLIP, "--report:pixels=2", "page.html"]
     tonetool(*line, status=3)

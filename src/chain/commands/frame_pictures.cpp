@@ -21,7 +21,7 @@ void ask_for_worst(sequence::PictureRequest& request, const sequence::FramePaint
     using sequence::PictureSize;
     using Exact = sequence::PictureRequest::Exact;
     const sequence::PictureStore& store = painter.store;
-    request.full = store.wants(PictureSize::Full, so_far) && painter.wants(request);
+    request.full = store.wants(PictureSize::Full, so_far) && painter.wants_full(request);
     request.large = request.full && store.wants(PictureSize::Large, so_far);
     const bool exact = request.full && store.wants(PictureSize::Exact, so_far);
     request.exact = !exact ? Exact::No : store.counts().exact == 0 ? Exact::Means : Exact::All;

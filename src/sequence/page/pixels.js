@@ -212,10 +212,10 @@ function filePixel(full, x, y) {
 async function decoded(index) {
   const full = picturesOf(index, "full");
   const small = picturesOf(index, "small");
-  if (!full) return small ? thumbnailsOnly(await loaded(small.test), small) : null;
+  const large = picturesOf(index, "large");
+  if (!full || !(large || full.pictures)) return small ? thumbnailsOnly(await loaded(small.test), small) : null;
   const lies = full.orientation >= 5;
   const size = { x: 0, y: 0, width: lies ? full.height : full.width, height: lies ? full.width : full.height };
-  const large = picturesOf(index, "large");
   const exact = picturesOf(index, "exact");
   const sides = {};
   for (const side of ["reference", "test"]) {

@@ -107,9 +107,14 @@ struct FramePainter {
     const PictureStore& store;
     std::optional<FramePictures> drawn{};
     bool pair = false; ///< a pair was drawn, not an image
+    /// A later command draws a pair: of an image before it only thumbnails and spots are needed.
+    bool pair_comes = false;
 
     bool wants(const PictureRequest& request) const {
         return !drawn || (!pair && request.reference);
+    }
+    bool wants_full(const PictureRequest& request) const {
+        return wants(request) && (request.reference || !pair_comes);
     }
     void take(FramePictures pictures, const PictureRequest& request);
 };
