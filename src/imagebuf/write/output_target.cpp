@@ -167,16 +167,16 @@ std::string OutputTarget::unused_name() const {
 void OutputTarget::open_temporary() {
     for (int attempt = 0; attempt < 100 && m_fd < 0; ++attempt) {
         m_temporary = unused_name();
-        m_slot = remember(m_temporary); // before there is one that a signal could leave behind
         m_fd = ::open(m_temporary.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-        const int failure = m_fd < 0 ? errno : 0;
-        if (m_fd >= 0 && !hold())
-            m_fd = -1;
-        if (m_fd < 0)
-            forget(std::exchange(m_slot, -1));
-        errno = failure;
-        if (failure != 0 && failure != EEXIST)
+        if (m_fd < 0 && errno != EEXIST)
             break;
+        if (m_fd < 0)
+            continue;
+        m_slot = remember(m_temporary); // at once: a signal leaves no file behind
+        if (!hold()) {
+            m_fd = -1;
+            forget(std::exchange(m_slot, -1));
+        }
     }
     if (m_fd < 0) {
         m_temporary.clear();

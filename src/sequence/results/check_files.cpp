@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <cstdlib>
 #include <cstring>
 #include <fcntl.h>
 #include <filesystem>
@@ -113,8 +114,8 @@ void try_folder(const std::string& folder, const std::string& what) {
         throw std::runtime_error(what + "cannot make the folder \"" + folder + "\": \"" +
                                  there.string() + "\" is a file");
     }
-    const fs::path file = there / (".tonetool-try." + std::to_string(::getpid()));
-    const int made = ::open(file.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0600);
+    std::string file = (there / ".tonetool-try.XXXXXX").string(); // also other computers' tasks try
+    const int made = ::mkostemp(file.data(), O_CLOEXEC);
     if (made < 0) {
         throw std::runtime_error(what + "cannot write into the folder \"" + there.string() +
                                  "\": " + std::strerror(errno));
