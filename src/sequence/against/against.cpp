@@ -176,6 +176,17 @@ void add_window(const AgainstRecord& record, bool cropped, std::vector<Fault>& f
               faults);
 }
 
+// A file of another size has other pixels at the same coordinates: its layers all differ, which
+// says no more.
+bool is_resized(const AgainstRecord& record) {
+    return record.data != record.approved_data &&
+           record.limits.severity("displaywindow").has_value() &&
+           std::any_of(record.differences.begin(), record.differences.end(),
+                       [](const AgainstDifference& difference) {
+                           return difference.code == "displaywindow";
+                       });
+}
+
 std::vector<Fault> faults_of(const AgainstRecord& record, bool cropped) {
     std::vector<Fault> faults;
     if (!record.approved) {
@@ -187,7 +198,8 @@ std::vector<Fault> faults_of(const AgainstRecord& record, bool cropped) {
     for (const AgainstDifference& difference : record.differences)
         add_fault(record, difference, faults);
     add_window(record, cropped, faults);
-    add_layers(record, faults);
+    if (!is_resized(record))
+        add_layers(record, faults);
     std::stable_sort(faults.begin(), faults.end(), [](const Fault& a, const Fault& b) {
         const auto key = [](const Fault& fault) {
             return std::make_pair(-int(fault.severity), rank_of(against_rules(), fault.code));

@@ -130,6 +130,16 @@ TEST(Against, DataWindowsThatFollowThePicture) {
                 ElementsAre("2 info noapproved", "3 error datawindow"));
 }
 
+TEST(Against, AFileOfAnotherSizeIsToldByItsWindowsAlone) {
+    AgainstRecord record = with("depth", "off", 1);
+    record.differences = {{"displaywindow", "", "other", Severity::Error}};
+    EXPECT_THAT(codes_of(record), ElementsAre("error displaywindow", "error depth"));
+    record.data = {0, 0, 320, 180};
+    EXPECT_THAT(codes_of(record), ElementsAre("error displaywindow", "error datawindow"));
+    record.limits.set("displaywindow", "off");
+    EXPECT_THAT(codes_of(record), ElementsAre("error datawindow", "error depth"));
+}
+
 TEST(Against, TheMomentOfAnotherApprovedFrame) {
     const auto shot = [](int shown, int at) {
         std::vector<AgainstRecord> records;
