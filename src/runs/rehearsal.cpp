@@ -155,6 +155,7 @@ std::string mistakes_of(const FramePlan& plan) {
     std::ostringstream text;
     chain::Session session(text, text, full_command_line(plan.line, words, false));
     set_for_line(session, plan);
+    session.frame = plan.runs.front().frame;
     chain::Runner(session, words).check_all();
     if (session.outcome.errors > 0)
         return text.str();
