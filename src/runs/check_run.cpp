@@ -122,8 +122,10 @@ void PlanRun::remove_abandoned() const {
         const FrameRun& run = m_plan.runs[i];
         const Strings outputs = words_at(run.words, check.outputs);
         files.insert(files.end(), outputs.begin(), outputs.end());
-        files.push_back(m_state->file(m_context.item(i)));
-        files.push_back(m_sample_state->file(m_context.item(i)));
+        if (m_state) {
+            files.push_back(m_state->file(m_context.item(i)));
+            files.push_back(m_sample_state->file(m_context.item(i)));
+        }
         const Strings drawn = m_pictures->files(run.frame.number, run.frame.view);
         files.insert(files.end(), drawn.begin(), drawn.end());
     }
@@ -134,8 +136,10 @@ int PlanRun::loop(std::ostream& err, FrameJob& job, bool goes_on) {
     Loop loop(m_plan, m_out, err, job, goes_on, m_place);
     const int status = loop.run();
     m_threads = std::max(m_threads, loop.threads());
-    if (loop.interrupted() != 0)
+    if (loop.interrupted() != 0) {
+        remove_abandoned(); // that a worker has begun while another thread of it was told to end
         throw Interrupted{loop.interrupted(), job.kept()};
+    }
     return status;
 }
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <csignal>
 #include <cstdlib>
 #include <cstring>
 #include <fcntl.h>
@@ -114,14 +115,24 @@ void try_folder(const std::string& folder, const std::string& what) {
         throw std::runtime_error(what + "cannot make the folder \"" + folder + "\": \"" +
                                  there.string() + "\" is a file");
     }
+    // A signal between the two calls would leave it there.
+    sigset_t ending, before;
+    sigemptyset(&ending);
+    for (const int number : {SIGINT, SIGTERM, SIGHUP})
+        sigaddset(&ending, number);
+    ::pthread_sigmask(SIG_BLOCK, &ending, &before);
     std::string file = (there / ".tonetool-try.XXXXXX").string(); // also other computers' tasks try
     const int made = ::mkostemp(file.data(), O_CLOEXEC);
-    if (made < 0) {
-        throw std::runtime_error(what + "cannot write into the folder \"" + there.string() +
-                                 "\": " + std::strerror(errno));
+    const int failure = made < 0 ? errno : 0;
+    if (made >= 0) {
+        ::close(made);
+        ::unlink(file.c_str());
     }
-    ::close(made);
-    ::unlink(file.c_str());
+    ::pthread_sigmask(SIG_SETMASK, &before, nullptr);
+    if (failure != 0) {
+        throw std::runtime_error(what + "cannot write into the folder \"" + there.string() +
+                                 "\": " + std::strerror(failure));
+    }
 }
 
 void try_places(const CheckFiles& files) {
