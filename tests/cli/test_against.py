@@ -222,6 +222,19 @@ def test_colours_need_no_digits_and_data_do(against):
     assert "error type" in found and "data needs all of its digits" in ran.out
 
 
+def test_the_type_of_any_channel(against):
+    new = new_frame()
+    channels = new.channels
+    new.channels = lambda: ((name, "half" if name == "Position.Z" else kind, a)
+                            for name, kind, a in channels())
+    ran, found = against(approved_frame(), new)
+    assert found == ["error type"] and "Position is half, approved is float" in ran.out
+    new.channels = lambda: ((name, "float" if name == "Combined.A" else kind, a)
+                            for name, kind, a in channels())
+    ran, found = against(None, new)
+    assert found == ["warning type"] and "Combined is float, approved is half" in ran.out
+
+
 @pytest.mark.parametrize("name", ["none", "zips", "rle", "piz", "pxr24", "b44", "b44a", "dwaa"])
 def test_compressions_that_lose_digits(against, name):
     new = new_frame()
@@ -256,14 +269,15 @@ def test_unknown_layers_are_told_unless_their_kind_is_said(against, tonetool):
     assert against(approved, new)[1] == []
     new = of("Extra", 0.03, lambda a: a + 1)(new, 0, None)
     ran, found = against(None, new)
-    assert found == ["info data"] and "layer Extra differs from the approved one in 3 %" in ran.out
+    assert found == ["info data"]
+    assert "layer Extra differs from the approved one in 3 % of the pixels" in ran.out
     assert against(words=":kind=Extra=depth")[1] == ["error depth"]
     assert against(words=":kind=Ex*=depth,Normal=data")[1] == ["error depth"]
     assert against(words=":data=off")[1] == []
     assert against(words=":data=error")[1] == ["error data"]
     assert against(words=":skip=E?tra")[1] == []
-    for words, text in ((":kind=Extra=depht", 'unknown kind "depht"'), (":kind=Extra", "LAYER=KIND"),
-                        (":kind==depth", "LAYER=KIND")):
+    for words, text in ((":kind=Extra=depht", 'unknown kind "depht"'),
+                        (":kind=Extra", "LAYER=KIND"), (":kind==depth", "LAYER=KIND")):
         assert text in tonetool("approved.exr", "new.exr", "--against" + words, status=1).err
 
 

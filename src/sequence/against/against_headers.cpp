@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <set>
 
 #include "imagebuf/pixels/layer_name.h"
@@ -83,6 +84,23 @@ bool is_data(const std::string& kind) {
     return kind == "position" || kind == "depth" || kind == "id" || kind == "vector";
 }
 
+// The types, approved and new, of the first channel of a layer that has another.
+std::optional<std::pair<std::string, std::string>> other_types(const AgainstName& layer,
+                                                               const Types& theirs,
+                                                               const AgainstName& found,
+                                                               const Types& ours) {
+    for (const std::string& channel : layer.channels) {
+        const auto a = theirs.find(channel);
+        for (const std::string& other : found.channels) {
+            const auto b = ours.find(other);
+            if (last_word(channel) == last_word(other) && a != theirs.end() && b != ours.end() &&
+                a->second != b->second)
+                return std::make_pair(a->second, b->second);
+        }
+    }
+    return std::nullopt;
+}
+
 // The types of layers that both have; a layer is told once.
 void compare_types(const AgainstFile& approved, const AgainstFile& file, Differences& out) {
     const Types theirs(approved.channels.begin(), approved.channels.end());
@@ -90,14 +108,11 @@ void compare_types(const AgainstFile& approved, const AgainstFile& file, Differe
     std::map<std::pair<std::string, std::string>, Names> layers[2]; // by types: colours, data
     for (const AgainstName& layer : approved.layers) {
         const AgainstName* found = other_of(file, layer);
-        if (!found || found->channels.empty() || layer.channels.empty())
+        const auto types = found ? other_types(layer, theirs, *found, ours) : std::nullopt;
+        if (!types)
             continue;
-        const auto a = theirs.find(layer.channels.front());
-        const auto b = ours.find(found->channels.front());
-        if (a == theirs.end() || b == ours.end() || a->second == b->second)
-            continue;
-        const bool lost = is_data(layer.kind) && a->second == "float" && b->second == "half";
-        layers[lost ? 1 : 0][{a->second, b->second}].push_back(shown_layer(layer.name));
+        const bool lost = is_data(layer.kind) && types->first == "float" && types->second == "half";
+        layers[lost ? 1 : 0][*types].push_back(shown_layer(layer.name));
     }
     for (const size_t lost : {size_t(1), size_t(0)})
         for (const auto& [types, names] : layers[lost])

@@ -139,8 +139,8 @@ HOLE = fill(slice(32, 56), slice(80, 104), 0)
 Kind = namedtuple("Kind", "shot frames change alone against")
 
 
-# alone: what --qc finds, as (frame, severity, code). against: what --against finds, at least, in each
-# frame that has changed, as (severity, code), and nothing in others.
+# alone: all that --qc finds, as (frame, severity, code). against: what --against finds, at least, in
+# each frame that has changed, as (severity, code); it finds nothing in others.
 def kind(shot, frames, change, alone, against):
     found = [(frames[0], *words.split()) for words in alone]
     return Kind(shot, frames, change, found, {tuple(words.split()) for words in against})
