@@ -21,7 +21,9 @@ double mean(const Thumbnail& values) {
 } // namespace
 
 std::vector<Thumbnail> thumbnails_of(const std::vector<QcFrame*>& frames) {
+    constexpr size_t cells = size_t(QcPicture::kWide) * QcPicture::kHigh;
     std::vector<double> lit;
+    lit.reserve(frames.size() * cells); // of ten thousand frames
     for (const QcFrame* frame : frames) {
         for (int cell : frame->facts.picture.thumbnail)
             if (cell > QcPicture::kDark)
@@ -31,6 +33,7 @@ std::vector<Thumbnail> thumbnails_of(const std::vector<QcFrame*>& frames) {
     std::vector<Thumbnail> thumbnails;
     for (const QcFrame* frame : frames) {
         Thumbnail& thumbnail = thumbnails.emplace_back();
+        thumbnail.reserve(cells);
         for (int cell : frame->facts.picture.thumbnail)
             thumbnail.push_back(std::max(cell / 1000.0, floor) - floor);
     }
