@@ -47,9 +47,7 @@ void add_results(Module& module) {
         .field("kind", &L::kind, "As of AgainstName.")
         .field(
             "quantities", &L::quantities,
-            "By kind: off of depth, position, data; median, off10, one of normal; median, off of "
-            "vector; mismatch of id; gain, blocks of albedo, color, group; alpha_mean, alpha_off "
-            "with an alpha.")
+            "Off, median, off10, one, mismatch, gain, blocks, alpha_mean, alpha_off: by kind.")
         .field("x", &L::x, "Column where they differ most.")
         .field("y", &L::y, "Row where they differ most.")
         .finish();
@@ -65,6 +63,8 @@ void add_results(Module& module) {
 
 void add_against(Module& module) {
     add_results(module);
+    define_names(module, "against_kinds", "What a layer may hold for against_facts().",
+                 "The checks of chain(\"--against\").", ToneAlgo::against_kinds);
     define(
         module,
         Description{"against_facts",

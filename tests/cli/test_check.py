@@ -538,7 +538,7 @@ def test_killed_at_a_random_moment_and_resumed(program, tmp_path_factory, turn):
         if (folder / name).exists() and name.startswith("c."):
             assert (folder / name).read_bytes() == wanted[name], name
     done = subprocess.run(words, cwd=folder, check=False, capture_output=True)
-    assert done.returncode == 3
+    assert done.returncode == 3, done.stderr
     for name in ("c.json", "c.csv"):
         assert (folder / name).read_bytes() == wanted[name], name
     for file in (folder / "s").iterdir():

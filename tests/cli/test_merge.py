@@ -100,8 +100,9 @@ def test_records_that_another_program_has_laid_out_anew(tonetool, parts):
 @pytest.mark.parametrize("change, text", [
     (lambda text: text[:-30], '"p/2.json": '),
     (lambda text: text.replace('"qc": {', '"qc": {{', 1), '"p/2.json": '),
-    (lambda text: text.replace('"thumbnail": [', '"thumbnail": [[', 1), '"p/2.json": '),
-    (lambda text: text.replace('"thumbnail"', '"thumbs"', 1), "not what --qc measured"),
+    (lambda text: text.replace('"cells": "', '"cells": ["', 1), '"p/2.json": '),
+    (lambda text: text.replace('"cells": "', '"cells": "AAAA', 1), "not what --qc measured"),
+    (lambda text: text.replace('"cells"', '"cell"', 1), "not what --qc measured"),
     (lambda text: text.replace('"qc": {', '"qc": 7, "q": {', 1), "not what --qc measured"),
 ])
 def test_damaged_parts(tonetool, parts, change, text):
@@ -115,33 +116,31 @@ def test_damaged_parts(tonetool, parts, change, text):
 
 # ---- versions
 
-def test_a_file_of_version_1(tonetool, tmp_path):
-    frozen = load(FROZEN)
-    jsonschema.validate(frozen, load(SCHEMA))
+def test_a_file_of_version_1_is_refused(tonetool, tmp_path):
+    """What --qc kept of a frame was another."""
+    assert load(FROZEN)["version"] == 1
     shutil.copy(FROZEN, tmp_path / "part.json")
-    tonetool("--merge", "part.json", "--json", "c.json", "--csv", "c.csv")
-    merged = load(tmp_path / "c.json")
-    assert merged["version"] == frozen["version"] == 1
-    for key in ("check", "verdict", "counts"):
-        assert merged[key] == frozen[key]
-    for frame, old in zip(merged["frames"], frozen["frames"]):
-        assert frame["measurements"] == old["measurements"] and frame["qc"] == old["qc"]
-
-
-@pytest.mark.parametrize("version, text", [(2, "is of version 2, this program reads 1"),
-                                           (0, "is of version 0, this program reads 1"),
-                                           ("1", "not a whole number")])
-def test_files_of_other_versions_are_refused(tonetool, tmp_path, version, text):
-    (tmp_path / "part.json").write_text(json.dumps({**load(FROZEN), "version": version}))
     ran = tonetool("--merge", "part.json", "--json", "c.json", status=1)
-    assert f'"part.json": ' in ran.err and text in ran.err
+    assert '"part.json": is of version 1, this program reads 2' in ran.err
     assert not (tmp_path / "c.json").exists()
+
+
+@pytest.mark.parametrize("version, text", [(3, "is of version 3, this program reads 2"),
+                                           (0, "is of version 0, this program reads 2"),
+                                           ("1", "not a whole number")])
+def test_files_of_other_versions_are_refused(tonetool, parts, version, text):
+    part = parts / "p" / "2.json"
+    part.write_text(json.dumps({**load(part), "version": version}))
+    ran = tonetool("--merge", "p/2.json", "--json", "c.json", status=1)
+    assert '"p/2.json": ' in ran.err and text in ran.err
+    assert not (parts / "c.json").exists()
 
 
 # ---- a long shot
 
 def test_two_thousand_parts(program, parts, plain_memory):
-    """A fifth of a long shot; all of ten thousand takes as many times as long and 250 MB more."""
+    """A fifth of a long shot. The facts of a frame take about 25 kB of memory, its text and what
+    the rules compute of it as much again."""
     text = (parts / "p" / "1.json").read_text()
     many = parts / "many"
     many.mkdir()
@@ -162,6 +161,5 @@ def test_two_thousand_parts(program, parts, plain_memory):
         return [float(word) for word in ran.stdout.splitlines()[-1].split()]
     _, few_kilobytes = measured("--merge", "many/1.json", "--json", "few.json")
     _, kilobytes = measured("--merge", "many", "--json", "many.json", "--csv", "many.csv")
-    per_part = (many / "1.json").stat().st_size
-    assert (kilobytes - few_kilobytes) * 1024 < 2000 * 3 * per_part
+    assert kilobytes - few_kilobytes < 2000 * 50
     assert len(load(parts / "many.json")["frames"]) == 2000

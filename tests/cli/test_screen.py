@@ -115,9 +115,12 @@ def test_filmstrips_and_reports_are_upright(tonetool, make_image, read, tmp_path
     pages = [json.loads(re.search(r'id="full-0">(.*?)</script>', (tmp_path / f"{kind}.html")
                                   .read_text(encoding="utf-8"), re.S)[1])
              for kind in ("upright", "turned")]
-    assert [(page["width"], page["height"]) for page in pages] == [size, size]
-    for find in (lambda page: page["exposures"][0]["test"], lambda page: page["error"],
-                 lambda page: page["exposures"][1]["reference"], lambda page: page["stops"]):
+    # The numbers under the pointer are the file's, the pictures are upright.
+    stored_size = size if lying else size[::-1]
+    assert [(page["width"], page["height"]) for page in pages] == [size, stored_size]
+    assert [page["orientation"] for page in pages] == [1, orientation]
+    for find in (lambda page: page["pictures"]["test"], lambda page: page["error"],
+                 lambda page: page["pictures"]["reference"], lambda page: page["stops"]):
         one, other = (picture_of(find(page), tmp_path) for page in pages)
         assert one.shape == other.shape and np.abs(one - other).mean() < 0.02
 

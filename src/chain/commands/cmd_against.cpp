@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // --against: a file compared with its approved version, layer by layer.
+#include <algorithm>
+
 #include "chain/commands/color_input.h"
 #include "chain/commands/commands.h"
 #include "chain/commands/fault_args.h"
 #include "chain/commands/flip_args.h"
 #include "chain/commands/frame_pictures.h"
+#include "imagebuf/pixels/names.h"
 #include "sequence/against/against.h"
 #include "text/error.h"
 #include "tonetool/against.h"
@@ -66,6 +69,7 @@ void show_differences(Session& session, const Call& call, const sequence::Agains
     const OIIO::ImageBuf picture = shown_input(session, call, *call.images[1], request.look.pixels);
     request.reference = &approved;
     request.test = &picture;
+    request.compared = false;
     show(session, call, std::move(request));
     *session.check.result = before;
 }
@@ -75,8 +79,11 @@ void check_words(Session&, const Call& call) {
     (void)fault_limits(call, sequence::against_rules());
     AgainstOptions options;
     read_kinds(call, options);
+    const std::vector<std::string> valid = ToneAlgo::against_kinds();
     for (const auto& [layer, kind] : options.kinds)
-        check_choice("kind=" + layer, kind, ToneAlgo::against_kinds());
+        if (std::find(valid.begin(), valid.end(), kind) == valid.end())
+            throw CommandError("layer " + layer + ": " +
+                               unknown_name("kind", kind, valid));
 }
 
 void run_against(Session& session, const Call& call) {

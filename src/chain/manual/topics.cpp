@@ -56,7 +56,7 @@ that fail or warn print a line, with -v each does.
   --jobs N             N frames at a time
   --frames 1-100       the frames that must be there
   --dry-run            only looks whether the line can run and which frames are there
-  --merge              joins the results of a farm's tasks, --json files of version 1 (others are
+  --merge              joins the results of a farm's tasks, --json files of version 2 (others are
                        refused); tonetool-slurm does it all on Slurm
 
 exposures=shot compares all frames at one range of exposures, so that their errors can be compared.

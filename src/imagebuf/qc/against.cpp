@@ -32,7 +32,7 @@ void compare(AgainstFacts& facts, const Images& approved, const Images& parts,
     if (approved.empty() || parts.empty())
         throw Refusal("there is no image");
     for (const auto& [layer, kind] : options.kinds) {
-        const std::vector<std::string>& valid = ToneAlgo::against_kinds();
+        const std::vector<std::string> valid = ToneAlgo::against_kinds();
         if (std::find(valid.begin(), valid.end(), kind) == valid.end())
             throw Refusal("layer " + layer + ": " + unknown_name("kind", kind, valid));
     }
@@ -53,10 +53,8 @@ void compare(AgainstFacts& facts, const Images& approved, const Images& parts,
 
 namespace ToneAlgo {
 
-const std::vector<std::string>& against_kinds() {
-    static const std::vector<std::string> kinds = {"position", "normal", "depth", "vector", "id",
-                                                   "albedo",   "color",  "group", "data"};
-    return kinds;
+std::vector<std::string> against_kinds() {
+    return {"position", "normal", "depth", "vector", "id", "albedo", "color", "group", "data"};
 }
 
 bool against_facts(AgainstFacts& facts, const Images& approved, const Images& parts,

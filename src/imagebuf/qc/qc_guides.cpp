@@ -24,16 +24,6 @@ bool is_magenta(const float* pixel, const std::vector<int>& channels) {
 
 } // namespace
 
-int16_t QcGuide::code(double value) {
-    constexpr double most = 32767;
-    const double size = std::round(1000 * std::log2(1 + 1000 * std::abs(value)));
-    return int16_t(std::copysign(std::min(size, most), value));
-}
-
-double QcGuide::value(int code) {
-    return std::copysign((std::exp2(std::abs(code) / 1000.0) - 1) / 1000, code);
-}
-
 void QcScan::choose_guides() {
     constexpr size_t most = 2;
     const auto index = [&](const char* kind) {

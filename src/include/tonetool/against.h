@@ -58,7 +58,7 @@ struct AgainstFacts {
 namespace ToneAlgo {
 
 /// "position", "normal", "depth", "vector", "id", "albedo", "color", "group", "data".
-TONETOOL_API const std::vector<std::string>& against_kinds();
+TONETOOL_API std::vector<std::string> against_kinds();
 
 /// Compares all subimages of two files. Layers are matched by their names, and without the names
 /// of view layers where those differ. Where the data windows differ, what both have is compared.

@@ -4,7 +4,9 @@
 #pragma once
 
 #include <OpenImageIO/imagebuf.h>
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <map>
 #include <string>
@@ -61,8 +63,13 @@ struct QcGuide {
     /// as 0.
     std::vector<int16_t> cells;
     /// sign(x) log2(1 + 1000 |x|) in 1/1000: relative above 0.001, linear below, in 16 bits.
-    TONETOOL_API static int16_t code(double value);
-    TONETOOL_API static double value(int code);
+    static int16_t code(double value) {
+        const double size = std::round(1000 * std::log2(1 + 1000 * std::abs(value)));
+        return int16_t(std::copysign(std::min(size, 32767.0), value));
+    }
+    static double value(int code) {
+        return std::copysign((std::exp2(std::abs(code) / 1000.0) - 1) / 1000, code);
+    }
 };
 
 struct QcPart {

@@ -202,28 +202,6 @@ double mean_over(const std::vector<Color>& colors, const std::function<double(co
     return sum / double(colors.size());
 }
 
-struct Colors {
-    std::vector<std::vector<Color>> frames;
-    double floor = 0; ///< what is added to all values, so that noise in the dark is small
-    std::vector<bool> is_enough; ///< the colour of what is nearly black is none
-};
-
-Colors colors_of(const Frames& frames) {
-    constexpr double floor = 0.02, dark = 0.05;
-    Colors colors;
-    Series means;
-    for (const QcFrame* frame : frames) {
-        colors.frames.push_back(colors_of(frame->facts.picture));
-        means.push_back(mean_over(colors.frames.back(),
-                                  [](const Color& c) { return (c.red + c.green + c.blue) / 3; }));
-    }
-    const double usual = median(means);
-    colors.floor = floor * usual + 1e-9;
-    for (const double mean : means)
-        colors.is_enough.push_back(mean > dark * usual);
-    return colors;
-}
-
 // Frames that are nearly black have the value of the frame before.
 void hold(Series& series, const std::vector<bool>& is_enough) {
     const auto first = std::find(is_enough.begin(), is_enough.end(), true);
@@ -237,12 +215,42 @@ void hold(Series& series, const std::vector<bool>& is_enough) {
     }
 }
 
-Series series_of(const Colors& colors, const std::function<double(const Color&)>& of, bool held) {
-    Series series;
-    for (const std::vector<Color>& frame : colors.frames)
-        series.push_back(mean_over(frame, of));
-    if (held)
-        hold(series, colors.is_enough);
+// Of each frame, means over its cells.
+struct ColorSeries {
+    Series light, red, blue, saturation;
+};
+
+ColorSeries series_of(const Frames& frames) {
+    constexpr double relative_floor = 0.02, dark = 0.05;
+    Series means;
+    for (const QcFrame* frame : frames)
+        means.push_back(mean_over(colors_of(frame->facts.picture), [](const Color& c) {
+            return (c.red + c.green + c.blue) / 3;
+        }));
+    const double usual = median(means);
+    const double floor = relative_floor * usual + 1e-9; // so that noise in the dark is small
+    ColorSeries series;
+    for (const QcFrame* frame : frames) {
+        const std::vector<Color> colors = colors_of(frame->facts.picture);
+        series.light.push_back(mean_over(colors, [=](const Color& c) {
+            return std::log2(0.2126 * c.red + 0.7152 * c.green + 0.0722 * c.blue + floor);
+        }));
+        series.red.push_back(mean_over(colors, [=](const Color& c) {
+            return std::log2((c.red + floor) / (c.green + floor));
+        }));
+        series.blue.push_back(mean_over(colors, [=](const Color& c) {
+            return std::log2((c.blue + floor) / (c.green + floor));
+        }));
+        series.saturation.push_back(mean_over(colors, [=](const Color& c) {
+            const auto [least, most] = std::minmax({c.red, c.green, c.blue});
+            return (most - least) / (most + floor);
+        }));
+    }
+    std::vector<bool> is_enough; // the colour of what is nearly black is none
+    for (const double mean : means)
+        is_enough.push_back(mean > dark * usual);
+    for (Series* one : {&series.red, &series.blue, &series.saturation})
+        hold(*one, is_enough);
     return series;
 }
 
@@ -250,34 +258,13 @@ using Find = std::function<void(const Statistic& statistic, const Series& series
 
 // Where the light changes, the rest of the colours does not matter.
 void find_colors(const Frames& frames, std::vector<bool>& breaks, const Find& find) {
-    const Colors colors = colors_of(frames);
-    const double floor = colors.floor;
-    find({"light", 0.25 / 0.06, "brighter", "darker", " stops"},
-         series_of(
-             colors,
-             [=](const Color& c) {
-                 return std::log2(0.2126 * c.red + 0.7152 * c.green + 0.0722 * c.blue + floor);
-             },
-             false));
+    const ColorSeries series = series_of(frames);
+    find({"light", 0.25 / 0.06, "brighter", "darker", " stops"}, series.light);
     for (size_t i = 0; i < frames.size(); ++i)
         breaks[i] = breaks[i] || frames[i]->changed;
-    find({"tint", 2, "more red over green", "less red over green", " stops"},
-         series_of(
-             colors, [=](const Color& c) { return std::log2((c.red + floor) / (c.green + floor)); },
-             true));
-    find({"tint", 2, "more blue over green", "less blue over green", " stops"},
-         series_of(
-             colors,
-             [=](const Color& c) { return std::log2((c.blue + floor) / (c.green + floor)); },
-             true));
-    find({"saturation", 4, "more saturated", "less saturated", " of 1"},
-         series_of(
-             colors,
-             [=](const Color& c) {
-                 const auto [least, most] = std::minmax({c.red, c.green, c.blue});
-                 return (most - least) / (most + floor);
-             },
-             true));
+    find({"tint", 2, "more red over green", "less red over green", " stops"}, series.red);
+    find({"tint", 2, "more blue over green", "less blue over green", " stops"}, series.blue);
+    find({"saturation", 4, "more saturated", "less saturated", " of 1"}, series.saturation);
 }
 
 void find_detail(const Frames& frames, const Find& find) {

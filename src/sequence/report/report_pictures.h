@@ -16,6 +16,8 @@ namespace tonetool::sequence {
 struct PictureRequest {
     const OIIO::ImageBuf* reference = nullptr;
     const OIIO::ImageBuf* test = nullptr;
+    /// By a command whose map a person looks at: another before it leaves the pair to it.
+    bool compared = true;
     const OIIO::ImageBuf* error = nullptr; ///< a map of errors from 0 to 1; gives the region
     const OIIO::ImageBuf* stops = nullptr; ///< FlipResult::exposure_stops
     const OIIO::ImageBuf* bias = nullptr;  ///< bias_check()'s map "all"; gives the region, too

@@ -214,7 +214,7 @@ void FramePainter::take(FramePictures pictures, const PictureRequest& request) {
     const bool wanted = wants(request);
     if (!drawn || wanted) {
         std::swap(pictures, drawn ? *drawn : drawn.emplace());
-        pair = request.reference && !request.bias; // a later command may have an error map
+        pair = request.reference && request.compared && !request.bias;
     }
     if (drawn->bias.empty()) {
         drawn->bias = std::move(pictures.bias);

@@ -106,7 +106,7 @@ private:
 struct FramePainter {
     const PictureStore& store;
     std::optional<FramePictures> drawn{};
-    bool pair = false; ///< a pair was drawn, not an image
+    bool pair = false; ///< a pair was drawn as it was compared, not an image
     /// A later command draws a pair: of an image before it only thumbnails and spots are needed.
     bool pair_comes = false;
 
@@ -114,7 +114,7 @@ struct FramePainter {
         return !drawn || (!pair && request.reference);
     }
     bool wants_full(const PictureRequest& request) const {
-        return wants(request) && (request.reference || !pair_comes);
+        return wants(request) && ((request.reference && request.compared) || !pair_comes);
     }
     void take(FramePictures pictures, const PictureRequest& request);
 };
