@@ -16,7 +16,7 @@ std::string image_repr(const OIIO::ImageBuf& image) {
                   image.nchannels(), image.spec().format.c_str());
 }
 
-constexpr size_t kLineWidth = 100;
+constexpr size_t kLineWidth = 92;
 
 std::string value_repr(const py::handle& value);
 

@@ -2,6 +2,8 @@
 #include "runs/interruption.h"
 
 #include <atomic>
+#include <poll.h>
+#include <csignal>
 #include <cerrno>
 #include <fcntl.h>
 #include <unistd.h>
@@ -35,6 +37,16 @@ Interruption::~Interruption() {
 
 int Interruption::signal_number() noexcept {
     return g_signal;
+}
+
+bool Interruption::is_for_all(int signal_number) const {
+    constexpr int moment = 200; // milliseconds
+    if (signal_number != SIGINT && signal_number != SIGTERM && signal_number != SIGHUP)
+        return false;
+    pollfd polled{m_pipe[0], POLLIN, 0};
+    while (Interruption::signal_number() == 0 && ::poll(&polled, 1, moment) < 0 && errno == EINTR) {
+    }
+    return Interruption::signal_number() != 0;
 }
 
 void Interruption::forget() noexcept {

@@ -20,6 +20,9 @@ public:
     static int signal_number() noexcept;
     /// To poll: it can be read once a signal has come. -1: it cannot be told so.
     int descriptor() const { return m_pipe[0]; }
+    /// Whether a worker that was ended by a signal was ended by one that this process gets, too, at
+    /// once or in a moment: a terminal sends it to all of them.
+    bool is_for_all(int signal_number) const;
     /// In a new worker process, which signals end as ever.
     static void forget() noexcept;
 

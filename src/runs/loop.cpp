@@ -210,7 +210,9 @@ void Loop::run_in_workers() {
             m_next == m_plan.runs.size() || ends() || Interruption::signal_number() != 0;
         return done ? std::nullopt : std::optional<size_t>(m_next++);
     };
-    const auto done = [this](size_t index, const TaskResult& result) {
+    const auto done = [&](size_t index, const TaskResult& result) {
+        if (interruption.is_for_all(result.signal_number))
+            return;
         if (!result.crash.empty()) {
             deliver(index, failed(index, Status::Crashed, result.crash));
             return;

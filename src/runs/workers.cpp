@@ -170,7 +170,9 @@ bool Workers::take_reply(Worker& worker, TaskResult& result) const {
         n = ::read(worker.socket, bytes, sizeof bytes);
     } while (n < 0 && errno == EINTR);
     if (n <= 0) {
-        result.crash = end_of(worker);
+        const int status = end_of(worker);
+        result.crash = in_words(status);
+        result.signal_number = WIFSIGNALED(status) ? WTERMSIG(status) : 0;
         return true;
     }
     worker.received.append(bytes, size_t(n));
@@ -184,13 +186,13 @@ bool Workers::take_reply(Worker& worker, TaskResult& result) const {
     return true;
 }
 
-std::string Workers::end_of(Worker& worker) const {
+int Workers::end_of(Worker& worker) const {
     ::close(worker.socket);
     worker.socket = -1;
     int status = 0;
     while (::waitpid(worker.process, &status, 0) < 0 && errno == EINTR) {
     }
-    return in_words(status);
+    return status;
 }
 
 void Workers::run(const Next& next, const Done& done, int stop) {

@@ -17,6 +17,7 @@ struct TaskResult {
     /// How the process ended before it replied, for people: "signal SIGFPE (Floating point
     /// exception)". Empty where it replied.
     std::string crash;
+    int signal_number = 0; ///< that ended it; 0: none
 };
 
 /// Copies of this process, made by fork(), that run numbered tasks. A copy has no threads but the
@@ -54,7 +55,8 @@ private:
     [[noreturn]] void serve(int socket) const;
     bool take_reply(Worker& worker, TaskResult& result) const;
     bool assign(Worker& worker, size_t index) const;
-    std::string end_of(Worker& worker) const;
+    /// The status that waitpid() tells.
+    int end_of(Worker& worker) const;
 
     int m_processes;
     Task m_task;

@@ -112,16 +112,15 @@ def test_filmstrips_and_reports_are_upright(tonetool, make_image, read, tmp_path
     for name in ("{}.png", "sheet.{}.png"):
         one, other = (read(name.format(kind))[0] for kind in ("upright", "turned"))
         assert one.shape == other.shape and np.abs(one - other).mean() < 0.01
-    pages = [json.loads(re.search(r'id="full-0">(.*?)</script>', (tmp_path / f"{kind}.html")
-                                  .read_text(encoding="utf-8"), re.S)[1])
-             for kind in ("upright", "turned")]
+    texts = [(tmp_path / f"{kind}.html").read_text(encoding="utf-8") for kind in ("upright", "turned")]
+    pages, large = ([json.loads(re.search(rf'id="{block}-0">(.*?)</script>', text, re.S)[1])
+                     for text in texts] for block in ("full", "large"))
     # The numbers under the pointer are the file's, the pictures are upright.
     stored_size = size if lying else size[::-1]
     assert [(page["width"], page["height"]) for page in pages] == [size, stored_size]
     assert [page["orientation"] for page in pages] == [1, orientation]
-    for find in (lambda page: page["pictures"]["test"], lambda page: page["error"],
-                 lambda page: page["pictures"]["reference"], lambda page: page["stops"]):
-        one, other = (picture_of(find(page), tmp_path) for page in pages)
+    for of, key in ((large, "test"), (pages, "error"), (large, "reference"), (pages, "stops")):
+        one, other = (picture_of(page[key], tmp_path) for page in of)
         assert one.shape == other.shape and np.abs(one - other).mean() < 0.02
 
 
