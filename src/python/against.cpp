@@ -45,9 +45,8 @@ void add_results(Module& module) {
     ResultClass<L>(module, "AgainstLayer", "What was measured of a layer that both have.")
         .field("name", &L::name, "In the new file.")
         .field("kind", &L::kind, "As of AgainstName.")
-        .field(
-            "quantities", &L::quantities,
-            "Off, median, off10, one, mismatch, gain, blocks, alpha_mean, alpha_off: by kind.")
+        .field("quantities", &L::quantities,
+               "Off, median, off10, one, mismatch, gain, blocks, alpha_mean, alpha_off: by kind.")
         .field("x", &L::x, "Column where they differ most.")
         .field("y", &L::y, "Row where they differ most.")
         .finish();

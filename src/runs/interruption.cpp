@@ -2,10 +2,10 @@
 #include "runs/interruption.h"
 
 #include <atomic>
-#include <poll.h>
-#include <csignal>
 #include <cerrno>
+#include <csignal>
 #include <fcntl.h>
+#include <poll.h>
 #include <unistd.h>
 
 namespace tonetool::runs {

@@ -82,8 +82,7 @@ void check_words(Session&, const Call& call) {
     const std::vector<std::string> valid = ToneAlgo::against_kinds();
     for (const auto& [layer, kind] : options.kinds)
         if (std::find(valid.begin(), valid.end(), kind) == valid.end())
-            throw CommandError("layer " + layer + ": " +
-                               unknown_name("kind", kind, valid));
+            throw CommandError("layer " + layer + ": " + unknown_name("kind", kind, valid));
 }
 
 void run_against(Session& session, const Call& call) {

@@ -224,9 +224,8 @@ ColorSeries series_of(const Frames& frames) {
     constexpr double relative_floor = 0.02, dark = 0.05;
     Series means;
     for (const QcFrame* frame : frames)
-        means.push_back(mean_over(colors_of(frame->facts.picture), [](const Color& c) {
-            return (c.red + c.green + c.blue) / 3;
-        }));
+        means.push_back(mean_over(colors_of(frame->facts.picture),
+                                  [](const Color& c) { return (c.red + c.green + c.blue) / 3; }));
     const double usual = median(means);
     const double floor = relative_floor * usual + 1e-9; // so that noise in the dark is small
     ColorSeries series;
