@@ -204,12 +204,14 @@ DataPair scan_pair(PairKind kind, const std::vector<float>& a, const std::vector
     const double limit = limit_of(kind);
     for (int64_t x = 0; x < row.pixels; ++x) {
         const size_t at = size_t(x) * channels;
+        const int64_t ones = row.one;
         const double difference =
             difference_of(kind, {&a[at], &b[at], channels}, depth ? depth + x : nullptr, row);
         row.off += difference > limit;
-        row.sum += std::min(difference, 1.0); // of what is not finite
-        if (difference > row.most) {
-            row.most = difference;
+        row.sum += std::min(difference, 1.0);                  // of what is not finite
+        const double size = row.one > ones ? 180 : difference; // a normal in only one
+        if (size > row.most) {
+            row.most = size;
             row.x = x;
         }
     }

@@ -42,6 +42,8 @@ LightPair::Row LightPair::scan(const std::vector<float>& a, const std::vector<fl
     const std::vector<float> clean_a = cleaned(a, b, m_channels);
     const std::vector<float> clean_b = cleaned(b, a, m_channels);
     Row row;
+    for (size_t at = 0; at < a.size(); at += m_channels)
+        row.one_finite += is_finite(&a[at], m_channels) != is_finite(&b[at], m_channels);
     row.sums.resize(kSums * m_channels * m_columns);
     for (int64_t x = 0; x < m_width; ++x) {
         const size_t at = size_t(x) * m_channels, column = size_t(x / kSide);
@@ -70,6 +72,7 @@ LightPair::Row LightPair::scan(const std::vector<float>& a, const std::vector<fl
 void LightPair::add(int64_t y, const Row& row) {
     m_a += row.a;
     m_b += row.b;
+    m_one_finite += row.one_finite;
     const auto block_row = size_t(y / kSide);
     if (block_row >= m_rows)
         return;
@@ -128,6 +131,7 @@ LightPair::Result LightPair::result() const {
     Result result;
     if (m_sums.empty())
         return result;
+    result.one_finite = double(m_one_finite) / std::max(double(m_width) * double(m_height), 1.0);
     const double mean = mean_of_a();
     size_t off = 0;
     double most = 0;

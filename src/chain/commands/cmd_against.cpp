@@ -113,6 +113,11 @@ void run_against(Session& session, const Call& call) {
     std::string why;
     if (!ToneAlgo::against_facts(facts, theirs.pointers, ours.pointers, why, options))
         throw CommandError("\"" + approved.name() + "\", \"" + image.name() + "\": " + why);
+    if (facts.layers.empty())
+        throw CommandError("\"" + approved.name() + "\" and \"" + image.name() +
+                           "\" have no layer in common that is compared");
+    for (const std::string& pattern : facts.unused)
+        session.warning(call.row().label(), "no layer is called \"" + pattern + "\"");
     take_types(approved, facts.approved.channels);
     take_types(image, facts.file.channels);
     sequence::AgainstRecord record = sequence::record_of(facts, words_of(call, "attribute"));

@@ -47,6 +47,7 @@ void compare(AgainstFacts& facts, const Images& approved, const Images& parts,
     facts.approved = file_of(scan, 0, approved);
     facts.file = file_of(scan, 1, parts);
     facts.layers = scan.results();
+    facts.unused = scan.unused();
 }
 
 } // namespace

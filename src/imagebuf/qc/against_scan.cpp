@@ -116,6 +116,23 @@ void AgainstScan::match_layers() {
         add_pair(theirs, same);
 }
 
+std::vector<std::string> AgainstScan::unused() const {
+    std::vector<std::string> patterns = m_options.skip, unused;
+    for (const auto& [pattern, kind] : m_options.kinds)
+        patterns.push_back(pattern);
+    for (const std::string& pattern : patterns) {
+        const auto fits = [&](const Side& side) {
+            const std::vector<LayerReader::Layer>& layers = side.reader.layers();
+            return std::any_of(layers.begin(), layers.end(), [&](const LayerReader::Layer& layer) {
+                return is_meant(pattern, layer.name);
+            });
+        };
+        if (!fits(m_sides[0]) && !fits(m_sides[1]))
+            unused.push_back(pattern);
+    }
+    return unused;
+}
+
 std::vector<AgainstName> AgainstScan::names(size_t side) const {
     std::vector<AgainstName> names;
     const std::vector<size_t> here = listed(side), there = listed(1 - side);
@@ -124,6 +141,7 @@ std::vector<AgainstName> AgainstScan::names(size_t side) const {
         AgainstName& name = names.emplace_back();
         name.name = layer.name;
         name.kind = kind_of(layer);
+        name.part = int(layer.part);
         name.channels = layer.names;
         for (const std::array<size_t, 2>& same : m_same)
             if (same[side] == i)
@@ -293,7 +311,8 @@ AgainstLayer AgainstScan::result_of(const Pair& pair) const {
     out.y = int(sums.y);
     if (pair.light) {
         const metrics::LightPair::Result result = pair.light->result();
-        out.quantities = {{"gain", result.gain}, {"blocks", result.blocks}};
+        out.quantities = {
+            {"gain", result.gain}, {"blocks", result.blocks}, {"one_finite", result.one_finite}};
         out.x = int(result.x) + pair.window.xbegin;
         out.y = int(result.y) + pair.window.ybegin;
     } else if (*pair.data == PairKind::Normal) {

@@ -33,6 +33,7 @@ public:
     const Side& side(size_t which) const { return m_sides[which]; }
     /// The layers of both files, and which of them are the same.
     std::vector<AgainstName> names(size_t side) const;
+    std::vector<std::string> unused() const;
     std::vector<AgainstLayer> results() const;
 
 private:

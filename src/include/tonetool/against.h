@@ -28,6 +28,7 @@ struct AgainstOptions {
 struct AgainstName {
     std::string name;                  ///< "" for plain R,G,B
     std::string kind;                  ///< one of against_kinds()
+    int part = 0;                      ///< of the file
     std::vector<std::string> channels; ///< as in the file
     int other = -1;                    ///< the layer of the other file that is the same one, or -1
 };
@@ -52,6 +53,7 @@ struct AgainstLayer {
 
 struct AgainstFacts {
     AgainstFile approved, file;
+    std::vector<std::string> unused; ///< patterns of `kinds` and `skip` that fit no layer
     std::vector<AgainstLayer> layers;
 };
 

@@ -78,6 +78,9 @@ std::string sentence_of(const AgainstLayer& layer, const Beyond& beyond) {
     else if (quantity == "blocks")
         text = format("{} differs from the approved one by more than its noise in {} of the blocks",
                       what, percent(value));
+    else if (quantity == "one_finite")
+        text = format("{} is NaN or infinite in only one version in {} of the pixels", what,
+                      percent(value));
     else if (quantity == "median")
         text = format("{} is {:.3g} {} off the approved one (median)", what, value,
                       layer.kind == "normal" ? "degrees" : "pixels");
@@ -233,6 +236,28 @@ std::optional<int> frame_alike(const ComparedFrames& frames, size_t i) {
     return std::nullopt;
 }
 
+bool is_of_against(const Fault& fault) {
+    return fault.command == "against";
+}
+
+// Where no frame was compared at all, the approved version is not where it was looked for.
+void refuse_without_any(ComparedFrames& frames) {
+    if (std::any_of(frames.begin(), frames.end(),
+                    [](const Compared& frame) { return frame.record.approved; }))
+        return;
+    for (Compared& frame : frames) {
+        Fault fault;
+        fault.command = "against";
+        fault.code = "noapproved";
+        fault.severity = Severity::Error;
+        fault.sentence = "no frame of the approved version is there: nothing was compared";
+        std::vector<Fault>& faults = frame.result->faults;
+        faults.erase(std::remove_if(faults.begin(), faults.end(), is_of_against), faults.end());
+        faults.insert(faults.begin(), fault);
+        judge(*frame.result);
+    }
+}
+
 void judge_frames(ComparedFrames& frames) {
     const bool cropped = is_cropped(frames);
     for (size_t i = 0; i < frames.size(); ++i) {
@@ -281,13 +306,14 @@ void judge_against(std::vector<FrameResult>& frames) {
     for (FrameResult& frame : frames) {
         if (frame.against.empty())
             continue;
-        const auto is_found_here = [](const Fault& fault) { return fault.command == "against"; };
-        frame.faults.erase(std::remove_if(frame.faults.begin(), frame.faults.end(), is_found_here),
+        frame.faults.erase(std::remove_if(frame.faults.begin(), frame.faults.end(), is_of_against),
                            frame.faults.end());
         views[frame.view].push_back({&frame, against_from_json(frame.against)});
     }
-    for (auto& [view, of_view] : views)
+    for (auto& [view, of_view] : views) {
         judge_frames(of_view);
+        refuse_without_any(of_view);
+    }
     for (const auto& [view, of_view] : views)
         for (const auto& [other, of_other] : views)
             if (view != other)

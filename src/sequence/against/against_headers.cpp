@@ -6,6 +6,7 @@
 #include <map>
 #include <optional>
 #include <set>
+#include <tuple>
 
 #include "imagebuf/pixels/layer_name.h"
 #include "imagebuf/pixels/names.h"
@@ -78,6 +79,42 @@ void compare_windows(const AgainstFile& approved, const AgainstFile& file, Diffe
     }
 }
 
+using Window = std::array<int, 4>;
+
+// The windows of the parts that a layer has in both files.
+struct Windows {
+    Window theirs, ours;
+    bool operator<(const Windows& o) const {
+        return std::tie(theirs, ours) < std::tie(o.theirs, o.ours);
+    }
+};
+
+// The data windows of parts that are not the first, whose window is judged over the shot. A new one
+// that holds the approved one is milder.
+void compare_parts(const AgainstFile& approved, const AgainstFile& file, Differences& out) {
+    std::map<Windows, Names> layers;
+    for (const AgainstName& layer : approved.layers) {
+        const AgainstName* found = other_of(file, layer);
+        if (!found)
+            continue;
+        const Windows windows{approved.parts.at(size_t(layer.part)).data,
+                              file.parts.at(size_t(found->part)).data};
+        const bool first = windows.theirs == approved.parts.front().data &&
+                           windows.ours == file.parts.front().data;
+        if (windows.theirs != windows.ours && !first)
+            layers[windows].push_back(shown_layer(layer.name));
+    }
+    for (const auto& [windows, names] : layers) {
+        const Window &a = windows.theirs, &b = windows.ours;
+        const bool holds = b[0] <= a[0] && b[1] <= a[1] && b[0] + b[2] >= a[0] + a[2] &&
+                           b[1] + b[3] >= a[1] + a[3];
+        out.push_back({"datawindow", "",
+                       format("the data window of {} is {}, approved is {}",
+                              OIIO::Strutil::join(names, ", "), window_words(b), window_words(a)),
+                       holds ? Severity::Warning : Severity::Error});
+    }
+}
+
 using Types = std::map<std::string, std::string>;
 
 bool is_data(const std::string& kind) {
@@ -143,14 +180,15 @@ void compare_compression(const AgainstFile& approved, const AgainstFile& file, D
                    lossy ? Severity::Error : Severity::Warning});
 }
 
-// What a header says of a name, in any part.
+// What the headers of all parts say of a name, each value once.
 std::string said(const AgainstFile& file, const std::string& name) {
+    std::set<std::string> values;
     for (const QcPart& part : file.parts) {
         const auto found = part.metadata.find(name);
         if (found != part.metadata.end())
-            return found->second;
+            values.insert(found->second);
     }
-    return "";
+    return OIIO::Strutil::join(Names(values.begin(), values.end()), ", ");
 }
 
 // Numbers that are written in other ways are the same: 24, 24.0 and 24/1.
@@ -178,8 +216,8 @@ bool same_value(const std::string& name, std::string a, std::string b) {
 std::set<std::string> header_names(const AgainstFile& approved, const AgainstFile& file,
                                    const Names& more) {
     std::set<std::string> names = {
-        "PixelAspectRatio", "framesPerSecond", "FramesPerSecond", "view",
-        "multiView",        "chromaticities",  "oiio:ColorSpace", "camera"};
+        "PixelAspectRatio", "framesPerSecond", "FramesPerSecond", "view",  "multiView",
+        "chromaticities",   "oiio:ColorSpace", "colorInteropID",  "camera"};
     names.insert(more.begin(), more.end());
     for (const AgainstFile* side : {&approved, &file})
         for (const QcPart& part : side->parts)
@@ -217,6 +255,7 @@ AgainstRecord record_of(const AgainstFacts& facts, const Names& headers) {
     record.layers = facts.layers;
     compare_layers(facts.approved, facts.file, record.differences);
     compare_windows(facts.approved, facts.file, record.differences);
+    compare_parts(facts.approved, facts.file, record.differences);
     compare_types(facts.approved, facts.file, record.differences);
     compare_compression(facts.approved, facts.file, record.differences);
     compare_headers(facts.approved, facts.file, headers, record.differences);

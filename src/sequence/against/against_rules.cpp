@@ -38,6 +38,8 @@ const FaultRules& against_rules() {
         {"groupblocks", error, 0.12, "share of the blocks", "the same; warning at 0.42 X"},
         {"albedo", error, 0.05, "stops", "the same of an albedo; warning at 0.4 X"},
         {"albedoblocks", error, 0.03, "share of the blocks", "the same; warning at 0.33 X"},
+        {"nonfinite", error, 0.001, "share of the pixels",
+         "NaN or infinity in the light of one version alone; warning at the first pixel"},
         {"alpha", error, 0.01, "of 1", "the mean difference of an alpha; warning at 0.1 X"},
         {"alphaoff", error, 0.02, "share of the pixels",
          "alpha that differs by more than 0.02; warning at 0.1 X"},
@@ -60,14 +62,25 @@ const FaultRules& against_rules() {
 
 const std::vector<AgainstQuantity>& against_quantities() {
     static const std::vector<AgainstQuantity> quantities = {
-        {"position", "off", "position", 0.2}, {"depth", "off", "depth", 0.2},
-        {"normal", "median", "normal", 0.25}, {"normal", "off10", "normaloff", 1.0 / 3},
-        {"normal", "one", "normalone", 0.2},  {"vector", "median", "vector", 0.2},
-        {"vector", "off", "vectoroff", 0.4},  {"id", "mismatch", "id", 0.25},
-        {"color", "gain", "color", 1.0 / 3},  {"color", "blocks", "colorblocks", 0.25},
-        {"group", "gain", "group", 0.35},     {"group", "blocks", "groupblocks", 5.0 / 12},
-        {"albedo", "gain", "albedo", 0.4},    {"albedo", "blocks", "albedoblocks", 1.0 / 3},
-        {"", "alpha_mean", "alpha", 0.1},     {"", "alpha_off", "alphaoff", 0.1},
+        {"position", "off", "position", 0.2},
+        {"depth", "off", "depth", 0.2},
+        {"normal", "median", "normal", 0.25},
+        {"normal", "off10", "normaloff", 1.0 / 3},
+        {"normal", "one", "normalone", 0.2},
+        {"vector", "median", "vector", 0.2},
+        {"vector", "off", "vectoroff", 0.4},
+        {"id", "mismatch", "id", 0.25},
+        {"color", "gain", "color", 1.0 / 3},
+        {"color", "one_finite", "nonfinite", 0},
+        {"color", "blocks", "colorblocks", 0.25},
+        {"group", "gain", "group", 0.35},
+        {"group", "one_finite", "nonfinite", 0},
+        {"group", "blocks", "groupblocks", 5.0 / 12},
+        {"albedo", "gain", "albedo", 0.4},
+        {"albedo", "one_finite", "nonfinite", 0},
+        {"albedo", "blocks", "albedoblocks", 1.0 / 3},
+        {"", "alpha_mean", "alpha", 0.1},
+        {"", "alpha_off", "alphaoff", 0.1},
     };
     return quantities;
 }

@@ -175,9 +175,12 @@ void find_stale_buckets(QcShot& shot) {
         if (!stale.points || stale.points->size() < points.size())
             stale = {is_first ? b : a, &points};
     }
+    constexpr int least = 8; // pixels
     for (const auto& [k, stale] : found) {
         QcFrame& frame = *frames[k];
         const std::array<int, 4> at = rectangle_of(frame, block_of(*stale.points));
+        if (at[2] < least || at[3] < least)
+            continue; // the points of a tiny picture are the same few pixels
         shot.add(frame, "stalebucket",
                  format("about {}x{} pixels at ({}, {}) are those of frame {}", at[2], at[3], at[0],
                         at[1], frames[stale.other]->number),

@@ -44,9 +44,7 @@ public:
 
     /// The line of a fault of frame i; empty if that of an earlier frame has told it.
     std::string line_of(size_t i, const Fault& fault) const {
-        const bool still = m_frames.size() == 1 && m_frames[i]->frame == 0;
-        const std::string number =
-            still ? std::string() : "frame " + std::to_string(m_frames[i]->frame);
+        const std::string number = number_of(i);
         if (fault.command.empty())
             return line(fault, number, m_frames[i]->view);
         if (i > 0 && find_same(*m_frames[i - 1], fault))
@@ -73,14 +71,19 @@ public:
 
     /// Of a frame with more of them than a person reads.
     std::string rest_of(size_t i, size_t count) const {
-        const std::string& view = m_frames[i]->view;
-        return format("against: frame {}{}{}: and {}, which -v prints\n", m_frames[i]->frame,
-                      view.empty() ? "" : " ", printable(view),
-                      count == 1 ? std::string("1 more difference")
-                                 : std::to_string(count) + " more differences");
+        const std::string number = number_of(i), &view = m_frames[i]->view;
+        return format("against: {}{}{}{}and {} more {}, which -v prints\n", number,
+                      view.empty() ? "" : " ", printable(view), number.empty() ? "" : ": ", count,
+                      count == 1 ? "difference" : "differences");
     }
 
 private:
+    // A still has none.
+    std::string number_of(size_t i) const {
+        const bool still = m_frames.size() == 1 && m_frames[i]->frame == 0;
+        return still ? std::string() : "frame " + std::to_string(m_frames[i]->frame);
+    }
+
     std::vector<const FrameResult*> m_frames;
 };
 
