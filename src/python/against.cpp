@@ -31,6 +31,7 @@ void add_results(Module& module) {
         .field("kind", &N::kind,
                "\"position\", \"normal\", \"depth\", \"vector\", \"id\", \"albedo\", \"color\", "
                "\"group\" or \"data\".")
+        .field("part", &N::part, "Index of its part of the file.")
         .field("channels", &N::channels, "As in the file.")
         .field("other", &N::other, "Index of the same layer in the other file, or -1.")
         .finish();
@@ -55,6 +56,7 @@ void add_results(Module& module) {
         .field("approved", &A::approved, "The approved version.")
         .field("file", &A::file, "The new one.")
         .field("layers", &A::layers, "Those that both have.")
+        .field("unused", &A::unused, "Patterns of kinds and skip that fit no layer.")
         .finish();
 }
 

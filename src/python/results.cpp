@@ -16,7 +16,7 @@ std::string image_repr(const OIIO::ImageBuf& image) {
                   image.nchannels(), image.spec().format.c_str());
 }
 
-constexpr size_t kLineWidth = 92;
+constexpr size_t kLineWidth = 100;
 
 std::string value_repr(const py::handle& value);
 
@@ -28,8 +28,9 @@ bool is_result(const py::handle& value) {
 // "[a, b, ... 9 in all]", about a line. Of results, which are long, one is shown.
 std::string sequence_repr(const py::handle& items, const char* begin, const char* end,
                           const std::function<std::string(const py::handle&)>& show) {
-    constexpr size_t most = 4, length = 80;
+    constexpr size_t length = 80;
     const size_t count = py::len(items);
+    const size_t most = count > 4 ? 3 : 4; // windows are shown whole
     size_t shown = 0;
     std::string text;
     for (const py::handle item : py::iter(items)) {

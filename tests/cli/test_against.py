@@ -318,6 +318,54 @@ def test_layers_of_other_view_layers_are_the_same(against, layers):
     assert against(approved, new_frame())[1] == []
 
 
+def in_two_parts(path, frame, window=None, **attributes):
+    """The picture in the first part, the rest in a second one, which may be cropped."""
+    specs, images = [], []
+    for first in (True, False):
+        chosen = [(channel, kind, a) for channel, kind, a in frame.channels()
+                  if (channel.rsplit(".", 1)[0] == "Combined") == first]
+        pixels = np.stack([a for *_, a in chosen], axis=-1).astype(np.float32)
+        x, y, width, height = window if window and not first else (0, 0, WIDTH, HEIGHT)
+        images.append(np.ascontiguousarray(pixels[y:y + height, x:x + width]))
+        spec = oiio.ImageSpec(width, height, len(chosen), "float")
+        spec.x, spec.y, spec.full_width, spec.full_height = x, y, WIDTH, HEIGHT
+        spec.channelnames = tuple(channel for channel, *_ in chosen)
+        spec.attribute("oiio:subimagename", "picture" if first else "data")
+        spec.attribute("compression", "zip")
+        for key, value in {**frame.attributes, **({} if first else attributes)}.items():
+            spec.attribute(key, value)
+        specs.append(spec)
+    output = oiio.ImageOutput.create("parts.exr")
+    assert output.open(str(path), tuple(specs)), output.geterror()
+    for i, (spec, pixels) in enumerate(zip(specs, images)):
+        assert i == 0 or output.open(str(path), spec, "AppendSubimage")
+        assert output.write_image(pixels), output.geterror()
+    output.close()
+
+
+def test_each_part_of_a_file_counts(against, tmp_path):
+    in_two_parts(tmp_path / "approved.exr", approved_frame())
+    in_two_parts(tmp_path / "new.exr", new_frame())
+    assert against()[1] == []
+    in_two_parts(tmp_path / "new.exr", new_frame(), window=(8, 8, 40, 30))
+    ran, found = against()
+    assert "error datawindow" in found and "the data window of " in ran.out
+    in_two_parts(tmp_path / "new.exr", new_frame(), framesPerSecond=30.0)
+    ran, found = against()
+    assert found == ["error header"] and "framesPerSecond" in ran.out
+
+
+def test_nothing_that_was_compared_is_no_pass(against, tonetool, shot):
+    assert against(approved_frame(), new_frame())[1] == []
+    ran = tonetool("approved.exr", "new.exr", "--against:skip=*", status=1)
+    assert "no layer in common" in ran.err
+    ran = tonetool("approved.exr", "new.exr", "--against:kind=Misk=depth:skip=nothing",
+                   "--warnings-exit", status=2)
+    assert 'no layer is called "Misk"' in ran.err and 'no layer is called "nothing"' in ran.err
+    ran, frames = shot([None, None], [new_frame(), new_frame()], status=3)
+    assert faults(frames) == [(1, "error noapproved"), (2, "error noapproved")]
+
+
 @pytest.mark.parametrize("whole_names", [True, False])
 def test_parts_and_layers_are_the_same(against, layers, tmp_path, whole_names):
     frame = new_frame()
@@ -364,7 +412,8 @@ def test_pixels_that_are_not_finite(against, layers):
                        spoiled(new_frame(), value, *every))[1] == []
         assert all(np.isfinite(v) for one in layers().values() for v in one.values())
         # Light is compared where both have it; data that is none differs.
-        assert against(approved_frame(), spoiled(new_frame(), value, "Combined_key"))[1] == []
+        assert against(approved_frame(), spoiled(new_frame(), value, "Combined_key"))[1] == \
+            ["error nonfinite"]
         assert against(None, spoiled(new_frame(), value, "Depth"))[1] == ["error depth"]
         assert against(None, spoiled(new_frame(), value, "Vector"))[1] == ["error vectoroff"]
     assert against(spoiled(approved_frame(), np.inf, "Depth"),

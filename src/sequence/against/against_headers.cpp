@@ -207,7 +207,8 @@ bool same_value(const std::string& name, std::string a, std::string b) {
     }
     const bool numbers =
         name == "PixelAspectRatio" || name == "framesPerSecond" || name == "FramesPerSecond";
-    if (numbers && !a.empty() && !b.empty())
+    const bool several = a.find(',') != std::string::npos || b.find(',') != std::string::npos;
+    if (numbers && !several && !a.empty() && !b.empty())
         return std::abs(number(a) - number(b)) <= 1e-6 * std::abs(number(a));
     return a == b;
 }
