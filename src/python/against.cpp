@@ -32,8 +32,8 @@ void add_results(Module& module) {
                "\"position\", \"normal\", \"depth\", \"vector\", \"id\", \"albedo\", \"color\", "
                "\"group\" or \"data\".")
         .field("part", &N::part, "Index of its part of the file.")
-        .field("channels", &N::channels, "As in the file.")
         .field("other", &N::other, "Index of the same layer in the other file, or -1.")
+        .field("channels", &N::channels, "As in the file.")
         .finish();
     using F = AgainstFile;
     ResultClass<F>(module, "AgainstFile", "A file by its header.")
