@@ -28,7 +28,7 @@ bool is_result(const py::handle& value) {
 // "[a, b, ... 9 in all]", about a line. Of results, which are long, one is shown.
 std::string sequence_repr(const py::handle& items, const char* begin, const char* end,
                           const std::function<std::string(const py::handle&)>& show) {
-    constexpr size_t length = 70;
+    constexpr size_t length = 64;
     const size_t count = py::len(items);
     const size_t most = count > 4 ? 3 : 4; // windows are shown whole
     size_t shown = 0;
