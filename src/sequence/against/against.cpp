@@ -155,10 +155,6 @@ void add_fault(const AgainstRecord& record, const AgainstDifference& difference,
     faults.push_back(std::move(fault));
 }
 
-std::string words_of(const AgainstRecord::Window& window) {
-    return format("{}x{}{:+}{:+}", window[2], window[3], window[0], window[1]);
-}
-
 // Whether a window holds the other up to 2 pixels.
 bool holds(const AgainstRecord::Window& a, const AgainstRecord::Window& b) {
     constexpr int slack = 2;
@@ -173,8 +169,8 @@ void add_window(const AgainstRecord& record, bool cropped, std::vector<Fault>& f
         return;
     add_fault(record,
               {"datawindow", "",
-               format("the data window is {}, approved is {}", words_of(record.data),
-                      words_of(record.approved_data)),
+               format("the data window is {}, approved is {}", window_text(record.data),
+                      window_text(record.approved_data)),
                cropped ? Severity::Warning : Severity::Error},
               faults);
 }

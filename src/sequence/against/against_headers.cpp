@@ -65,16 +65,12 @@ void compare_layers(const AgainstFile& approved, const AgainstFile& file, Differ
                            Severity::Warning});
 }
 
-std::string window_words(const std::array<int, 4>& window) {
-    return format("{}x{}{:+}{:+}", window[2], window[3], window[0], window[1]);
-}
-
 void compare_windows(const AgainstFile& approved, const AgainstFile& file, Differences& out) {
     const QcPart &theirs = approved.parts.front(), &ours = file.parts.front();
     if (theirs.display != ours.display) {
         out.push_back({"displaywindow", "",
-                       format("the display window is {}, approved is {}",
-                              window_words(ours.display), window_words(theirs.display)),
+                       format("the display window is {}, approved is {}", window_text(ours.display),
+                              window_text(theirs.display)),
                        Severity::Error});
     }
 }
@@ -110,7 +106,7 @@ void compare_parts(const AgainstFile& approved, const AgainstFile& file, Differe
                            b[1] + b[3] >= a[1] + a[3];
         out.push_back({"datawindow", "",
                        format("the data window of {} is {}, approved is {}",
-                              OIIO::Strutil::join(names, ", "), window_words(b), window_words(a)),
+                              OIIO::Strutil::join(names, ", "), window_text(b), window_text(a)),
                        holds ? Severity::Warning : Severity::Error});
     }
 }

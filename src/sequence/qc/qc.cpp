@@ -230,6 +230,13 @@ double median(std::vector<double> values) {
     return *middle;
 }
 
+double usual_distance(const std::vector<QcFrame*>& frames) {
+    std::vector<double> distances;
+    for (size_t i = 1; i < frames.size(); ++i)
+        distances.push_back(frames[i]->number - frames[i - 1]->number);
+    return median(std::move(distances));
+}
+
 double median_without(const std::vector<double>& sorted, double value) {
     if (sorted.size() < 2)
         return 0;

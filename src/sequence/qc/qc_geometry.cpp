@@ -113,12 +113,8 @@ public:
           m_frames(frames),
           m_motion(motion),
           m_layer(layer),
-          m_told(told) {
-        std::vector<double> distances;
-        for (size_t i = 1; i < frames.size(); ++i)
-            distances.push_back(frames[i]->number - frames[i - 1]->number);
-        m_distance = median(std::move(distances));
-    }
+          m_told(told),
+          m_distance(usual_distance(frames)) {}
 
     void find() {
         find_order();
@@ -145,7 +141,7 @@ private:
     const QcGuide& m_layer;
     std::string m_name = "layer " + shown_layer(m_layer.layer); ///< for sentences
     std::set<size_t>& m_told;
-    double m_distance = 0; ///< the usual one of the numbers
+    double m_distance; ///< the usual one of the numbers
 };
 
 // Whether these frames follow each other, and no other rule explains a change between them.

@@ -104,10 +104,6 @@ void find_odd(QcShot& shot, const std::string& code, const std::string& what,
     }
 }
 
-std::string window_text(const std::array<int, 4>& window) {
-    return format("{}x{}{:+}{:+}", window[2], window[3], window[0], window[1]);
-}
-
 std::string of_parts(const QcFacts& facts,
                      const std::function<std::string(const QcPart&)>& text_of) {
     std::vector<std::string> texts;

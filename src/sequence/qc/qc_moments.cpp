@@ -68,16 +68,8 @@ Keys keys_of(const Frames& frames) {
     return all && !still ? geometry : pictures;
 }
 
-// The usual distance of numbers; where it is larger, frames are missing or black.
-int usual_distance(const Frames& frames) {
-    std::vector<double> distances;
-    for (size_t i = 1; i < frames.size(); ++i)
-        distances.push_back(frames[i]->number - frames[i - 1]->number);
-    return int(median(distances));
-}
-
 std::vector<Run> runs_of(const Frames& frames, const Keys& keys) {
-    const int step = usual_distance(frames);
+    const double step = usual_distance(frames);
     std::vector<Run> runs;
     for (size_t i = 0; i < frames.size(); ++i) {
         const bool goes_on =

@@ -30,13 +30,11 @@ struct Statistic {
 std::vector<bool> breaks_of(const Frames& frames) {
     const std::vector<Thumbnail> thumbnails = thumbnails_of(frames);
     const double usual = usual_step_of(thumbnails);
-    std::vector<double> apart;
-    for (size_t i = 1; i < frames.size(); ++i)
-        apart.push_back(double(frames[i]->number) - double(frames[i - 1]->number));
-    const double step = median(apart);
+    const double distance = usual_distance(frames);
     std::vector<bool> breaks{true};
     for (size_t i = 1; i < frames.size(); ++i)
-        breaks.push_back(frames[i]->changed || apart[i - 1] != step ||
+        breaks.push_back(frames[i]->changed ||
+                         frames[i]->number - frames[i - 1]->number != distance ||
                          !same_windows(*frames[i - 1], *frames[i]) ||
                          is_cut(thumbnails[i - 1], thumbnails[i], usual));
     return breaks;
@@ -80,7 +78,7 @@ private:
     void find_runs();
     void find_steps();
     double step(size_t k) const { return std::abs(m_series[k] - m_series[k - 1]); }
-    void tell(size_t first, size_t last, double off, const std::string& than);
+    void tell(size_t first, size_t last, double off, const std::string& than, bool comes_back);
 
     QcShot& m_shot;
     const Frames& m_frames;
@@ -102,7 +100,8 @@ bool ScalarSearch::is_free(size_t first, size_t last) const {
 }
 
 // The light explains what else changes with it.
-void ScalarSearch::tell(size_t first, size_t last, double off, const std::string& than) {
+void ScalarSearch::tell(size_t first, size_t last, double off, const std::string& than,
+                        bool comes_back) {
     const std::string which =
         first == last ? std::string()
                       : frames_text(m_frames[first]->number, m_frames[last]->number) + ": ";
@@ -118,7 +117,7 @@ void ScalarSearch::tell(size_t first, size_t last, double off, const std::string
         {layer ? layer->name : "", {}, std::abs(off), {}});
     if (m_statistic.code == "light") {
         m_frames[first]->changed = true;
-        if (than.find(" and ") != std::string::npos && last + 1 < m_frames.size())
+        if (comes_back && last + 1 < m_frames.size())
             m_frames[last + 1]->changed = true;
     }
 }
@@ -144,7 +143,8 @@ void ScalarSearch::find_runs() {
                       m_taken.begin() + std::ptrdiff_t(last) + 2, true);
             tell(k, last, off,
                  format("frames {} and {} around {}", m_frames[k - 1]->number,
-                        m_frames[last + 1]->number, length == 1 ? "it" : "them"));
+                        m_frames[last + 1]->number, length == 1 ? "it" : "them"),
+                 true);
         }
     }
 }
@@ -168,7 +168,8 @@ void ScalarSearch::find_steps() {
         if (m_breaks[k] || (first && last) || !(step(k) > limit) || !is_small(k - 1) ||
             !is_small(k + 1) || m_taken[k] || m_taken[k - 1])
             continue;
-        tell(k, k, m_series[k] - m_series[k - 1], format("frame {}", m_frames[k - 1]->number));
+        tell(k, k, m_series[k] - m_series[k - 1], format("frame {}", m_frames[k - 1]->number),
+             false);
     }
 }
 

@@ -79,6 +79,8 @@ std::string frames_text(int first, int last);
 /// "the picture", "layer X".
 std::string layer_text(const QcLayer& layer);
 double median(std::vector<double> values);
+/// The usual distance of their numbers; where it is another, frames are missing or black.
+double usual_distance(const std::vector<QcFrame*>& frames);
 /// median() of sorted values but one of this size.
 double median_without(const std::vector<double>& sorted, double value);
 

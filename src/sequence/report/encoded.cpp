@@ -6,6 +6,8 @@
 #include <stdexcept>
 #include <vector>
 
+#include "sequence/results/base64.h"
+
 namespace tonetool::sequence {
 
 namespace {
@@ -60,44 +62,19 @@ Bytes encoded(const OIIO::ImageBuf& picture, Encoding encoding, int quality) {
     return bytes;
 }
 
-int sextet(char c) {
-    static const std::string digits =
-        "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    const size_t at = digits.find(c);
-    return at == std::string::npos ? -1 : int(at);
-}
-
-// Stops at the first character outside the base64 alphabet: the padding.
-Bytes decoded(const std::string& text, size_t begin) {
-    Bytes bytes;
-    unsigned int held = 0;
-    int bits = 0;
-    for (size_t i = begin; i < text.size() && sextet(text[i]) >= 0; ++i) {
-        held = (held << 6 | unsigned(sextet(text[i]))) & 0xffffffu;
-        bits += 6;
-        if (bits >= 8) {
-            bits -= 8;
-            bytes.push_back(static_cast<unsigned char>(held >> bits));
-        }
-    }
-    return bytes;
-}
-
 } // namespace
 
 std::string data_uri(const OIIO::ImageBuf& picture, Encoding encoding, int quality) {
     const Bytes bytes = encoded(picture, encoding, quality);
     const char* type = is_png(encoding) ? "png" : "jpeg";
-    return std::string("data:image/") + type + ";base64," +
-           OIIO::Strutil::base64_encode(
-               {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+    return std::string("data:image/") + type + ";base64," + base64(bytes);
 }
 
 std::optional<OIIO::ImageBuf> picture_of(const std::string& data_uri) {
     const size_t comma = data_uri.find(";base64,");
     if (comma == std::string::npos)
         return std::nullopt;
-    Bytes bytes = decoded(data_uri, comma + 8);
+    Bytes bytes = bytes_of_base64(data_uri, comma + 8);
     OIIO::Filesystem::IOMemReader memory(bytes.data(), bytes.size());
     const bool png = data_uri.rfind("data:image/png", 0) == 0;
     auto input = OIIO::ImageInput::open(png ? "picture.png" : "picture.jpg", nullptr, &memory);

@@ -230,6 +230,10 @@ int exit_status(Status status, bool warnings_exit) {
     return status == Status::Failed ? 3 : (status == Status::Warning && warnings_exit ? 2 : 0);
 }
 
+std::string window_text(const std::array<int, 4>& window) {
+    return format("{}x{}{:+}{:+}", window[2], window[3], window[0], window[1]);
+}
+
 std::string severity_name(Severity severity) {
     return kSeverityNames.at(size_t(severity));
 }

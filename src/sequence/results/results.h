@@ -48,6 +48,9 @@ struct Position {
     bool operator==(const Position& o) const { return x == o.x && y == o.y; }
 };
 
+/// "320x180+0+0": a window of x, y, width and height.
+std::string window_text(const std::array<int, 4>& window);
+
 /// A fault of an image (--qc, --against). The severity Error fails the frame, Warning gives it a
 /// warning.
 struct Fault {
