@@ -135,11 +135,15 @@ void OutputTarget::commit() {
     const bool regular = !m_temporary.empty();
     if (regular && ::fsync(m_fd) != 0)
         throw Refusal(reason());
-    const int closed = ::close(m_fd);
-    m_fd = -1;
+    // A network file system may tell only now that it could not write. The second descriptor holds
+    // the lock until the file has its name: without it a file that is whole looks abandoned.
+    const int locked = regular ? ::fcntl(m_fd, F_DUPFD_CLOEXEC, 0) : -1;
+    const int closed = ::close(std::exchange(m_fd, locked));
     if (closed != 0 || (regular && ::rename(m_temporary.c_str(), m_final.c_str()) != 0))
         throw Refusal(reason());
     m_temporary.clear();
+    if (m_fd >= 0)
+        ::close(std::exchange(m_fd, -1));
     if (regular)
         sync_folder_of(m_final);
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <OpenImageIO/filesystem.h>
+#include <atomic>
 #include <chrono>
 #include <fcntl.h>
 #include <filesystem>
@@ -8,6 +9,7 @@
 #include <string>
 #include <sys/file.h>
 #include <sys/stat.h>
+#include <thread>
 #include <unistd.h>
 
 #include "imagebuf/write/temporary_names.h"
@@ -84,6 +86,23 @@ TEST_F(Abandoned, TheNextWriteToTheFolderClearsThemAll) {
         EXPECT_FALSE(fs::exists(gone)) << gone;
     for (const std::string& there : {written, elsewhere, user, hidden})
         EXPECT_TRUE(fs::exists(there)) << there;
+}
+
+// A file is held until it has its name: two programs begin to write to one folder at any moment.
+TEST_F(Abandoned, WhatIsBeingRenamedStays) {
+    const std::string target = (m_folder / "a.json").string();
+    std::atomic<bool> done{false};
+    std::thread other([&] {
+        while (!done)
+            remove_abandoned_outputs({target});
+    });
+    int failed = 0;
+    std::string error;
+    for (int i = 0; i < 300; ++i)
+        failed += write_bytes("x", target, error) ? 0 : 1;
+    done = true;
+    other.join();
+    EXPECT_EQ(failed, 0) << error;
 }
 
 TEST_F(Abandoned, LinksAndPipesOfSuchNamesAreNoMatter) {
