@@ -40,25 +40,34 @@ OIIO::ImageSpec spec_of(const OIIO::ImageBuf& picture, Encoding encoding, int qu
     return spec;
 }
 
-Bytes encoded(const OIIO::ImageBuf& picture, Encoding encoding, int quality) {
-    const char* name = is_png(encoding) ? "picture.png" : "picture.jpg";
-    const OIIO::ImageSpec spec = spec_of(picture, encoding, quality);
+// The first three channels; nothing where they are in memory as they are wanted.
+Bytes copied(const OIIO::ImageBuf& picture) {
     OIIO::ROI roi = picture.roi();
+    if (picture.localpixels() && picture.spec().format == OIIO::TypeDesc::UINT8 &&
+        picture.contiguous() && picture.nchannels() == 3)
+        return {};
     roi.chbegin = 0;
     roi.chend = 3;
     Bytes pixels(size_t(roi.npixels()) * 3);
+    if (!picture.get_pixels(roi, OIIO::TypeDesc::UINT8, pixels.data()))
+        throw std::runtime_error("could not encode a picture: " + picture.geterror());
+    return pixels;
+}
+
+Bytes encoded(const OIIO::ImageBuf& picture, Encoding encoding, int quality) {
+    const char* name = is_png(encoding) ? "picture.png" : "picture.jpg";
+    const OIIO::ImageSpec spec = spec_of(picture, encoding, quality);
+    const Bytes copy = copied(picture);
+    const void* pixels = copy.empty() ? picture.localpixels() : copy.data();
     Bytes bytes;
     OIIO::Filesystem::IOVecOutput memory(bytes);
     const auto output = OIIO::ImageOutput::create(name);
     if (!output)
         throw std::runtime_error(OIIO::geterror());
-    const bool done = picture.get_pixels(roi, OIIO::TypeDesc::UINT8, pixels.data()) &&
-                      output->set_ioproxy(&memory) && output->open(name, spec) &&
-                      output->write_image(OIIO::TypeDesc::UINT8, pixels.data()) && output->close();
-    if (!done || bytes.empty()) {
-        throw std::runtime_error("could not encode a picture: " + output->geterror() +
-                                 picture.geterror());
-    }
+    const bool done = output->set_ioproxy(&memory) && output->open(name, spec) &&
+                      output->write_image(OIIO::TypeDesc::UINT8, pixels) && output->close();
+    if (!done || bytes.empty())
+        throw std::runtime_error("could not encode a picture: " + output->geterror());
     return bytes;
 }
 

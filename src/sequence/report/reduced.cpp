@@ -2,12 +2,12 @@
 #include "sequence/report/reduced.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <stdexcept>
 #include <vector>
 
 #include "imagebuf/pixels/oiio_compat.h"
+#include "sequence/report/pixel_rows.h"
 
 namespace tonetool::sequence {
 
@@ -43,32 +43,6 @@ OIIO::ImageSpec tagged(const OIIO::ImageSpec& from, const std::string& space,
     return spec;
 }
 
-// Reads `count` channels from `channel` on of a region, row by row.
-class Rows {
-public:
-    Rows(const ImageBuf& image, ROI region, int channel, int count)
-        : m_image(image),
-          m_region(region),
-          m_values(size_t(region.width()) * size_t(count)) {
-        m_region.chbegin = channel;
-        m_region.chend = channel + count;
-    }
-
-    const std::vector<float>& read(int y) {
-        ROI row = m_region;
-        row.ybegin = y;
-        row.yend = y + 1;
-        if (!m_image.get_pixels(row, OIIO::TypeFloat, m_values.data()))
-            throw std::runtime_error(m_image.geterror());
-        return m_values;
-    }
-
-private:
-    const ImageBuf& m_image;
-    ROI m_region;
-    std::vector<float> m_values;
-};
-
 // The pixel of a reduced side that a pixel of the region falls on.
 int target(int at, int from, int to) {
     return int(int64_t(at) * to / from);
@@ -81,12 +55,11 @@ struct RowSums {
 
     explicit RowSums(int width) : color(size_t(width) * 3), count(size_t(width)) {}
 
-    void add(size_t at, const float* pixel, const std::array<int, 3>& order) {
-        const auto value = [&](size_t c) { return double(pixel[order[c]]); };
-        if (std::isfinite(value(0)) && std::isfinite(value(1)) && std::isfinite(value(2))) {
+    void add(size_t at, const float* pixel) {
+        if (std::isfinite(pixel[0]) && std::isfinite(pixel[1]) && std::isfinite(pixel[2])) {
             ++count[at];
             for (size_t c = 0; c < 3; ++c)
-                color[3 * at + c] += value(c);
+                color[3 * at + c] += double(pixel[c]);
         }
     }
 
@@ -149,14 +122,11 @@ ImageBuf reduced_color(const ImageBuf& image, const PixelOptions& options, const
     const PixelSize side{std::min(wanted.width, region.width()),
                          std::min(wanted.height, region.height())};
     const ColorChoice choice = color_of(image, options);
-    const int first = std::min({choice.r, choice.g, choice.b});
-    const int count = std::max({choice.r, choice.g, choice.b}) + 1 - first;
-    const std::array<int, 3> order{choice.r - first, choice.g - first, choice.b - first};
     OIIO::ImageSpec spec = tagged(image.spec(), choice.space, options);
     spec.width = spec.full_width = side.width;
     spec.height = spec.full_height = side.height;
     ImageBuf result(spec);
-    Rows rows(image, region, first, count);
+    PixelRows rows(image, region, {choice.r, choice.g, choice.b});
     const std::vector<size_t> columns = targets(region.width(), side.width);
     int y = 0;
     for (int to = 0; to < side.height; ++to) {
@@ -164,7 +134,7 @@ ImageBuf reduced_color(const ImageBuf& image, const PixelOptions& options, const
         for (; y < region.height() && target(y, region.height(), side.height) == to; ++y) {
             const std::vector<float>& row = rows.read(region.ybegin + y);
             for (size_t x = 0; x < columns.size(); ++x)
-                sums.add(columns[x], row.data() + x * size_t(count), order);
+                sums.add(columns[x], row.data() + 3 * x);
         }
         sums.write(result, to);
     }
@@ -176,7 +146,7 @@ ReducedMaps reduced_maps(const ImageBuf& error, const ImageBuf* stops, const Pix
     const size_t width = size_t(side.width);
     std::vector<float> most(width * size_t(side.height), -1.0f), at(most.size());
     const std::vector<size_t> columns = targets(all.width(), side.width);
-    Rows errors(error, all, 0, 1), exposures(stops ? *stops : error, all, 0, 1);
+    PixelRows errors(error, all, {0}), exposures(stops ? *stops : error, all, {0});
     for (int y = 0; y < all.height(); ++y) {
         const std::vector<float>& row = errors.read(all.ybegin + y);
         const std::vector<float>& of = exposures.read(all.ybegin + y);

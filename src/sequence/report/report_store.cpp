@@ -140,7 +140,7 @@ PictureTexts PictureStore::texts(const FrameResult& frame, const FramePictures& 
     PictureTexts texts;
     for (size_t i = 0; i < kPictureSizes; ++i)
         if (!drawn[i].empty())
-            texts[i] = start + asked() + drawn[i].substr(1);
+            (texts[i] = start + asked()).append(drawn[i], 1);
     const std::lock_guard<std::mutex> lock(m_mutex);
     for (const PictureSize size : kOfWorst)
         if (!texts[size_t(size)].empty())

@@ -2,10 +2,10 @@
 #include "sequence/report/scene_pixels.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <stdexcept>
 
+#include "sequence/report/pixel_rows.h"
 #include "tonetool/tonemap.h"
 
 namespace tonetool::sequence {
@@ -20,30 +20,15 @@ using Halves = std::vector<uint16_t>;
 
 constexpr uint16_t kInfinity = 0x7c00, kLargest = 0x7bff, kMagnitude = 0x7fff;
 
-Halves halves_of(const ImageBuf& image, ROI region, int channel, int count) {
-    region.chbegin = channel;
-    region.chend = channel + count;
-    Halves values(size_t(region.width()) * size_t(region.height()) * size_t(count));
-    if (!image.get_pixels(region, TypeDesc::HALF, values.data()))
-        throw std::runtime_error(image.geterror());
+// The channels as they are stored, in the order they are asked for.
+Halves halves_of(const ImageBuf& image, const ROI& region, const std::vector<int>& channels) {
+    const size_t along = size_t(region.width()) * channels.size();
+    Halves values(along * size_t(region.height()));
+    PixelRows rows(image, region, channels);
+    uint16_t* to = values.data();
+    for (int y = region.ybegin; y < region.yend; ++y, to += along)
+        half_bits(rows.read(y), to);
     return values;
-}
-
-// The three channels as they are stored, whatever their order.
-Halves stored_color(const ImageBuf& image, const ROI& region, const ColorChoice& choice) {
-    const int first = std::min({choice.r, choice.g, choice.b});
-    const int count = std::max({choice.r, choice.g, choice.b}) + 1 - first;
-    Halves read = halves_of(image, region, first, count);
-    const std::array<size_t, 3> order{size_t(choice.r - first), size_t(choice.g - first),
-                                      size_t(choice.b - first)};
-    if (count == 3 && order == std::array<size_t, 3>{0, 1, 2})
-        return read;
-    const size_t pixels = read.size() / size_t(count);
-    Halves color(3 * pixels);
-    for (size_t p = 0; p < pixels; ++p)
-        for (size_t c = 0; c < 3; ++c)
-            color[3 * p + c] = read[p * size_t(count) + order[c]];
-    return color;
 }
 
 // Of three channels that reduced_color() has made.
@@ -85,7 +70,8 @@ ScenePixels sized(const PixelSize& side, Halves color) {
 
 template <class Code>
 ImageBuf coded(const ScenePixels& pixels, const Code& code) {
-    ImageBuf picture(OIIO::ImageSpec(pixels.width, pixels.height, 3, TypeDesc::UINT8));
+    ImageBuf picture(OIIO::ImageSpec(pixels.width, pixels.height, 3, TypeDesc::UINT8),
+                     OIIO::InitializePixels::No);
     std::transform(pixels.color.begin(), pixels.color.end(),
                    static_cast<uint8_t*>(picture.localpixels()), code);
     return picture;
@@ -150,7 +136,7 @@ float half_value(uint16_t half) {
 ScenePixels scene_pixels(const ImageBuf& image, const PixelOptions& options, const ROI& region) {
     const ColorChoice choice = chosen_color(image, options);
     const PixelSize side{region.width(), region.height()};
-    ScenePixels pixels = sized(side, stored_color(image, region, choice));
+    ScenePixels pixels = sized(side, halves_of(image, region, {choice.r, choice.g, choice.b}));
     if (!is_plain(image, choice)) {
         const Halves stored = std::move(pixels.color);
         pixels.color = scene_means(image, options, region, side).color;
@@ -159,7 +145,7 @@ ScenePixels scene_pixels(const ImageBuf& image, const PixelOptions& options, con
                 pixels.color[i] = stored[i];
     }
     if (choice.a >= 0)
-        pixels.alpha = halves_of(image, region, choice.a, 1);
+        pixels.alpha = halves_of(image, region, {choice.a});
     return pixels;
 }
 
@@ -168,7 +154,7 @@ ScenePixels scene_means(const ImageBuf& image, const PixelOptions& options, cons
     ImageBuf means = reduced_color(image, options, region, side);
     if (!is_plain(image, chosen_color(image, options)))
         means = in_rec709(means, options);
-    return sized(side, halves_of(means, means.roi(), 0, 3));
+    return sized(side, halves_of(means, means.roi(), {0, 1, 2}));
 }
 
 ScenePixels reduced(const ScenePixels& pixels, const PixelSize& side) {
@@ -183,8 +169,7 @@ ScenePixels reduced(const ScenePixels& pixels, const PixelSize& side) {
         row.append_to(means);
     }
     Halves color(means.size());
-    OIIO::convert_pixel_values(OIIO::TypeFloat, means.data(), TypeDesc::HALF, color.data(),
-                               int(means.size()));
+    half_bits(means, color.data());
     return sized(side, std::move(color));
 }
 
