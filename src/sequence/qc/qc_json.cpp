@@ -12,19 +12,20 @@ namespace tonetool {
 
 namespace {
 
+using nlohmann::json; // what is read: its objects grow without copies of what they hold
 using nlohmann::ordered_json;
 
 template <class Int>
-void read_whole(const ordered_json& from, const char* key, Int& to) {
+void read_whole(const json& from, const char* key, Int& to) {
     to = whole_number<Int>(from.at(key), key);
 }
 
-void read_real(const ordered_json& from, const char* key, double& to) {
+void read_real(const json& from, const char* key, double& to) {
     to = finite_number(from.at(key), key);
 }
 
 template <class Ints>
-void read_whole_numbers(const ordered_json& from, const char* key, Ints& to) {
+void read_whole_numbers(const json& from, const char* key, Ints& to) {
     to = from.at(key).get<Ints>();
     for (size_t i = 0; i < to.size(); ++i)
         to[i] = whole_number<int>(from[key].at(i), key);
@@ -34,7 +35,7 @@ ordered_json json_of(const QcSpot& spot) {
     return {spot.x, spot.y, spot.value, spot.around};
 }
 
-QcSpot spot_of(const ordered_json& from) {
+QcSpot spot_of(const json& from) {
     return {whole_number<int>(from.at(0), "x"), whole_number<int>(from.at(1), "y"),
             finite_number(from.at(2), "value"), finite_number(from.at(3), "around")};
 }
@@ -46,9 +47,9 @@ ordered_json json_of(const std::vector<QcSpot>& spots) {
     return list;
 }
 
-std::vector<QcSpot> spots_of(const ordered_json& from) {
+std::vector<QcSpot> spots_of(const json& from) {
     std::vector<QcSpot> spots;
-    for (const ordered_json& spot : from)
+    for (const json& spot : from)
         spots.push_back(spot_of(spot));
     return spots;
 }
@@ -59,7 +60,7 @@ void put(ordered_json& to, const char* key, const QcCount& count) {
         to[key] = {{"pixels", count.pixels}, {"first", json_of(count.first)}};
 }
 
-QcCount count_of(const ordered_json& from, const char* key) {
+QcCount count_of(const json& from, const char* key) {
     QcCount count;
     if (from.contains(key)) {
         read_whole(from[key], "pixels", count.pixels);
@@ -76,7 +77,7 @@ ordered_json json_of(const QcPart& part) {
             {"metadata", part.metadata}};
 }
 
-QcPart part_of(const ordered_json& from) {
+QcPart part_of(const json& from) {
     QcPart part;
     from.at("name").get_to(part.name);
     read_whole_numbers(from, "data", part.data);
@@ -93,7 +94,7 @@ ordered_json json_of(const QcRectangle& of) {
     return {of.x, of.y, of.width, of.height, bits[0], bits[1], bits[2], of.background};
 }
 
-QcRectangle rectangle_of(const ordered_json& from) {
+QcRectangle rectangle_of(const json& from) {
     QcRectangle to;
     int* const place[] = {&to.x, &to.y, &to.width, &to.height};
     for (size_t i = 0; i < 4; ++i)
@@ -112,7 +113,7 @@ void put(ordered_json& to, const char* key, const std::array<int, 32>& shares) {
         to[key] = shares;
 }
 
-void read_shares(const ordered_json& from, const char* key, std::array<int, 32>& to) {
+void read_shares(const json& from, const char* key, std::array<int, 32>& to) {
     if (from.contains(key))
         read_whole_numbers(from, key, to);
 }
@@ -129,7 +130,7 @@ ordered_json json_of(const QcLayer& layer) {
     return to;
 }
 
-QcLayer layer_of(const ordered_json& from) {
+QcLayer layer_of(const json& from) {
     QcLayer layer;
     from.at("name").get_to(layer.name);
     from.at("kind").get_to(layer.kind);
@@ -179,10 +180,10 @@ void put_statistics(ordered_json& to, const QcPicture& picture) {
         to["statistics"] = statistics;
 }
 
-void read_statistics(const ordered_json& from, QcPicture& picture) {
+void read_statistics(const json& from, QcPicture& picture) {
     if (!from.contains("statistics"))
         return;
-    const ordered_json& statistics = from["statistics"];
+    const json& statistics = from["statistics"];
     visit_statistics(picture, [&](const char* name, double& value) {
         if (statistics.contains(name))
             read_real(statistics, name, value);
@@ -211,20 +212,20 @@ void put_places(ordered_json& to, const QcPicture& picture) {
         to["borders"] = borders;
 }
 
-void read_places(const ordered_json& from, QcPicture& picture) {
+void read_places(const json& from, QcPicture& picture) {
     if (from.contains("alpha")) {
         read_real(from["alpha"], "mean", picture.alpha_mean);
         read_real(from["alpha"], "clear", picture.alpha_clear);
     }
     if (from.contains("values")) {
-        const ordered_json& values = from["values"];
+        const json& values = from["values"];
         for (size_t i = 0; i < picture.pairs.size(); ++i)
             picture.pairs[i] = finite_number(values.at("pairs").at(i), "pairs");
         read_whole(values, "greens", picture.greens);
         read_whole(values, "distinct", picture.distinct);
     }
     if (from.contains("rectangles"))
-        for (const ordered_json& rectangle : from["rectangles"])
+        for (const json& rectangle : from["rectangles"])
             picture.rectangles.push_back(rectangle_of(rectangle));
     if (from.contains("borders")) {
         read_shares(from["borders"], "left", picture.borders.left);
@@ -257,7 +258,7 @@ ordered_json json_of(const QcPicture& picture) {
     return to;
 }
 
-QcPicture picture_of(const ordered_json& from) {
+QcPicture picture_of(const json& from) {
     QcPicture picture;
     from.at("layer").get_to(picture.layer);
     from.at("space").get_to(picture.space);
@@ -272,7 +273,7 @@ QcPicture picture_of(const ordered_json& from) {
     read_places(from, picture);
     read_statistics(from, picture);
     if (from.contains("groups")) {
-        const ordered_json& groups = from["groups"];
+        const json& groups = from["groups"];
         read_whole(groups, "count", picture.groups);
         read_real(groups, "sum", picture.group_sum);
         read_real(groups, "difference", picture.group_difference);
@@ -290,7 +291,7 @@ ordered_json list_of(const std::vector<Item>& items) {
 }
 
 // Each channel takes 1152 bytes of the cells.
-int channels_of_guide(const ordered_json& guide) {
+int channels_of_guide(const json& guide) {
     constexpr int most = 16;
     const int channels = whole_number<int>(guide.at(1), "guides");
     if (channels < 1 || channels > most)
@@ -298,18 +299,18 @@ int channels_of_guide(const ordered_json& guide) {
     return channels;
 }
 
-QcFacts facts_of(const ordered_json& from) {
+QcFacts facts_of(const json& from) {
     QcFacts facts;
-    for (const ordered_json& part : from.at("parts"))
+    for (const json& part : from.at("parts"))
         facts.parts.push_back(part_of(part));
-    for (const ordered_json& channel : from.at("channels")) {
+    for (const json& channel : from.at("channels")) {
         facts.channels.emplace_back(channel.at(0).get<std::string>(),
                                     channel.at(1).get<std::string>());
     }
-    for (const ordered_json& layer : from.at("layers"))
+    for (const json& layer : from.at("layers"))
         facts.layers.push_back(layer_of(layer));
     facts.picture = picture_of(from.at("picture"));
-    for (const ordered_json& guide : from.at("guides"))
+    for (const json& guide : from.at("guides"))
         facts.guides.push_back({guide.at(0).get<std::string>(), channels_of_guide(guide), {}});
     sequence::read_cells(from.at("cells").get<std::string>(), facts);
     if (facts.parts.empty())
@@ -348,7 +349,7 @@ std::string to_json(const QcRecord& record) {
 QcRecord qc_from_json(const std::string& text) {
     QcRecord record;
     try {
-        const auto from = parse_json<ordered_json>(text);
+        const auto from = parse_json<json>(text);
         record.facts = facts_of(from);
         if (from.contains("digits"))
             record.strays.digits = whole_number<int>(from["digits"], "digits");
