@@ -73,6 +73,18 @@ void add_guides(Module& module) {
         .field("cells", &G::cells,
                "Means of each channel of each cell x, as sign(x) log2(1 + 1000 |x|) in 1/1000.")
         .finish();
+    using O = QcObjects::Object;
+    ResultClass<O>(module, "QcObject", "An object of a layer of IDs.")
+        .field("id", &O::id, "The bits of its ID.")
+        .field("pixels", &O::pixels, "How many pixels show it.")
+        .finish();
+    using S = QcObjects;
+    ResultClass<S>(module, "QcObjects", "Which objects a layer of IDs has.")
+        .field("layer", &S::layer, "Its name; empty if there is none.")
+        .field("inside", &S::inside,
+               "The largest that are away from the left and the right border, at most 32.")
+        .field("known", &S::known, "Two of 4096 bits for each ID that there is.")
+        .finish();
 }
 
 void add_places(Module& module) {
@@ -144,6 +156,7 @@ void add_picture(Module& module) {
         .field("channels", &F::channels, "Data type by name, as in the file.")
         .field("layers", &F::layers, "One each.")
         .field("guides", &F::guides, "Layers without noise, which tell what moves: at most two.")
+        .field("objects", &F::objects, "Of the first layer of IDs.")
         .field("picture", &F::picture, "What a viewer looks at.")
         .finish();
 }

@@ -147,6 +147,25 @@ void fill_picture(const QcScan& scan, QcPicture& picture) {
     picture.group_worst = {int(worst.x), int(worst.y), worst.value, 0};
 }
 
+QcObjects objects_of(const QcScan& scan) {
+    QcObjects objects;
+    if (scan.object_layer() < 0)
+        return objects;
+    objects.layer = scan.layers()[size_t(scan.object_layer())].name;
+    objects.known.resize(QcObjects::kBits / 8);
+    const double least = QcObjects::kShare * double(scan.object_pixels());
+    for (const auto& [id, object] : scan.objects().objects()) {
+        for (const size_t bit : QcObjects::bits_of(id))
+            objects.known[bit / 8] = uint8_t(objects.known[bit / 8] | 1U << bit % 8);
+        if (!object.at_border && double(object.pixels) >= least)
+            objects.inside.push_back({id, object.pixels});
+    }
+    std::stable_sort(objects.inside.begin(), objects.inside.end(),
+                     [](const auto& a, const auto& b) { return a.pixels > b.pixels; });
+    objects.inside.resize(std::min(objects.inside.size(), QcObjects::kMost));
+    return objects;
+}
+
 void measure(QcFacts& facts, const std::vector<const ImageBuf*>& parts, const QcOptions& options,
              int nthreads) {
     if (parts.empty())
@@ -164,6 +183,7 @@ void measure(QcFacts& facts, const std::vector<const ImageBuf*>& parts, const Qc
         facts.layers.push_back(layer_of(layer));
     for (const QcScan::Guide& guide : scan.guides())
         facts.guides.push_back(guide_of(scan, guide));
+    facts.objects = objects_of(scan);
     fill_picture(scan, facts.picture);
 }
 

@@ -33,6 +33,7 @@ void QcScan::choose_guides() {
     };
     m_albedo = index("albedo");
     m_motion = index("motion");
+    m_object_layer = index("id");
     for (const char* kind : {"depth", "normal", "position", "albedo"}) {
         const int layer = index(kind);
         if (layer < 0 || m_guides.size() == most)
@@ -122,6 +123,21 @@ std::vector<double> QcScan::Guide::means(size_t channels) const {
 
 double QcScan::magenta() const {
     return m_magenta.all > 0 ? double(m_magenta.some) / double(m_magenta.all) : 0;
+}
+
+// The first channel: of a Cryptomatte the IDs of the largest coverage.
+void QcScan::scan_objects(int y, Row& row) const {
+    if (m_object_layer < 0)
+        return;
+    const Layer& layer = m_layers[size_t(m_object_layer)];
+    const metrics::ChannelRow pixels = m_reader.row_of(layer.part, y);
+    row.objects.add_row(pixels, layer.channels[0],
+                        int64_t(QcObjects::kBorder * double(pixels.width)));
+}
+
+int64_t QcScan::object_pixels() const {
+    const OIIO::ROI& window = m_reader.window(m_layers[size_t(m_object_layer)].part);
+    return int64_t(window.width()) * window.height();
 }
 
 } // namespace tonetool

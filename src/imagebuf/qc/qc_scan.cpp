@@ -71,6 +71,7 @@ void QcScan::scan_row(int y, Row& row) const {
     scan_guides(y, row);
     scan_albedo(y, row);
     scan_motion(y, row);
+    scan_objects(y, row);
     if (has_picture())
         scan_picture_row(y, row);
 }
@@ -148,6 +149,7 @@ void QcScan::add(int y, const Row& row) {
     m_alpha_levels.add(row.alpha_levels);
     add_places(y, row);
     add_guides(y, row);
+    m_objects.add(row.objects);
     m_group_scan.add(row.groups);
     m_hashes += row.hash;
     if (!row.picture.largest.empty()) {

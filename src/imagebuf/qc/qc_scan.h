@@ -11,6 +11,7 @@
 #include "metrics/detail_scan.h"
 #include "metrics/fault_scan.h"
 #include "metrics/fingerprints.h"
+#include "metrics/object_scan.h"
 #include "metrics/rectangle_scan.h"
 #include "metrics/value_scan.h"
 #include "tonetool/qc.h"
@@ -72,6 +73,10 @@ public:
     const std::vector<metrics::FlatRectangle>& rectangles() const { return m_rectangles; }
     const Borders& borders() const { return m_borders; }
     const metrics::ValueScan& values() const { return m_values; }
+    /// Of this layer, -1 if there is none of IDs.
+    int object_layer() const { return m_object_layer; }
+    const metrics::ObjectScan& objects() const { return m_objects; }
+    int64_t object_pixels() const; ///< of the layer's data window
 
 private:
     struct Share {
@@ -99,6 +104,7 @@ private:
         std::vector<GuideRow> guides;
         Share magenta;
         std::vector<metrics::StepHistogram::Code> speeds;
+        metrics::ObjectScan objects;
     };
 
     void scan_alpha(int y, const std::vector<float>& rgb, Row& row) const;
@@ -108,6 +114,7 @@ private:
     void scan_guides(int y, Row& row) const;
     void scan_albedo(int y, Row& row) const;
     void scan_motion(int y, Row& row) const;
+    void scan_objects(int y, Row& row) const;
     void add_guides(int y, const Row& row);
     const ColorSpace& space() const { return m_reader.space(); }
 
@@ -127,7 +134,7 @@ private:
     std::vector<Layer> m_layers;
     metrics::CellColumns m_columns; ///< of the picture's data window
     std::vector<Guide> m_guides;
-    int m_albedo = -1, m_motion = -1; ///< among the layers
+    int m_albedo = -1, m_motion = -1, m_object_layer = -1; ///< among the layers
     int m_nthreads = 0;
 
     metrics::RangeScan m_alpha;
@@ -146,6 +153,7 @@ private:
     metrics::FingerprintScan m_fingerprints;
     Share m_magenta;
     metrics::StepHistogram m_speed;
+    metrics::ObjectScan m_objects;
     metrics::DetailScan m_detail;
     struct Held {
         std::vector<float> largest;

@@ -72,6 +72,35 @@ struct QcGuide {
     }
 };
 
+/// Which objects a frame shows, by the bits of their IDs: the first layer of IDs, of a Cryptomatte
+/// those of the largest coverage. An ID of 0 is nothing.
+struct QcObjects {
+    struct Object {
+        uint32_t id = 0;
+        int64_t pixels = 0;
+    };
+    std::string layer; ///< "" if there is none
+    /// The largest that take at least kShare of the pixels and are seen away from the left and the
+    /// right border alone, where the other eye of a stereo pair may not see them; by size.
+    std::vector<Object> inside;
+    static constexpr size_t kMost = 32;
+    static constexpr double kShare = 0.001, kBorder = 0.08; ///< of the picture; of its width
+    /// Two bits of kBits for each ID that there is.
+    std::vector<uint8_t> known;
+    static constexpr size_t kBits = 4096;
+    static std::array<size_t, 2> bits_of(uint32_t id) {
+        const uint32_t one = id * 0x9e3779b1U, other = (id ^ id >> 15) * 0x85ebca6bU;
+        return {one >> 20, other >> 20};
+    }
+    /// False: no pixel has this ID. True may be chance.
+    bool knows(uint32_t id) const {
+        const auto bits = bits_of(id);
+        return std::all_of(bits.begin(), bits.end(), [&](size_t bit) {
+            return bit / 8 < known.size() && (known[bit / 8] >> bit % 8 & 1) != 0;
+        });
+    }
+};
+
 struct QcPart {
     std::string name;
     std::array<int, 4> data{}, display{}; ///< x, y, width, height
@@ -153,6 +182,7 @@ struct QcFacts {
     std::vector<QcLayer> layers;
     /// The first two that there are of a depth, a normal, a position, an albedo.
     std::vector<QcGuide> guides;
+    QcObjects objects;
     QcPicture picture;
 };
 

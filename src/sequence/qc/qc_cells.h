@@ -9,9 +9,10 @@
 
 namespace tonetool::sequence {
 
-/// Of the picture: thumbnail, red, blue, peaks, fingerprints; then the cells of each guide.
+/// Of the picture: thumbnail, red, blue, peaks, fingerprints; then the cells of each guide,
+/// and which objects there are.
 std::string cells_text(const QcFacts& facts);
-/// Fills them; the guides already have their layers and channels. Throws a runtime_error if the
+/// Fills them; the guides and objects already have their layers. Throws a runtime_error if the
 /// string is not of such facts.
 void read_cells(const std::string& text, QcFacts& facts);
 

@@ -57,6 +57,30 @@ void compare_layers(QcShot& shot, QcShot& others, const std::string& view) {
                      {name, {}, {}, {}, {}});
 }
 
+// The objects that frames of this view show well, and no frame of the other has: an object may be
+// hidden in one eye for a while. Told once.
+void compare_objects(QcShot& shot, QcShot& others, const std::string& view) {
+    std::set<uint32_t> told;
+    for (QcFrame* frame : shot.measured()) {
+        const QcObjects& here = frame->facts.objects;
+        for (const QcObjects::Object& object : here.inside) {
+            const auto knows = [&](const QcFrame* other) {
+                const QcObjects& there = other->facts.objects;
+                return there.layer != here.layer || there.knows(object.id);
+            };
+            const std::vector<QcFrame*> all = others.measured();
+            if (told.count(object.id) > 0 || all.empty() ||
+                std::any_of(all.begin(), all.end(), knows))
+                continue;
+            told.insert(object.id);
+            shot.add(*frame, "oneeye",
+                     format("object <{:08x}> of {} ({} pixels) is not in view {}", object.id,
+                            printable(here.layer), object.pixels, printable(view)),
+                     {here.layer, {}, {}, {}, {}});
+        }
+    }
+}
+
 void compare_views(QcShot& shot, const std::string& name, QcShot& others, const std::string& view) {
     for (QcFrame& frame : shot.frames) {
         QcFrame* other = frame.measured ? find_frame(others, frame.number) : nullptr;
@@ -66,6 +90,8 @@ void compare_views(QcShot& shot, const std::string& name, QcShot& others, const 
     }
     compare_layers(shot, others, view);
     compare_layers(others, shot, name);
+    compare_objects(shot, others, view);
+    compare_objects(others, shot, name);
 }
 
 } // namespace

@@ -290,6 +290,27 @@ ordered_json list_of(const std::vector<Item>& items) {
     return list;
 }
 
+// Bits of IDs as 8 digits, as a Cryptomatte's manifest has them.
+ordered_json json_of(const QcObjects& objects) {
+    ordered_json inside = ordered_json::array();
+    for (const QcObjects::Object& object : objects.inside)
+        inside.push_back({OIIO::Strutil::fmt::format("{:08x}", object.id), object.pixels});
+    return {{"layer", objects.layer}, {"inside", inside}};
+}
+
+QcObjects objects_of(const json& from) {
+    QcObjects objects;
+    from.at("layer").get_to(objects.layer);
+    for (const json& one : from.at("inside")) {
+        const auto id = one.at(0).get<std::string>();
+        if (id.size() != 8 || id.find_first_not_of("0123456789abcdef") != std::string::npos)
+            throw std::runtime_error("\"objects\" has \"" + id + "\", not 8 digits from 0 to f");
+        objects.inside.push_back(
+            {uint32_t(std::stoul(id, nullptr, 16)), whole_number<int64_t>(one.at(1), "objects")});
+    }
+    return objects;
+}
+
 // Each channel takes 1152 bytes of the cells.
 int channels_of_guide(const json& guide) {
     constexpr int most = 16;
@@ -312,6 +333,8 @@ QcFacts facts_of(const json& from) {
     facts.picture = picture_of(from.at("picture"));
     for (const json& guide : from.at("guides"))
         facts.guides.push_back({guide.at(0).get<std::string>(), channels_of_guide(guide), {}});
+    if (from.contains("objects"))
+        facts.objects = objects_of(from["objects"]);
     sequence::read_cells(from.at("cells").get<std::string>(), facts);
     if (facts.parts.empty())
         throw std::runtime_error("no part of a file");
@@ -330,13 +353,14 @@ std::string to_json(const QcRecord& record) {
     ordered_json guides = ordered_json::array();
     for (const QcGuide& guide : facts.guides)
         guides.push_back({guide.layer, guide.channels});
-    ordered_json to = {{"limits", record.limits.texts()},
-                       {"picture", json_of(facts.picture)},
-                       {"guides", guides},
-                       {"cells", cells_text(facts)},
-                       {"layers", list_of(facts.layers)},
-                       {"channels", channels},
-                       {"parts", list_of(facts.parts)}};
+    ordered_json to = {
+        {"limits", record.limits.texts()}, {"picture", json_of(facts.picture)}, {"guides", guides}};
+    if (!facts.objects.layer.empty())
+        to["objects"] = json_of(facts.objects);
+    to.update(ordered_json{{"cells", cells_text(facts)},
+                           {"layers", list_of(facts.layers)},
+                           {"channels", channels},
+                           {"parts", list_of(facts.parts)}});
     if (record.strays.digits > 0)
         to["digits"] = record.strays.digits;
     if (record.strays.first != record.strays.last)
