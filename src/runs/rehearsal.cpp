@@ -43,12 +43,16 @@ class StackOfFiles {
 public:
     explicit StackOfFiles(const FramePlan& plan) : m_plan(plan) {}
 
-    std::vector<LayerAsked> layers_asked() {
+    /// Up to the first command of which this is not known.
+    void follow() {
         for (const Word& word : m_plan.line.words)
             if (m_plan.line.texts[word.at].find('{') != std::string::npos || !take(word))
                 break;
-        return m_asked;
     }
+    const std::vector<LayerAsked>& layers_asked() const { return m_asked; }
+    /// The comparison for which there are too few images, and what is wrong with that; empty if
+    /// there is none.
+    const std::pair<std::string, std::string>& shortage() const { return m_shortage; }
 
 private:
     bool take(const Word& word) {
@@ -58,7 +62,7 @@ private:
         }
         if (word.is("qc"))
             return !m_files.empty() && ask(word, "layer", m_files.size() - 1, m_files.size());
-        if (word.row->group == Group::Compare && word.row->pops > 0)
+        if (word.is("against") || (word.row->group == Group::Compare && word.row->pops > 0))
             return take_comparison(word);
         const bool sets = word.row->group == Group::General || word.row->group == Group::Check ||
                           word.row->manner || word.row->whole_line;
@@ -68,14 +72,18 @@ private:
     bool take_comparison(const Word& word) {
         const Call call(*word.row, word.token, {});
         const auto pops = size_t(call.pops());
-        if (pops > m_files.size())
+        if (pops > m_files.size()) {
+            m_shortage = {word.row->label(), chain::too_few_images(pops, m_files.size())};
             return false;
+        }
         const size_t first = m_files.size() - pops;
         const auto& all = word.row->modifiers;
         const bool other = std::any_of(all.begin(), all.end(),
                                        [](const auto& one) { return one.key == "ldrlayer"; });
         ask(word, "layer", first, other ? first + 1 : m_files.size());
         ask(word, "ldrlayer", first + 1, m_files.size());
+        if (word.is("against")) // leaves its files where they are
+            return true;
         m_files.resize(first);
         m_files.resize(first + size_t(std::max(call.pushes(), 0)));
         return call.pushes() >= 0;
@@ -92,6 +100,7 @@ private:
     const FramePlan& m_plan;
     std::vector<std::optional<size_t>> m_files;
     std::vector<LayerAsked> m_asked;
+    std::pair<std::string, std::string> m_shortage;
 };
 
 // Why a file has not the layer; empty where it has, nullopt where its headers cannot be read.
@@ -159,7 +168,13 @@ std::string mistakes_of(const FramePlan& plan) {
     chain::Runner(session, words).check_all();
     if (session.outcome.errors > 0)
         return text.str();
-    for (const LayerAsked& asked : StackOfFiles(plan).layers_asked()) {
+    StackOfFiles stack(plan);
+    stack.follow();
+    if (const auto& [command, lack] = stack.shortage(); !lack.empty()) {
+        session.error(command, lack);
+        return text.str();
+    }
+    for (const LayerAsked& asked : stack.layers_asked()) {
         const std::string lack = lack_of_all(plan, asked);
         if (!lack.empty()) {
             session.error(asked.command, lack);

@@ -12,6 +12,10 @@
 
 namespace tonetool::chain {
 
+inline std::string too_few_images(size_t needed, size_t there) {
+    return "needs " + std::to_string(needed) + " image(s), the stack has " + std::to_string(there);
+}
+
 struct Stack {
     std::vector<ImagePtr> images; ///< the top is the last
     std::map<std::string, ImagePtr> labels;
@@ -36,10 +40,7 @@ struct Stack {
     }
 
     /// The complaint that there are not so many images.
-    std::string lacks(int count) const {
-        return "needs " + std::to_string(count) + " image(s), the stack has " +
-               std::to_string(images.size());
-    }
+    std::string lacks(int count) const { return too_few_images(size_t(count), images.size()); }
 
     /// Reads what images and labels still have to read from a file about to be replaced.
     void keep_pixels_of(const std::string& filename) const;
