@@ -10,6 +10,7 @@ import signal
 import subprocess
 import time
 
+import make_shot
 import numpy as np
 import OpenImageIO as oiio
 import pytest
@@ -302,3 +303,39 @@ def test_faults_are_seen_from_near(tonetool, anim, read):
     assert data["large-4"]["reference"] == ""
     assert data["full-4"]["near"]["reference"] is None
     assert data["full-4"]["error"] == ""
+
+
+def pixels_of(uri, folder):
+    file = folder / "picture.png"
+    file.write_bytes(base64.b64decode(uri.split(",", 1)[1]))
+    return oiio.ImageInput.open(str(file)).read_image("float")
+
+
+def test_layers_with_a_fault_are_in_the_page(tonetool, tmp_path):
+    for folder, fault in (("a", None), ("b", "black-layer")):
+        (tmp_path / folder).mkdir()
+        make_shot.make_shot(tmp_path / folder, fault)
+    tonetool("--frames", "1-8", "a/shot.#.exr", "b/shot.#.exr", "--against", "--qc", "--report",
+             "page.html", status=3)
+    data = blocks((tmp_path / "page.html").read_text(encoding="utf-8"))
+    assert [name for name in data if name.startswith("layers-")] == ["layers-4"]
+    layers = {one["layer"]: one for one in data["layers-4"]}
+    key = layers["ViewLayer.Combined_key"]
+    test, reference = (pixels_of(key[side], tmp_path) for side in ("test", "reference"))
+    assert test.shape == (make_shot.HEIGHT, make_shot.WIDTH, 3)
+    assert test.max() == 0 and reference.max() == 1
+    # As light: sRGB of the value over that of 99 % of all values.
+    file = oiio.ImageInput.open(str(tmp_path / "a/shot.0005.exr"))
+    first = file.spec().channelindex("ViewLayer.Combined_key.R")
+    light = file.read_image("float")[..., first:first + 3]
+    light = np.clip(light / np.quantile(light, 0.99), 0, 1)
+    code = np.where(light > 0.0031308, 1.055 * light ** (1 / 2.4) - 0.055, 12.92 * light)
+    assert np.abs(reference - code).max() < 0.02
+    # A merge reads the files again; where they are gone there are no pictures.
+    tonetool("--frames", "1-8", "a/shot.#.exr", "b/shot.#.exr", "--against", "--qc", "--exit-zero",
+             "--json", "c.json", "--pictures", "p")
+    shutil.rmtree(tmp_path / "b")
+    (tmp_path / "a" / "shot.0005.exr").unlink()
+    tonetool("--merge", "c.json", "--pictures", "p", "--report", "page.html", status=3)
+    data = blocks((tmp_path / "page.html").read_text(encoding="utf-8"))
+    assert "full-4" in data and "layers-4" not in data

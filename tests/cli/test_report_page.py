@@ -538,6 +538,20 @@ def test_what_the_page_exports_the_program_accepts(driver, program, tmp_path):
     assert "faults of 1 frame are accepted" in page.text(".sentence")
 
 
+def test_the_layer_of_a_fault_is_shown_beside_it(driver, program, tmp_path):
+    made(program, tmp_path, "--frames", "4-6", "-q", ANIM / "ref.#.exr", ANIM / "test.#.exr",
+         "--against", "--qc", "--report", "page.html", status=3)
+    page = Page(driver, tmp_path / "page.html")
+    page.ready()
+    layer = page.ask("frames[1].faults.find((fault) => fault.code === 'blacklayer').layer")
+    shown = page.ask("""[...document.querySelectorAll("#found .layers img")]
+        .filter((one) => one.alt.startsWith(arguments[0] + " "))
+        .map((one) => [one.alt, one.naturalWidth, one.complete])""", layer)
+    width = min(256, oiio.ImageInput.open(str(ANIM / "test.0005.exr")).spec().width)
+    assert shown == [[f"{layer} of the reference", width, True], [f"{layer} of the test", width, True]]
+    assert page.complaints() == []
+
+
 def test_help_filter_and_sort(page):
     page.keys("?")
     assert page.one("#help").is_displayed() and "wipe to the left" in page.text("#help")

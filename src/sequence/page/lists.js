@@ -70,6 +70,19 @@ function placeText({ rectangle, position }) {
   return position ? `at ${position.x},${position.y}` : "";
 }
 
+/** The layer in which a fault is, as it is in the files; of each layer once. */
+function layerFigures(index, i) {
+  const { faults } = frames[index];
+  const { layer } = faults[i];
+  const shown = (picturesOf(index, "layers") || []).find((one) => one.layer === layer);
+  if (!shown || faults.findIndex((fault) => fault.layer === layer) !== i) return null;
+  const figures = ["reference", "test"].filter((side) => shown[side]).map((side) => {
+    return make("figure", {}, picture(shown[side], `${layer} of the ${side}`),
+      make("figcaption", {}, shown.reference ? side : layer));
+  });
+  return make("div", { className: "layers" }, ...figures);
+}
+
 /** The faults and the largest errors of the frame, beside its picture. */
 function drawFound() {
   const frame = frames[viewer.index];
@@ -83,7 +96,8 @@ function drawFound() {
     make("span", {}, fault ? badge(fault.severity) : null, " ", make("strong", {}, fault ? fault.code : "largest error"),
       fault && fault.layer ? ` in ${fault.layer}` : "", ` ${placeText(mark)}`,
       decision ? make("em", {}, ` ${decision.what}${decision.why ? `: ${decision.why}` : ""}`) : null,
-      fault ? make("span", { className: "what" }, fault.sentence) : null)));
+      fault ? make("span", { className: "what" }, fault.sentence) : null)),
+    fault ? layerFigures(viewer.index, i) : null);
   });
   byId("found").replaceChildren(...rows);
   byId("found-title").hidden = rows.length === 0;

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "sequence/page/files.h"
+#include "sequence/report/layer_pictures.h"
 #include "sequence/report/look_sentence.h"
 #include "sequence/report/report_text.h"
 #include "sequence/report/scene_pixels.h"
@@ -166,6 +167,18 @@ void put_exact(Blocks& blocks, Kept& kept, const ShotResult& shot, const Picture
     }
 }
 
+// Of few frames: each has its files read once more.
+void put_layers(Blocks& blocks, const ShotResult& shot, const std::vector<FullFrame>& full) {
+    constexpr size_t most = 8;
+    size_t put = 0;
+    for (const FullFrame& one : full) {
+        if (put == most)
+            return;
+        const std::string text = layer_pictures_json(shot.frames[one.index]);
+        put += blocks.put(format("layers-{}", one.index), text) ? 1 : 0;
+    }
+}
+
 // What was asked for comes first.
 void put_pictures(Blocks& blocks, Kept& kept, const ShotResult& shot,
                   const PictureStore& pictures) {
@@ -176,6 +189,7 @@ void put_pictures(Blocks& blocks, Kept& kept, const ShotResult& shot,
     put_large(blocks, kept, shot, pictures, full);
     if (!asked)
         put_exact(blocks, kept, shot, pictures, full);
+    put_layers(blocks, shot, full);
     for (const FullFrame& one : full) {
         blocks.give_back(one.text.size());
         blocks.put(format("full-{}", one.index), one.text);
