@@ -48,16 +48,34 @@ void add_shared(Shared& shared, size_t point, const std::vector<size_t>& frames)
             shared[{lone[a], lone[b]}].push_back(point);
 }
 
+// The frames of each fingerprint that more than one has. `counts` has a 0 for each fingerprint.
+std::map<uint16_t, std::vector<size_t>> repeated(const uint16_t* codes, size_t count,
+                                                 std::vector<uint32_t>& counts) {
+    for (size_t i = 0; i < count; ++i)
+        ++counts[codes[i]];
+    std::map<uint16_t, std::vector<size_t>> frames_of;
+    for (size_t i = 0; i < count; ++i)
+        if (codes[i] > 0 && counts[codes[i]] > 1)
+            frames_of[codes[i]].push_back(i);
+    for (size_t i = 0; i < count; ++i)
+        counts[codes[i]] = 0;
+    return frames_of;
+}
+
+// Points beside each other are looked at together: the facts of each frame lie elsewhere.
 Shared shared_points(const Frames& frames) {
+    constexpr size_t together = kWide;
     Shared shared;
-    for (size_t point = 0; point < kWide * kHigh; ++point) {
-        std::map<int, std::vector<size_t>> frames_of;
-        for (size_t i = 0; i < frames.size(); ++i)
-            if (const int code = frames[i]->facts.picture.fingerprints[point]; code > 0)
-                frames_of[code].push_back(i);
-        for (const auto& [code, with] : frames_of)
-            if (with.size() > 1)
-                add_shared(shared, point, with);
+    const size_t count = frames.size();
+    std::vector<uint16_t> codes(together * count);
+    std::vector<uint32_t> counts(65536);
+    for (size_t first = 0; first < kWide * kHigh; first += together) {
+        for (size_t i = 0; i < count; ++i)
+            for (size_t k = 0; k < together; ++k)
+                codes[k * count + i] = frames[i]->facts.picture.fingerprints[first + k];
+        for (size_t k = 0; k < together; ++k)
+            for (const auto& [code, with] : repeated(&codes[k * count], count, counts))
+                add_shared(shared, first + k, with);
     }
     return shared;
 }
