@@ -72,8 +72,9 @@ Int whole_number(const Json& from, const std::string& key) {
             return static_cast<Int>(value);
     } else if (from.is_number_integer()) {
         const auto value = from.template get<long long>();
-        if (value >= static_cast<long long>(Limits::min()) && value < 0)
-            return static_cast<Int>(value);
+        const auto kept = static_cast<Int>(value);
+        if (Limits::is_signed && value < 0 && static_cast<long long>(kept) == value)
+            return kept;
     }
     throw std::runtime_error("\"" + key + "\" is " + shown_json(from) +
                              ", not a whole number from " + std::to_string(Limits::min()) + " to " +

@@ -3,7 +3,6 @@
 #include <OpenImageIO/strutil.h>
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 
 #include "sequence/qc/qc_shot.h"
 
@@ -18,9 +17,11 @@ bool same_place(const QcRectangle& a, const QcRectangle& b) {
     return a.x == b.x && a.y == b.y && a.width == b.width && a.height == b.height;
 }
 
-// By their bits: NaN is equal to NaN.
+// NaN is equal to NaN.
 bool same_value(const QcRectangle& a, const QcRectangle& b) {
-    return std::memcmp(a.color.data(), b.color.data(), sizeof a.color) == 0;
+    return std::equal(a.color.begin(), a.color.end(), b.color.begin(), [](float one, float other) {
+        return one == other || (std::isnan(one) && std::isnan(other));
+    });
 }
 
 bool has_place(const QcFrame& frame, const QcRectangle& rectangle) {
@@ -93,7 +94,9 @@ double lit_share(const QcFrame& frame, const QcRectangle& rectangle) {
     int count = 0;
     for (int row = y.first; row < y.last; ++row)
         for (int column = x.first; column < x.last; ++column)
-            count += frame.facts.picture.thumbnail[size_t(row * QcPicture::kWide + column)] > lit;
+            count +=
+                frame.facts.picture.thumbnail[size_t(row) * QcPicture::kWide + size_t(column)] >
+                lit;
     const int all = (x.last - x.first) * (y.last - y.first);
     return all > 0 ? double(count) / all : 0;
 }
