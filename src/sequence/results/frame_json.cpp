@@ -195,6 +195,8 @@ ordered_json json_of(const Measurement& measured) {
         to["evidence"] = measured.evidence;
     if (!measured.warnings.empty())
         to["warnings"] = measured.warnings;
+    if (!measured.attribution.empty())
+        to["attribution"] = parse_json<ordered_json>(measured.attribution);
     return to;
 }
 
@@ -221,6 +223,8 @@ Measurement measurement_of(const ordered_json& from) {
     measured.sentence = text(from, "sentence");
     measured.evidence = values<std::string>(from, "evidence");
     measured.warnings = values<std::string>(from, "warnings");
+    if (from.contains("attribution"))
+        measured.attribution = one_line(from["attribution"]);
     return measured;
 }
 
