@@ -186,6 +186,25 @@ struct Python<std::map<std::string, double>> {
     }
 };
 
+/// In the order of the pairs.
+template <>
+struct Python<std::vector<std::pair<std::string, double>>> {
+    using Pairs = std::vector<std::pair<std::string, double>>;
+    static std::string given() { return "dict[str, float]"; }
+    static Pairs from(py::handle v, const std::string& where) {
+        Pairs pairs;
+        for (const auto& [key, value] : to_pairs(v, where, "Mapping[str, float]"))
+            pairs.emplace_back(key, to_double(value, where + "[\"" + key + "\"]"));
+        return pairs;
+    }
+    static py::object to(const Pairs& v) {
+        py::dict dict;
+        for (const auto& [key, value] : v)
+            dict[to_str(key)] = Python<std::decay_t<decltype(value)>>::to(value);
+        return py::object(std::move(dict));
+    }
+};
+
 template <>
 struct Python<std::vector<std::pair<std::string, std::string>>> {
     using Pairs = std::vector<std::pair<std::string, std::string>>;

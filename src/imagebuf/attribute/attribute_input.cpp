@@ -41,6 +41,17 @@ std::vector<std::string> names_only_in(const CryptomatteType& one, const Cryptom
     return only;
 }
 
+// Names of types, those of objects first: what is told of a layer is told by objects.
+std::vector<std::string> objects_first(const std::map<std::string, CryptomatteType>& types) {
+    std::vector<std::string> names;
+    for (const auto& [name, type] : types)
+        names.push_back(name);
+    std::stable_partition(names.begin(), names.end(), [](const std::string& name) {
+        return OIIO::Strutil::lower(name).find("object") != std::string::npos;
+    });
+    return names;
+}
+
 } // namespace
 
 void AttributeInput::open(const Images& reference, const Images& test,
@@ -139,7 +150,8 @@ void AttributeInput::want_types(const Images (&parts)[2]) {
     for (auto& [name, type] : known[0])
         all[name].names.merge(type.names);
     m_types.reserve(all.size()); // they stay where they are
-    for (auto& [name, type] : all) {
+    for (const std::string& name : objects_first(all)) {
+        CryptomatteType& type = all[name];
         std::vector<int> channels[2];
         for (size_t side = 0; side < 2; ++side)
             channels[side] = cryptomatte_channels(m_readers[side].spec(), name);

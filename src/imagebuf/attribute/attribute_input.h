@@ -46,7 +46,8 @@ public:
     uint64_t bytes() const;
     const SidePixels& picture() const { return m_picture; }
     const std::vector<Group>& groups() const { return m_groups; } ///< by name
-    const std::vector<Type>& types() const { return m_types; }    ///< by name
+    /// By name, but that of the objects first.
+    const std::vector<Type>& types() const { return m_types; }
     const std::vector<Layer>& layers() const { return m_layers; }
     const std::vector<AttributedManifest>& manifest_only() const { return m_manifest_only; }
     const std::vector<std::string>& warnings() const { return m_warnings; }

@@ -3,7 +3,6 @@
 #include <OpenImageIO/strutil.h>
 
 #include "imagebuf/attribute/attribute_tables.h"
-#include "imagebuf/pixels/names.h"
 #include "kernels/curve.h"
 #include "metrics/errors.h"
 #include "metrics/layer_change.h"
@@ -27,14 +26,6 @@ std::string name_in(const AttributeInput::Type& type, uint32_t id) {
 
 LayerPixels pixels_of(const AttributeInput::Layer& layer) {
     return {{&layer.values[0], &layer.values[1]}, layer.channels};
-}
-
-// The objects, where the file tells which Cryptomatte has them; else the first there is.
-const AttributeInput::Type* object_type(const AttributeInput& input) {
-    for (const AttributeInput::Type& type : input.types())
-        if (lower(type.name).find("object") != std::string::npos)
-            return &type;
-    return input.types().empty() ? nullptr : &input.types().front();
 }
 
 std::vector<std::pair<std::string, double>> most_under(const AttributeInput::Type& type,
@@ -78,8 +69,8 @@ void compare_data(const AttributeInput& input, const AttributeInput::Layer& laye
     row.changed = std::count(change.changed.begin(), change.changed.end(), 1);
     if (double(row.changed) >= kChangedShare * double(input.pixels()))
         row.finding = "changed";
-    if (const AttributeInput::Type* type = object_type(input); type && row.changed > 0)
-        row.most_under = most_under(*type, change.changed);
+    if (!input.types().empty() && row.changed > 0)
+        row.most_under = most_under(input.types().front(), change.changed);
 }
 
 void compare_colours(const AttributeInput::Layer& layer, AttributedLayer& row) {
