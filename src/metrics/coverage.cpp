@@ -49,7 +49,9 @@ void add_share(std::vector<Coverage::Share>& shares, size_t first, uint32_t id, 
 class PairSums {
 public:
     PairSums(const Coverage& reference, const Coverage& test, const CoveredPixels& pixels)
-        : m_reference(reference), m_test(test), m_pixels(pixels) {}
+        : m_reference(reference),
+          m_test(test),
+          m_pixels(pixels) {}
 
     std::vector<CoveragePair> run() {
         for (size_t p = 0; p < m_reference.pixels(); ++p)

@@ -29,8 +29,8 @@ public:
         std::vector<Share> shares;
     };
 
-    /// Ranks are pairs of an id, by its bits, and its coverage, interleaved by pixel. Coverages that
-    /// are NaN, infinite or negative are 0; where they add up to more than 1 all are divided.
+    /// Ranks are pairs of an id, by its bits, and its coverage, interleaved by pixel. Coverages
+    /// that are NaN, infinite or negative are 0; where they add up to more than 1 all are divided.
     static Row decode(const std::vector<float>& ranks, size_t pairs);
     void add(const Row& row);
 
@@ -58,11 +58,11 @@ struct CoveredPixels {
 /// One id in both: a and b its coverages of a pixel, E the error.
 struct CoveragePair {
     uint32_t id = Coverage::kNone;
-    double a = 0, b = 0;          ///< sums
-    double error = 0;             ///< sum (a + b) / 2 E
-    double gained = 0, lost = 0;  ///< sums of b - a above and below 0
-    double x[2] = {}, y[2] = {};  ///< sums of columns and rows, weighted by a and by b
-    LightRatio light[3];          ///< of R, G, B, weighted by min(a, b)
+    double a = 0, b = 0;         ///< sums
+    double error = 0;            ///< sum (a + b) / 2 E
+    double gained = 0, lost = 0; ///< sums of b - a above and below 0
+    double x[2] = {}, y[2] = {}; ///< sums of columns and rows, weighted by a and by b
+    LightRatio light[3];         ///< of R, G, B, weighted by min(a, b)
     std::vector<std::pair<size_t, double>> changes; ///< pixels with |b - a| >= kChange, and that
 
     static constexpr double kChange = 0.5;

@@ -12,7 +12,9 @@ namespace {
 class Change {
 public:
     Change(PairKind kind, const LayerPixels& pixels, const Surfaces& surfaces)
-        : m_kind(kind), m_pixels(pixels), m_surfaces(surfaces) {}
+        : m_kind(kind),
+          m_pixels(pixels),
+          m_surfaces(surfaces) {}
 
     LayerChange run() {
         const size_t count = m_pixels.values[0]->size() / m_pixels.channels;

@@ -24,9 +24,7 @@ public:
     double test() const { return m_t; }
 
     /// NaN where the reference has no light.
-    double gain() const {
-        return m_r > 0 ? m_t / m_r : std::numeric_limits<double>::quiet_NaN();
-    }
+    double gain() const { return m_r > 0 ? m_t / m_r : std::numeric_limits<double>::quiet_NaN(); }
     double error() const {
         const double g = gain();
         return std::sqrt(std::max(0.0, m_tt - 2 * g * m_rt + g * g * m_rr)) / m_r;

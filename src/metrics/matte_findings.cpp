@@ -38,8 +38,8 @@ AttributedMatte row_of(const CoveragePair& pair, double all_error) {
     row.lost = pair.lost;
     row.cover = (pair.gained + pair.lost) / (pair.a + pair.b);
     if (pair.a > 0 && pair.b > 0)
-        row.shift = {{pair.x[1] / pair.b - pair.x[0] / pair.a,
-                      pair.y[1] / pair.b - pair.y[0] / pair.a}};
+        row.shift = {
+            {pair.x[1] / pair.b - pair.x[0] / pair.a, pair.y[1] / pair.b - pair.y[0] / pair.a}};
     for (size_t c = 0; c < 3; ++c) {
         row.gain[c] = pair.light[c].gain();
         row.gain_error[c] = pair.light[c].error();
@@ -53,7 +53,9 @@ std::string change_of(const Matte& matte) {
     if (matte.is_gone() || matte.is_new())
         return matte.is_gone() ? "missing" : "new";
     const auto [less, more] = std::minmax(row.gained, row.lost);
-    return less > kAlike * more ? "moved or reshaped" : row.gained > row.lost ? "larger" : "smaller";
+    return less > kAlike * more    ? "moved or reshaped"
+           : row.gained > row.lost ? "larger"
+                                   : "smaller";
 }
 
 // Who changed most of itself comes first; what lies under its changed pixels is explained by it.

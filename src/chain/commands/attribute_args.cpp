@@ -77,8 +77,7 @@ void attribute_error(Session& session, const Call& call,
         if (call.flag("print", true))
             session.report(label + ": " + printable(sentence) + where);
     if (session.check.result)
-        session.check.result->measurements.back().attribution =
-            sequence::attribution_json(found);
+        session.check.result->measurements.back().attribution = sequence::attribution_json(found);
 }
 
 } // namespace tonetool::chain

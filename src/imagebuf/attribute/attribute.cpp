@@ -119,8 +119,8 @@ namespace ToneAlgo {
 bool attribute(AttributeResult& result, const ImageParts& reference, const ImageParts& test,
                std::string& error, const AttributeOptions& options, const ImageBuf* map,
                int nthreads) {
-    return contained(
-        error, [&] { run_attribute(result, reference, test, options, map, nthreads); });
+    return contained(error,
+                     [&] { run_attribute(result, reference, test, options, map, nthreads); });
 }
 
 std::vector<std::string> attribute_findings(const AttributeResult& result) {

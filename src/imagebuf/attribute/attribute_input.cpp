@@ -82,8 +82,7 @@ void AttributeInput::find_region(const Images& reference, const Images& test,
     m_region = region.defined() ? plane_of(region) : compared;
 }
 
-AttributeInput::Wanted AttributeInput::wanted(size_t side,
-                                              const std::vector<int>& channels) const {
+AttributeInput::Wanted AttributeInput::wanted(size_t side, const std::vector<int>& channels) const {
     Wanted wanted;
     wanted.side = side;
     wanted.part = m_readers[side].place_of(channels.front()).part;
@@ -113,9 +112,8 @@ void AttributeInput::want_groups() {
         for (const LightGroup& group : reader.groups())
             names.insert(group.name);
     if (m_readers[0].groups().empty() != m_readers[1].groups().empty()) {
-        m_warnings.push_back(
-            format("{} has no light groups, so lights are not told",
-                   side_word(m_readers[0].groups().empty() ? 0 : 1)));
+        m_warnings.push_back(format("{} has no light groups, so lights are not told",
+                                    side_word(m_readers[0].groups().empty() ? 0 : 1)));
         return;
     }
     m_groups.reserve(names.size()); // they stay where they are
@@ -124,9 +122,8 @@ void AttributeInput::want_groups() {
         group.name = name;
         for (size_t side = 0; side < 2; ++side) {
             const std::vector<LightGroup>& known = m_readers[side].groups();
-            const auto found = std::find_if(known.begin(), known.end(), [&](const LightGroup& g) {
-                return g.name == name;
-            });
+            const auto found = std::find_if(known.begin(), known.end(),
+                                            [&](const LightGroup& g) { return g.name == name; });
             if (found == known.end())
                 continue;
             Wanted one = wanted(side, {found->channel, found->channel + 3});
@@ -282,9 +279,9 @@ void AttributeInput::read_rows(int begin, int end, int nthreads) {
         std::vector<metrics::Coverage::Row> rows(one.coverage ? size_t(end - begin) : 0);
         make_parallel(nthreads)(end - begin, [&](int64_t i) {
             const int y = begin + int(i);
-            const std::vector<float> row =
-                one.light ? reader.light(one.part, one.channels, m_region, y)
-                          : reader.values(one.part, one.channels, m_region, y);
+            const std::vector<float> row = one.light
+                                               ? reader.light(one.part, one.channels, m_region, y)
+                                               : reader.values(one.part, one.channels, m_region, y);
             if (one.coverage)
                 rows[size_t(i)] = metrics::Coverage::decode(row, one.channels.size() / 2);
             else

@@ -95,20 +95,20 @@ double light_of(const std::vector<float>& picture) {
     return sum;
 }
 
-// The picture of a side with the other side's light in some parts.
-void exchange(const AttributeInput& input, const Parts& parts, size_t side,
-              const std::vector<size_t>& which, std::vector<float>& rgb) {
+} // namespace
+
+void exchange_lights(const AttributeInput& input, size_t side, const std::vector<size_t>& groups,
+                     std::vector<float>& rgb) {
+    const Parts parts(input);
     const std::vector<float>& from = input.picture()[side];
     rgb.resize(from.size());
     for (size_t at = 0; at < from.size(); ++at) {
         double value = double(from[at]);
-        for (const size_t part : which)
+        for (const size_t part : groups)
             value += parts.light(part, 1 - side, at) - parts.light(part, side, at);
         rgb[at] = float(value);
     }
 }
-
-} // namespace
 
 std::vector<double> ErrorMeter::run(const std::vector<Maker>& tests, std::vector<ImageBuf>& maps) {
     const FlipPlan plan = plan_of(m_options);
@@ -169,8 +169,8 @@ LightTable attribute_lights(const AttributeInput& input, ErrorMeter& meter, doub
     std::vector<ErrorMeter::Maker> tests;
     for (const size_t side : {size_t(1), size_t(0)})
         for (size_t part = 0; part < parts.count() && (side == 1 || alone); ++part)
-            tests.emplace_back([&input, &parts, side, part](std::vector<float>& rgb) {
-                exchange(input, parts, side, {part}, rgb);
+            tests.emplace_back([&input, side, part](std::vector<float>& rgb) {
+                exchange_lights(input, side, {part}, rgb);
             });
     const std::vector<double> means = meter.means(tests);
     const double whole = light_of(input.picture()[0]);
@@ -193,7 +193,7 @@ LightTable attribute_lights(const AttributeInput& input, ErrorMeter& meter, doub
         if (!light.finding.empty())
             found.push_back(part);
     }
-    exchange(input, parts, 1, found, table.test);
+    exchange_lights(input, 1, found, table.test);
     std::sort(table.lights.begin(), table.lights.end(),
               [](const AttributedLight& a, const AttributedLight& b) {
                   return a.explains != b.explains ? a.explains > b.explains : a.name < b.name;

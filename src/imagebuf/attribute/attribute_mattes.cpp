@@ -20,8 +20,7 @@ constexpr double kChangedShare = 1e-3;
 
 std::string name_in(const AttributeInput::Type& type, uint32_t id) {
     const auto found = type.names.find(id);
-    return found != type.names.end() ? found->second
-                                     : OIIO::Strutil::fmt::format("<{:08x}>", id);
+    return found != type.names.end() ? found->second : OIIO::Strutil::fmt::format("<{:08x}>", id);
 }
 
 LayerPixels pixels_of(const AttributeInput::Layer& layer) {

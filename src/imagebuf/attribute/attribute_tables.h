@@ -16,7 +16,10 @@ public:
     /// `held`: bytes that are not to be had.
     ErrorMeter(const AttributeInput& input, const AttributeOptions& options, uint64_t held,
                int nthreads)
-        : m_input(input), m_options(options), m_held(held), m_nthreads(nthreads) {}
+        : m_input(input),
+          m_options(options),
+          m_held(held),
+          m_nthreads(nthreads) {}
 
     /// Makes a test: R, G, B of each pixel, linear Rec.709.
     using Maker = std::function<void(std::vector<float>& rgb)>;
@@ -34,6 +37,11 @@ private:
     uint64_t m_held;
     int m_nthreads;
 };
+
+/// The picture of a side with the other side's light in these groups, by index; behind the last of
+/// them is the rest.
+void exchange_lights(const AttributeInput& input, size_t side, const std::vector<size_t>& groups,
+                     std::vector<float>& rgb);
 
 /// Lights, and the test with the reference's light in every group that has a finding.
 struct LightTable {

@@ -203,8 +203,8 @@ std::vector<int> cryptomatte_channels(const OIIO::ImageSpec& spec, const std::st
         const auto place = places.find(name.substr(n + 3));
         if (place == places.end())
             continue;
-        auto& level = levels.try_emplace(name.substr(n, 2), std::array<int, 4>{-1, -1, -1, -1})
-                          .first->second;
+        auto& level =
+            levels.try_emplace(name.substr(n, 2), std::array<int, 4>{-1, -1, -1, -1}).first->second;
         level[size_t(place->second)] = c;
     }
     std::vector<int> channels;

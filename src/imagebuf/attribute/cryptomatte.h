@@ -13,7 +13,7 @@ namespace tonetool {
 
 /// One Cryptomatte of a header: `cryptomatte/KEY/...`, also as Nuke writes it, `exr/cryptomatte/`.
 struct CryptomatteType {
-    std::string name; ///< its channels are called so, and two digits
+    std::string name;                                ///< its channels are called so, and two digits
     std::unordered_map<uint32_t, std::string> names; ///< of ids; empty without a manifest
 };
 

@@ -84,8 +84,8 @@ std::vector<size_t> AgainstScan::listed(size_t side) const {
 }
 
 void AgainstScan::match_layers() {
-    m_same = same_layers(m_sides[0].reader.layers(), listed(0), m_sides[1].reader.layers(),
-                         listed(1));
+    m_same =
+        same_layers(m_sides[0].reader.layers(), listed(0), m_sides[1].reader.layers(), listed(1));
     for (const auto& [theirs, same] : m_same)
         add_pair(theirs, same);
 }

@@ -195,10 +195,9 @@ std::vector<std::array<size_t, 2>> same_layers(const std::vector<LayerReader::La
     std::vector<std::array<size_t, 2>> pairs;
     std::set<size_t> taken;
     const auto match = [&](size_t theirs, const auto& same) {
-        const auto found =
-            std::find_if(listed_second.begin(), listed_second.end(), [&](size_t i) {
-                return taken.count(i) == 0 && same(first[theirs], second[i]);
-            });
+        const auto found = std::find_if(listed_second.begin(), listed_second.end(), [&](size_t i) {
+            return taken.count(i) == 0 && same(first[theirs], second[i]);
+        });
         if (found == listed_second.end())
             return false;
         taken.insert(*found);

@@ -60,8 +60,8 @@ public:
     std::vector<float> values(size_t part, const std::vector<int>& channels,
                               const OIIO::ROI& window, int y) const;
     /// The same of colours: decoded, three of them in linear Rec.709.
-    std::vector<float> light(size_t part, const std::vector<int>& channels,
-                             const OIIO::ROI& window, int y) const;
+    std::vector<float> light(size_t part, const std::vector<int>& channels, const OIIO::ROI& window,
+                             int y) const;
 
 private:
     struct Part {

@@ -32,13 +32,13 @@ struct AttributedLight {
 /// An object or a material of a Cryptomatte. With a and b its coverage of a pixel in the reference
 /// and the test, w = (a + b) / 2 and E the error:
 struct AttributedMatte {
-    std::string name;                               ///< of the manifest, "<0f3c9a21>" or kMatteNone
-    double pixels_reference = 0, pixels_test = 0;   ///< sums of a and b
-    double mass = 0;                                ///< sum w E / sum E: all of a type add up to 1
-    double mean = 0;                                ///< sum w E / sum w
-    double cover = 0;                               ///< sum |b - a| / sum (a + b)
-    double gained = 0, lost = 0;                    ///< sums of b - a above and below 0
-    std::optional<std::array<double, 2>> shift;     ///< of its centroid, in pixels
+    std::string name;                             ///< of the manifest, "<0f3c9a21>" or kMatteNone
+    double pixels_reference = 0, pixels_test = 0; ///< sums of a and b
+    double mass = 0;                              ///< sum w E / sum E: all of a type add up to 1
+    double mean = 0;                              ///< sum w E / sum w
+    double cover = 0;                             ///< sum |b - a| / sum (a + b)
+    double gained = 0, lost = 0;                  ///< sums of b - a above and below 0
+    std::optional<std::array<double, 2>> shift;   ///< of its centroid, in pixels
     /// Red, green and blue of the test as factors of those of the reference, where both cover, and
     /// their standard errors. Light groups with a finding count as the reference has them. NaN
     /// where the reference is black.
@@ -58,10 +58,10 @@ struct AttributedType {
 /// Another layer that both have.
 struct AttributedLayer {
     std::string name;
-    std::string kind;   ///< "depth", "position", "normal", "id", "albedo", "color"
-    std::string unit;   ///< of `mean` and `max`
-    double mean = 0;    ///< of the differences, where both have a surface
-    double max = 0;     ///< the largest
+    std::string kind;               ///< "depth", "position", "normal", "id", "albedo", "color"
+    std::string unit;               ///< of `mean` and `max`
+    double mean = 0;                ///< of the differences, where both have a surface
+    double max = 0;                 ///< the largest
     int64_t changed = 0;            ///< pixels beyond the limit of the kind; of colours none
     int64_t background_changed = 0; ///< of them those with a surface in only one image
     std::optional<double> gain, gain_error; ///< of colours, as of a light

@@ -94,8 +94,8 @@ struct Scene {
                 std::vector<float> ranks;
                 for (size_t x = 0; x < kWidth; ++x)
                     for (int i = 0; i < 2; ++i)
-                        ranks.insert(ranks.end(),
-                                     {as_float(1000 + random() % 5), 0.7f * share(random)});
+                        ranks.insert(ranks.end(), {as_float(uint32_t(1000 + random() % 5)),
+                                                   0.7f * share(random)});
                 coverage->add(Coverage::decode(ranks, 2));
             }
         for (float& e : error)
@@ -139,8 +139,7 @@ TEST(CoveragePairs, LightThatIsNotFiniteIsInNoGain) {
     Scene scene(3);
     scene.light[0] = kNan;
     scene.light[40] = kInf;
-    for (const CoveragePair& pair :
-         compare_coverage(scene.reference, scene.test, scene.pixels())) {
+    for (const CoveragePair& pair : compare_coverage(scene.reference, scene.test, scene.pixels())) {
         EXPECT_THAT(pair.light[0].gain(), DoubleNear(1, 1e-12));
         EXPECT_THAT(pair.light[2].error(), DoubleNear(0, 1e-6));
     }

@@ -19,8 +19,7 @@ struct Painting {
 
     Painting() : pixels(kWidth * kHeight, {{kFloor, 1.0}}), light(3 * kWidth * kHeight, 0.5f) {}
 
-    Painting& box(uint32_t id, size_t x, size_t y, size_t width, size_t height,
-                  double share = 1) {
+    Painting& box(uint32_t id, size_t x, size_t y, size_t width, size_t height, double share = 1) {
         for (size_t v = y; v < y + height; ++v)
             for (size_t u = x; u < x + width; ++u) {
                 auto& pixel = pixels[v * kWidth + u];
