@@ -3,6 +3,7 @@
 
 #include <OpenImageIO/strutil.h>
 #include <algorithm>
+#include <cmath>
 #include <set>
 
 #include "imagebuf/compare/pair.h"
@@ -271,6 +272,10 @@ void AttributeInput::read(int nthreads) {
         read_rows(begin, end, nthreads);
         begin = end;
     }
+    for (Group& group : m_groups) // what is not finite is in the rest
+        for (std::vector<float>& light : group.light)
+            for (float& value : light)
+                value = std::isfinite(value) ? value : 0;
 }
 
 void AttributeInput::read_rows(int begin, int end, int nthreads) {

@@ -45,47 +45,41 @@ ImageBuf image_around(const OIIO::ROI& region, const float* rgb) {
     return ImageBuf(spec, const_cast<float*>(rgb)); // only read
 }
 
-// The parts of a picture: the groups, and the rest so that they add up to it.
-class Parts {
-public:
-    explicit Parts(const AttributeInput& input) : m_input(input) {}
+// Light groups, and behind the last of them the rest, so that they add up to the picture.
+size_t part_count(const AttributeInput& input) {
+    return input.groups().empty() ? 0 : input.groups().size() + 1;
+}
 
-    size_t count() const { return m_input.groups().empty() ? 0 : m_input.groups().size() + 1; }
-    std::string name(size_t part) const {
-        return is_rest(part) ? kLightRest : m_input.groups()[part].name;
-    }
-    bool is_rest(size_t part) const { return part == m_input.groups().size(); }
+// Adds to values [begin, end) of a picture a group of a side, times a factor.
+void add_light(const std::vector<float>& light, double factor, size_t begin, size_t end,
+               double* to) {
+    for (size_t at = begin; at < end && !light.empty(); ++at)
+        to[at - begin] += factor * double(light[at]);
+}
 
-    // Of a side, at a value of a channel of a pixel. What is not finite is in no group.
-    double light(size_t part, size_t side, size_t at) const {
-        if (!is_rest(part)) {
-            const std::vector<float>& values = m_input.groups()[part].light[side];
-            return values.empty() || !std::isfinite(values[at]) ? 0 : double(values[at]);
-        }
-        double rest = double(m_input.picture()[side][at]);
-        double groups = 0;
-        for (size_t g = 0; g < m_input.groups().size(); ++g)
-            groups += light(g, side, at);
-        return rest - groups;
-    }
+// The same of any part.
+void add_part(const AttributeInput& input, size_t part, size_t side, double factor, size_t begin,
+              size_t end, double* to) {
+    if (part < input.groups().size())
+        return add_light(input.groups()[part].light[side], factor, begin, end, to);
+    add_light(input.picture()[side], factor, begin, end, to);
+    for (const AttributeInput::Group& group : input.groups())
+        add_light(group.light[side], -factor, begin, end, to);
+}
 
-    metrics::LightRatio ratio(size_t part) const {
-        metrics::LightRatio ratio;
-        for (size_t p = 0; p < m_input.pixels(); ++p)
-            ratio.add(luminance(part, 0, p), luminance(part, 1, p));
-        return ratio;
-    }
-
-private:
-    double luminance(size_t part, size_t side, size_t pixel) const {
+metrics::LightRatio ratio_of(const AttributeInput::Group& group, size_t pixels) {
+    const auto luminance = [&](size_t side, size_t pixel) {
+        const std::vector<float>& light = group.light[side];
         double y = 0;
-        for (size_t c = 0; c < 3; ++c)
-            y += double(kernels::kLuminance[c]) * light(part, side, 3 * pixel + c);
+        for (size_t c = 0; c < 3 && !light.empty(); ++c)
+            y += kernels::kLuminance[c] * double(light[3 * pixel + c]);
         return y;
-    }
-
-    const AttributeInput& m_input;
-};
+    };
+    metrics::LightRatio ratio;
+    for (size_t p = 0; p < pixels; ++p)
+        ratio.add(luminance(0, p), luminance(1, p));
+    return ratio;
+}
 
 double light_of(const std::vector<float>& picture) {
     double sum = 0;
@@ -99,14 +93,19 @@ double light_of(const std::vector<float>& picture) {
 
 void exchange_lights(const AttributeInput& input, size_t side, const std::vector<size_t>& groups,
                      std::vector<float>& rgb) {
-    const Parts parts(input);
     const std::vector<float>& from = input.picture()[side];
     rgb.resize(from.size());
-    for (size_t at = 0; at < from.size(); ++at) {
-        double value = double(from[at]);
-        for (const size_t part : groups)
-            value += parts.light(part, 1 - side, at) - parts.light(part, side, at);
-        rgb[at] = float(value);
+    constexpr size_t step = 3 * 1024;
+    std::array<double, step> values{};
+    for (size_t begin = 0; begin < from.size(); begin += step) {
+        const size_t end = std::min(begin + step, from.size());
+        std::copy(from.begin() + ptrdiff_t(begin), from.begin() + ptrdiff_t(end), values.begin());
+        for (const size_t part : groups) {
+            add_part(input, part, 1 - side, 1, begin, end, values.data());
+            add_part(input, part, side, -1, begin, end, values.data());
+        }
+        for (size_t at = begin; at < end; ++at)
+            rgb[at] = float(values[at - begin]);
     }
 }
 
@@ -165,26 +164,26 @@ LightTable attribute_lights(const AttributeInput& input, ErrorMeter& meter, doub
                             bool alone) {
     LightTable table;
     table.test = input.picture()[1];
-    const Parts parts(input);
+    const size_t parts = part_count(input), groups = input.groups().size();
     std::vector<ErrorMeter::Maker> tests;
     for (const size_t side : {size_t(1), size_t(0)})
-        for (size_t part = 0; part < parts.count() && (side == 1 || alone); ++part)
+        for (size_t part = 0; part < parts && (side == 1 || alone); ++part)
             tests.emplace_back([&input, side, part](std::vector<float>& rgb) {
                 exchange_lights(input, side, {part}, rgb);
             });
     const std::vector<double> means = meter.means(tests);
     const double whole = light_of(input.picture()[0]);
     std::vector<size_t> found;
-    for (size_t part = 0; part < parts.count(); ++part) {
+    for (size_t part = 0; part < parts; ++part) {
         AttributedLight& light = table.lights.emplace_back();
-        light.name = parts.name(part);
+        light.name = part < groups ? input.groups()[part].name : kLightRest;
         light.mean_replaced = means[part];
         light.explains = mean > 0 ? (mean - light.mean_replaced) / mean : 0;
         if (alone)
-            light.mean_alone = means[parts.count() + part];
-        if (parts.is_rest(part))
+            light.mean_alone = means[parts + part];
+        if (part == groups)
             continue;
-        const metrics::LightRatio ratio = parts.ratio(part);
+        const metrics::LightRatio ratio = ratio_of(input.groups()[part], input.pixels());
         if (ratio.reference() > 0) {
             light.gain = ratio.gain();
             light.gain_error = ratio.error();
