@@ -62,7 +62,7 @@ void run_attribute(AttributeResult& result, const ImageParts& reference, const I
     ErrorMeter meter(input, options, input.bytes(), nthreads);
     const std::vector<float> error = map ? pixels_of_map(*map) : meter.map();
     result.mean = mean_of(error);
-    LightTable lights = attribute_lights(input, meter, result.mean, options.alone);
+    ExchangedLights lights = attribute_lights(input, meter, result.mean, options.alone);
     result.lights = std::move(lights.lights);
     result.mattes = attribute_mattes(input, error, lights.test);
     result.layers = attribute_layers(input);

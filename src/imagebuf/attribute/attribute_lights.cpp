@@ -160,9 +160,9 @@ std::vector<float> ErrorMeter::map() {
     return error;
 }
 
-LightTable attribute_lights(const AttributeInput& input, ErrorMeter& meter, double mean,
-                            bool alone) {
-    LightTable table;
+ExchangedLights attribute_lights(const AttributeInput& input, ErrorMeter& meter, double mean,
+                                 bool alone) {
+    ExchangedLights table;
     table.test = input.picture()[1];
     const size_t parts = part_count(input), groups = input.groups().size();
     std::vector<ErrorMeter::Maker> tests;

@@ -44,12 +44,12 @@ void exchange_lights(const AttributeInput& input, size_t side, const std::vector
                      std::vector<float>& rgb);
 
 /// Lights, and the test with the reference's light in every group that has a finding.
-struct LightTable {
+struct ExchangedLights {
     std::vector<AttributedLight> lights;
     std::vector<float> test;
 };
-LightTable attribute_lights(const AttributeInput& input, ErrorMeter& meter, double mean,
-                            bool alone);
+ExchangedLights attribute_lights(const AttributeInput& input, ErrorMeter& meter, double mean,
+                                 bool alone);
 
 /// `error` and `test`: of each pixel, and its R, G, B.
 std::vector<AttributedType> attribute_mattes(const AttributeInput& input,
