@@ -8,6 +8,7 @@ import os
 import re
 from pathlib import Path
 
+import OpenImageIO as oiio
 import pytest
 from conftest import TESTIMAGES, call
 from crypto_pair import Render, id_of
@@ -267,6 +268,33 @@ def test_golden(tonetool, tmp_path, name):
 def test_honest_frames_have_no_finding(tonetool, tmp_path, frame):
     ran, measured = shared_pair(tonetool, tmp_path, f"anim/ref.{frame:04}.exr", f"anim/test.{frame:04}.exr")
     assert measured["attribution"]["findings"] == [] and findings(ran) == []
+
+
+def test_one_dimmed_lamp_colours_no_object(tonetool, tmp_path):
+    source = SHARED / "scenes" / "crypto" / "gallery_same.exr"
+    if not os.environ.get("SHARED_DIR") or not source.exists():
+        pytest.skip("no scenes/crypto/gallery_same.exr below SHARED_DIR")
+    image = oiio.ImageInput.open(str(source))
+    spec, pixels = image.spec(), image.read_image("float")
+    for c in "RGB":
+        beauty, warm = (spec.channelindex(f"ViewLayer.Combined{group}.{c}") for group in ("", "_warm"))
+        pixels[..., beauty] -= 0.3 * pixels[..., warm]
+        pixels[..., warm] *= 0.7
+    out = oiio.ImageOutput.create(str(tmp_path / "warm.exr"))
+    assert out.open(str(tmp_path / "warm.exr"), spec) and out.write_image(pixels)
+    out.close()
+    ran = tonetool(source.with_name("gallery_ref.exr"), "warm.exr", "--hdrflip:attribute=1")
+    assert findings(ran) == ["light warm: weaker"], ran.out
+
+
+@pytest.mark.parametrize("value", ["3", "[]", '"text"'])
+def test_results_with_an_attribution_that_is_none_are_refused(pair, tonetool, tmp_path, value):
+    pair(changed(lights={"fill": 0.25}))
+    found = json.loads((tmp_path / "c.json").read_text())
+    found["frames"][0]["measurements"][0]["attribution"] = json.loads(value)
+    (tmp_path / "c.json").write_text(json.dumps(found))
+    ran = tonetool("--merge", "c.json", "--json", "d.json", status=1)
+    assert '"attribution" is ' in ran.err and "not an object" in ran.err
 
 
 def test_the_sentences_of_the_guide(tonetool, tmp_path):

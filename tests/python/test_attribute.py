@@ -38,6 +38,7 @@ def test_arrays_have_no_layers():
     found = tonetool.attribute(a, b)
     assert found.mean == pytest.approx(tonetool.hdr_flip(a, b).summary.pool.mean, abs=1e-6)
     assert found.lights == [] and found.mattes == [] and found.layers == []
+    assert len(found.warnings) == 1 and found.warnings[0].endswith("so nothing can be told")
 
 
 def test_what_is_refused():

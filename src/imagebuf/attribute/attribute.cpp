@@ -68,6 +68,10 @@ void run_attribute(AttributeResult& result, const ImageParts& reference, const I
     result.layers = attribute_layers(input);
     result.manifest_only = input.manifest_only();
     result.warnings = input.warnings();
+    if (result.lights.empty() && result.mattes.empty() && result.layers.empty())
+        result.warnings.emplace_back(
+            "the images have no light groups, Cryptomattes or other layers "
+            "in common, so nothing can be told");
 }
 
 std::string percent(double share) {

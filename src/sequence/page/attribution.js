@@ -41,7 +41,7 @@ function manifestBox(manifests) {
   const items = [];
   for (const [type, sides] of Object.entries(manifests || {})) {
     for (const [side, names] of Object.entries(sides))
-      items.push(make("li", {}, `${type}: only the ${side} has ${names.join(", ")}`));
+      items.push(make("li", {}, `${type}: only the ${side} has ${[].concat(names).join(", ")}`));
   }
   return items.length ? [make("div", { className: "wide" }, make("h3", {}, "Names of one manifest alone"),
     make("ul", {}, ...items))] : [];
@@ -50,12 +50,14 @@ function manifestBox(manifests) {
 /** Findings as sentences, then lights, objects of each Cryptomatte, layers. */
 function attributionBoxes(attribution) {
   if (!attribution) return [];
-  const { findings = [], lights = [], mattes = {}, layers = [] } = attribution;
+  const rowsOf = (list) => (Array.isArray(list) ? list.filter((row) => row instanceof Object) : []);
+  const findings = Array.isArray(attribution.findings) ? attribution.findings.map(String) : [];
+  const [lights, layers] = [rowsOf(attribution.lights), rowsOf(attribution.layers)];
   const boxes = [make("div", { className: "wide" }, make("h3", {}, "Whose error it is"),
     findings.length ? make("ul", {}, ...findings.map((text) => make("li", {}, text)))
       : make("p", {}, "No light, object or layer has changed: what differs is noise, or in none of them."))];
   if (lights.length) boxes.push(listing("Lights", LIGHTS, lights));
-  for (const [type, rows] of Object.entries(mattes)) boxes.push(listing(type, MATTES, rows));
+  for (const [type, rows] of Object.entries(attribution.mattes || {})) boxes.push(listing(type, MATTES, rowsOf(rows)));
   if (layers.length) boxes.push(listing("Layers", LAYERS, layers));
   return boxes.concat(manifestBox(attribution.manifest_only));
 }

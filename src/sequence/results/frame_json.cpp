@@ -223,8 +223,12 @@ Measurement measurement_of(const ordered_json& from) {
     measured.sentence = text(from, "sentence");
     measured.evidence = values<std::string>(from, "evidence");
     measured.warnings = values<std::string>(from, "warnings");
-    if (from.contains("attribution"))
+    if (from.contains("attribution")) {
+        if (!from["attribution"].is_object())
+            throw std::runtime_error("\"attribution\" is " + shown_json(from["attribution"]) +
+                                     ", not an object");
         measured.attribution = one_line(from["attribution"]);
+    }
     return measured;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tonetool/attribute.h"
 
+#include <OpenImageIO/imagebufalgo.h>
 #include <gmock/gmock.h>
 #include <sys/stat.h>
 
@@ -354,6 +355,72 @@ TEST(Attribute, WhatOneSideLacks) {
     EXPECT_THAT(least.lights, IsEmpty());
     EXPECT_THAT(least.mattes, IsEmpty());
     EXPECT_THAT(least.layers, IsEmpty());
+    EXPECT_THAT(least.warnings, ElementsAre(HasSubstr("so nothing can be told")));
+}
+
+// Rows of tables as texts, to compare all of them.
+std::vector<std::string> texts(const AttributeResult& result) {
+    std::vector<std::string> texts;
+    using OIIO::Strutil::fmt::format;
+    for (const AttributedLight& l : result.lights)
+        texts.push_back(format("{} {} {} {}", l.name, l.finding, l.mean_replaced, *l.mean_alone));
+    for (const AttributedMatte& m : result.mattes.at(0).mattes)
+        texts.push_back(format("{} {} {} {} {}", m.name, m.finding, m.mass, m.gain[1], m.changed));
+    for (const AttributedLayer& l : result.layers)
+        texts.push_back(format("{} {} {} {} {}", l.name, l.finding, l.mean, l.max, l.changed));
+    return texts;
+}
+
+// Each with what it needs, as renderers write them: names of parts in the names of channels.
+TEST(Attribute, LayersInPartsOfTheirOwn) {
+    Render moved;
+    moved.ball_x = 14;
+    moved.lights["key"] = 0.5f;
+    const ImageBuf a = Render().image(), b = moved.image();
+    std::vector<ImageBuf> parts[2];
+    for (const ImageBuf* whole : {&a, &b})
+        for (const auto& [begin, end] : {std::pair(0, 3), {3, 9}, {9, 13}, {13, 17}}) {
+            std::vector<int> channels;
+            for (int c = begin; c < end; ++c)
+                channels.push_back(c);
+            parts[whole == &b].push_back(
+                OIIO::ImageBufAlgo::channels(*whole, int(channels.size()), channels));
+        }
+    std::vector<const ImageBuf*> sides[2];
+    for (size_t side = 0; side < 2; ++side)
+        for (const ImageBuf& part : parts[side])
+            sides[side].push_back(&part);
+    AttributeResult result;
+    std::string error;
+    ASSERT_TRUE(ToneAlgo::attribute(result, sides[0], sides[1], error)) << error;
+    EXPECT_EQ(texts(result), texts(attributed(a, b)));
+    EXPECT_EQ(result.lights.front().finding, "weaker");
+}
+
+TEST(Attribute, WhereThePixelsLieIsNoMatter) {
+    Render moved;
+    moved.ball_x = 14;
+    ImageBuf a = Render().image(), b = moved.image();
+    const std::vector<std::string> there = texts(attributed(a, b));
+    for (ImageBuf* image : {&a, &b}) {
+        image->set_origin(-5, 7);
+        image->set_full(-5, -5 + Render::kWidth, 7, 7 + Render::kHeight, 0, 1);
+    }
+    EXPECT_EQ(texts(attributed(a, b)), there);
+}
+
+TEST(Attribute, OtherDisplayWindowsAreRefusedOrCropped) {
+    const ImageBuf a = Render().image();
+    ImageBuf b = Render().image();
+    b.set_full(0, 30, 0, Render::kHeight, 0, 1);
+    EXPECT_THAT(refused(a, b), HasSubstr("display window"));
+    AttributeOptions options;
+    options.size = SizePolicy::Crop;
+    const AttributeResult result = attributed(a, b, options);
+    double pixels = 0;
+    for (const AttributedMatte& matte : result.mattes[0].mattes)
+        pixels += matte.pixels_reference;
+    EXPECT_EQ(pixels, 30 * Render::kHeight);
 }
 
 TEST(Attribute, WhatIsRefused) {
