@@ -84,7 +84,8 @@ private:
         pair.b += b;
         pair.error += (a + b) / 2 * double(m_pixels.error[p]);
         (change > 0 ? pair.gained : pair.lost) += std::abs(change);
-        const auto x = double(p % m_pixels.width), y = double(p / m_pixels.width);
+        const size_t row = p / m_pixels.width;
+        const auto x = double(p - row * m_pixels.width), y = double(row);
         pair.x[0] += a * x;
         pair.x[1] += b * x;
         pair.y[0] += a * y;

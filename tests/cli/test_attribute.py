@@ -169,6 +169,35 @@ def test_several_tests_have_each_their_own(tonetool, tmp_path):
     assert [text.split(" (")[0] for text in b["attribution"]["findings"]] == ["object ball: other colour"]
 
 
+def test_layers_in_parts_of_their_own_and_two_views(tonetool, tmp_path):
+    """What is compared chooses the view; its other layers lie in other parts."""
+    for name, lights in (("ref", {"key": 1, "fill": 0.25}), ("test", {"fill": 0.25})):
+        images = []
+        for view in ("left", "right"):
+            render = changed(lights=lights if view == "right" else {"key": 1, "fill": 0.25})
+            file = tmp_path / f"{name}.{view}.exr"
+            render.write(file)
+            one = oiio.ImageBuf(str(file))
+            names = one.spec().channelnames
+            for part in ("Combined", "Depth"):
+                keep = tuple(c for c in names if c.startswith("View.Combined") == (part == "Combined"))
+                images.append(oiio.ImageBufAlgo.channels(one, keep))
+                images[-1].specmod().attribute("oiio:subimagename", f"{part} {view}")
+                images[-1].specmod().attribute("view", view)
+        out = oiio.ImageOutput.create("parts.exr")
+        assert out.open(str(tmp_path / f"{name}.exr"), tuple(image.spec() for image in images))
+        for i, image in enumerate(images):
+            assert i == 0 or out.open(str(tmp_path / f"{name}.exr"), image.spec(), "AppendSubimage")
+            assert image.write(out)
+        out.close()
+    for view, wanted in (("left", []), ("right", ["light key: off"])):
+        ran = tonetool("ref.exr", "test.exr", f"--hdrflip:attribute=1:layer=Combined {view}", "--json", "c.json")
+        assert findings(ran) == wanted, ran.out
+        found = json.loads((tmp_path / "c.json").read_text())["frames"][0]["measurements"][0]["attribution"]
+        assert [row["name"] for row in found["layers"]] == ["View.Depth"]
+        assert len(found["mattes"]["View.CryptoObject"]) == 3 and found["lights"]
+
+
 # ---- what files may hold
 
 HOSTILE = ["a b", "quote\"d", "per%cent", "new\nline", "<script>alert(1)</script>", "x" * 250, "../../etc/passwd"]

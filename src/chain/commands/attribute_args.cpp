@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "chain/commands/attribute_args.h"
 
+#include "chain/commands/color_input.h"
 #include "chain/commands/flip_report.h"
 #include "sequence/results/attribution.h"
 #include "text/error.h"
@@ -10,14 +11,28 @@ namespace tonetool::chain {
 
 namespace {
 
-// All parts of a file, so that layers are found wherever they are.
+std::string view_of(const OIIO::ImageSpec& header) {
+    return std::string(header.get_string_attribute("view"));
+}
+
+// The part of a file that was compared, and behind it all others of its view, so that layers are
+// found wherever they are.
 struct AllParts {
-    explicit AllParts(const Image& image) {
-        for (const PartPtr& part : image.parts())
-            images.push_back(part->color_source());
+    AllParts(const Image& image, const PixelOptions& pixels) {
+        const std::vector<OIIO::ImageSpec> headers = headers_of(image);
+        PartChoice choice;
+        std::string ignored; // the command itself has found it
+        (void)ToneAlgo::find_part(headers, pixels, choice, ignored);
+        const auto chosen = size_t(choice.part);
+        (void)ToneAlgo::find_color(headers.at(chosen), pixels, color, ignored);
+        images.push_back(image.part(chosen).color_source());
+        for (size_t i = 0; i < headers.size(); ++i)
+            if (i != chosen && view_of(headers[i]) == view_of(headers[chosen]))
+                images.push_back(image.part(i).color_source());
         for (const OIIO::ImageBuf& part : images)
             pointers.push_back(&part);
     }
+    ColorChoice color;
     std::vector<OIIO::ImageBuf> images;
     std::vector<const OIIO::ImageBuf*> pointers;
 };
@@ -62,10 +77,13 @@ void attribute_error(Session& session, const Call& call,
     if (!options)
         return;
     const Image &reference = *call.images.front(), &image = *call.images.at(test + 1);
-    const AllParts references(reference), tests(image);
+    const AllParts references(reference, options->pixels), tests(image, options->pixels);
+    AttributeOptions named = *options;
+    if (!named.pixels.layer.empty()) // which may be the name of a part or a view
+        named.pixels.layer = references.color.layer;
     AttributeResult found;
     std::string why;
-    if (!ToneAlgo::attribute(found, references.pointers, tests.pointers, why, *options, &map))
+    if (!ToneAlgo::attribute(found, references.pointers, tests.pointers, why, named, &map))
         throw CommandError("attribute: \"" + reference.name() + "\", \"" + image.name() +
                            "\": " + why);
     const std::string label = call.row().label();
