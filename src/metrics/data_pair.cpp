@@ -80,15 +80,6 @@ bool is_normal(const float* v) {
     return square > 0.25 && std::isfinite(square);
 }
 
-double angle_of(const float* a, const float* b) {
-    constexpr double degrees = 57.29577951308232;
-    const double x = double(a[1]) * b[2] - double(a[2]) * b[1];
-    const double y = double(a[2]) * b[0] - double(a[0]) * b[2];
-    const double z = double(a[0]) * b[1] - double(a[1]) * b[0];
-    const double dot = double(a[0]) * b[0] + double(a[1]) * b[1] + double(a[2]) * b[2];
-    return degrees * std::atan2(std::sqrt(x * x + y * y + z * z), dot);
-}
-
 double motion_difference(const PixelPair& pixel) {
     double most = 0;
     for (size_t c = 0; c < pixel.channels; c += 2) {
@@ -140,7 +131,7 @@ double difference_of(PairKind kind, const PixelPair& pixel, const float* depth, 
         const bool a = is_normal(pixel.a), b = is_normal(pixel.b);
         row.both += a && b;
         row.one += a != b;
-        const double angle = a && b ? angle_of(pixel.a, pixel.b) : 0;
+        const double angle = a && b ? angle_between(pixel.a, pixel.b) : 0;
         if (a && b)
             row.codes.push_back(StepHistogram::code(float(angle)));
         return angle;
@@ -181,6 +172,15 @@ double limit_of(PairKind kind) {
 }
 
 } // namespace
+
+double angle_between(const float* a, const float* b) {
+    constexpr double degrees = 57.29577951308232;
+    const double x = double(a[1]) * b[2] - double(a[2]) * b[1];
+    const double y = double(a[2]) * b[0] - double(a[0]) * b[2];
+    const double z = double(a[0]) * b[1] - double(a[1]) * b[0];
+    const double dot = double(a[0]) * b[0] + double(a[1]) * b[1] + double(a[2]) * b[2];
+    return degrees * std::atan2(std::sqrt(x * x + y * y + z * z), dot);
+}
 
 void DataPair::add(const DataPair& row) {
     pixels += row.pixels;

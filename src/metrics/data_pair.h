@@ -39,6 +39,9 @@ struct DataPair {
     double share(int64_t count) const { return pixels > 0 ? double(count) / double(pixels) : 0; }
 };
 
+/// Of two vectors, in degrees.
+double angle_between(const float* a, const float* b);
+
 /// One row. `depth`: of a position the depth of the approved pixels, or null.
 DataPair scan_pair(PairKind kind, const std::vector<float>& a, const std::vector<float>& b,
                    size_t channels, const float* depth, int64_t y);

@@ -23,6 +23,7 @@ void add_display(Module& module);
 void add_lut(Module& module);
 void add_qc(Module& module);
 void add_against(Module& module);
+void add_attribute(Module& module);
 void add_write(Module& module);
 void add_chain(Module& module);
 

@@ -41,6 +41,7 @@ void add_everything(Module& module) {
     add_lut(module);
     add_qc(module);
     add_against(module);
+    add_attribute(module);
     add_write(module);
     add_chain(module);
 }

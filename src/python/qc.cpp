@@ -73,7 +73,7 @@ void add_guides(Module& module) {
         .field("cells", &G::cells,
                "Means of each channel of each cell x, as sign(x) log2(1 + 1000 |x|) in 1/1000.")
         .finish();
-    using O = QcObjects::Object;
+    using O = QcObject;
     ResultClass<O>(module, "QcObject", "An object of a layer of IDs.")
         .field("id", &O::id, "The bits of its ID.")
         .field("pixels", &O::pixels, "How many pixels show it.")
@@ -122,6 +122,7 @@ void add_picture(Module& module) {
         .field("hash", &P::hash, "Of the values of its pixels.")
         .field("alpha_low", &P::alpha_low, "Alpha below 0, or NaN.")
         .field("alpha_high", &P::alpha_high, "Alpha above 1.")
+        .field("objects", &P::objects, "Of the first layer of IDs.")
         .field("spike_count", &P::spike_count, "Pixels 8 times as large as all 3 pixels away.")
         .field("spikes", &P::spikes, "The largest of them, at most 64.")
         .field("rectangles", &P::rectangles,
@@ -156,7 +157,6 @@ void add_picture(Module& module) {
         .field("channels", &F::channels, "Data type by name, as in the file.")
         .field("layers", &F::layers, "One each.")
         .field("guides", &F::guides, "Layers without noise, which tell what moves: at most two.")
-        .field("objects", &F::objects, "Of the first layer of IDs.")
         .field("picture", &F::picture, "What a viewer looks at.")
         .finish();
 }

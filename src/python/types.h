@@ -94,6 +94,10 @@ struct Python<int16_t> : PythonInteger<int16_t> {};
 template <>
 struct Python<uint16_t> : PythonInteger<uint16_t> {};
 template <>
+struct Python<uint32_t> : PythonInteger<uint32_t> {};
+template <>
+struct Python<uint8_t> : PythonInteger<uint8_t> {};
+template <>
 struct Python<uint64_t> {
     static std::string wanted() { return "int"; }
     static uint64_t from(py::handle v, const std::string& where) {
@@ -179,6 +183,25 @@ struct Python<std::map<std::string, double>> {
         return map;
     }
     static py::object to(const Map& v) {
+        py::dict dict;
+        for (const auto& [key, value] : v)
+            dict[to_str(key)] = Python<std::decay_t<decltype(value)>>::to(value);
+        return py::object(std::move(dict));
+    }
+};
+
+/// In the order of the pairs.
+template <>
+struct Python<std::vector<std::pair<std::string, double>>> {
+    using Pairs = std::vector<std::pair<std::string, double>>;
+    static std::string given() { return "dict[str, float]"; }
+    static Pairs from(py::handle v, const std::string& where) {
+        Pairs pairs;
+        for (const auto& [key, value] : to_pairs(v, where, "Mapping[str, float]"))
+            pairs.emplace_back(key, to_double(value, where + "[\"" + key + "\"]"));
+        return pairs;
+    }
+    static py::object to(const Pairs& v) {
         py::dict dict;
         for (const auto& [key, value] : v)
             dict[to_str(key)] = Python<std::decay_t<decltype(value)>>::to(value);

@@ -13,6 +13,7 @@ import OpenImageIO as oiio
 import pytest
 
 from conftest import TESTIMAGES, call
+from crypto_pair import Render
 
 webdriver = pytest.importorskip("selenium.webdriver", reason="no python3-selenium here")
 from selenium.webdriver.chrome.options import Options  # noqa: E402
@@ -597,6 +598,34 @@ def test_numbers_histogram_and_parameters_of_a_frame(page):
                     ".reduce((a, b) => a + b)")
     assert f"{bars}" in facts  # every pixel
     assert page.all("#near img") and page.all("#near .crops figcaption")[0].text == "reference"
+
+
+def test_whose_error_it_is(driver, program, tmp_path):
+    """Findings as sentences, then three tables: each a region that the keyboard scrolls."""
+    render = Render(seed=2)
+    render.lights = {"fill": 0.25}
+    render.ball = (18, 12)
+    Render().write(tmp_path / "ref.exr")
+    render.write(tmp_path / "test.exr")
+    made(program, tmp_path, "ref.exr", "test.exr", "--hdrflip:attribute=1", "--report", "page.html", status=0)
+    page = Page(driver, tmp_path / "page.html")
+    page.ready()
+    assert [one.text for one in page.all("#facts li")][0].startswith("light key: off, explains ")
+    regions = page.all("#facts .scroll")
+    assert [one.get_attribute("aria-label") for one in regions] == ["Lights", "View.CryptoObject", "Layers"]
+    assert {(one.get_attribute("role"), one.get_attribute("tabindex")) for one in regions} == {("region", "0")}
+    rows = [[row.text for row in one.find_elements(By.CSS_SELECTOR, "tbody th")] for one in regions]
+    assert rows[0][0] == "key" and set(rows[1]) == {"ball", "floor", "box"} and rows[1][2] == "box" and rows[2] == ["View.Depth"]
+    found = [[cell.text for cell in one.find_elements(By.CSS_SELECTOR, "tr.finding td:nth-child(2)")] for one in regions]
+    assert found == [["off"], ["uncovered or hidden", "moved or reshaped"], ["changed"]] or \
+        found == [["off"], ["moved or reshaped", "uncovered or hidden"], ["changed"]]
+    heads = page.all("#facts .scroll thead th")
+    assert all(one.get_attribute("scope") == "col" and one.text for one in heads)
+    for width in (1440, 640):
+        page.size(width, 900)
+        assert page.ask("document.documentElement.scrollWidth <= innerWidth")
+    assert page.complaints() == []
+    assert {url.split(":")[0] for url in page.requests()} <= {"data", "file"}
 
 
 def test_every_control_has_a_name_and_is_reached_by_tab(page):

@@ -45,6 +45,39 @@ def with_a_hole():
     return image
 
 
+def with_objects():
+    spec = oiio.ImageSpec(32, 24, 4, "float")
+    spec.channelnames = ["R", "G", "B", "IndexOB.X"]
+    pixels = np.random.default_rng(1).random((24, 32, 4), np.float32)
+    pixels[..., 3] = 1
+    pixels[8:16, 12:20, 3] = 2
+    image = oiio.ImageBuf(spec)
+    image.set_pixels(oiio.ROI(0, 32, 0, 24), pixels)
+    return image
+
+
+def matted(key, names):
+    """A render of one light whose left half is the first object and whose right half the second."""
+    channels = [f"{layer}.{c}" for layer in ("Combined", "Combined_key") for c in "RGB"]
+    channels += ["Depth.Z"] + [f"CryptoObject00.{c}" for c in "rgba"]
+    spec = oiio.ImageSpec(32, 24, len(channels), "float")
+    spec.channelnames = channels
+    ids = {name: np.uint32(0x3f000000 + sum(name.encode())) for name in names}
+    manifest = ",".join(f'"{name}":"{number:08x}"' for name, number in ids.items())
+    for attribute, value in (("name", "CryptoObject"), ("hash", "MurmurHash3_32"),
+                             ("conversion", "uint32_to_float32"), ("manifest", "{" + manifest + "}")):
+        spec.attribute("cryptomatte/1234567/" + attribute, value)
+    pixels = np.zeros((24, 32, len(channels)), np.float32)
+    pixels[..., :6] = key * np.linspace(0.5, 1, 32)[None, :, None]
+    pixels[..., 6] = 2
+    for half, number in zip((slice(0, 16), slice(16, 32)), ids.values()):
+        pixels[:, half, 7] = number.view(np.float32)
+    pixels[..., 8] = 1
+    image = oiio.ImageBuf(spec)
+    image.set_pixels(oiio.ROI(0, 32, 0, 24), pixels)
+    return image
+
+
 MAKERS = {
     "hdr_flip of arrays": hdr_of_arrays,
     "hdr_flip of images": lambda: tonetool.hdr_flip(*cornell(), want_exposure_map=True),
@@ -63,7 +96,9 @@ MAKERS = {
     "luminance_stats": lambda: tonetool.luminance_stats(cornell()[0]),
     "find_color": lambda: tonetool.find_color(cornell()[0]),
     "against_facts": lambda: tonetool.against_facts(*cornell()),
+    "attribute": lambda: tonetool.attribute(matted(1, ["wall", "cup"]), matted(0.5, ["wall", "jug"])),
     "qc_facts": lambda: tonetool.qc_facts(cornell()[0]),
+    "qc_facts of objects": lambda: tonetool.qc_facts(with_objects()),
     "qc_facts of a place of one colour": lambda: tonetool.qc_facts(with_a_hole()),
     "tone_curve": lambda: next(curve for curve in tonetool.tone_curves() if len(curve.parameters) > 2),
     "light_index": lambda: tonetool.light_index(cornell()[0]),

@@ -2,6 +2,7 @@
 // Commands that compare a test image with a reference.
 #include <functional>
 
+#include "chain/commands/attribute_args.h"
 #include "chain/commands/color_input.h"
 #include "chain/commands/commands.h"
 #include "chain/commands/flip_args.h"
@@ -190,6 +191,7 @@ Limits read_hdrflip(Session& session, const Call& call, HdrFlipOptions& options)
 void check_hdrflip(Session& session, const Call& call) {
     HdrFlipOptions options;
     (void)read_hdrflip(session, call, options);
+    (void)attribute_options(call, options, "hdrflip");
 }
 
 void run_hdrflip(Session& session, const Call& call) {
@@ -199,6 +201,7 @@ void run_hdrflip(Session& session, const Call& call) {
     auto exposure_map = call.choice("exposuremap", {"stops", "index"});
     options.want_exposure_map = exposure_map || shown_bytes(session, call) > 0;
     options.want_exposures = call.has("saveexposures");
+    const auto attributed = attribute_options(call, options, "hdrflip");
     std::vector<FlipResult> results;
     auto [views, maps] =
         compare(session, call, {options.pixels, options.pixels},
@@ -209,6 +212,7 @@ void run_hdrflip(Session& session, const Call& call) {
         FlipResult& result = results[i];
         report(session, call, result.summary, limits, i);
         judge_flip(session, call, limits, result.summary.pool, i);
+        attribute_error(session, call, attributed, maps[i], i);
         save_exposures(session, call, result, i);
         sequence::PictureRequest request = pair_request(views, i);
         request.look = options;
@@ -224,18 +228,19 @@ void run_hdrflip(Session& session, const Call& call) {
 
 // ---- one test
 
-Limits read_ldrflip(Session& session, const Call& call, FlipOptions& options) {
+Limits read_ldrflip(Session& session, const Call& call, HdrFlipOptions& options) {
     read_flip_options(session, call, true, options);
     return limits_of(session, call, {}, options.quantities);
 }
 
 void check_ldrflip(Session& session, const Call& call) {
-    FlipOptions options;
+    HdrFlipOptions options;
     (void)read_ldrflip(session, call, options);
+    (void)attribute_options(call, options, "ldrflip");
 }
 
 void run_ldrflip(Session& session, const Call& call) {
-    FlipOptions options;
+    HdrFlipOptions options; // of which LDR-FLIP has those of FlipOptions
     const Limits limits = read_ldrflip(session, call, options);
     FlipResult result;
     auto [views, maps] =
@@ -244,6 +249,7 @@ void run_ldrflip(Session& session, const Call& call) {
         });
     report(session, call, result.summary, limits);
     judge_flip(session, call, limits, result.summary.pool);
+    attribute_error(session, call, attribute_options(call, options, "ldrflip"), maps[0]);
     sequence::PictureRequest request = pair_request(views);
     static_cast<FlipOptions&>(request.look) = options;
     request.hdr = false;
@@ -308,6 +314,7 @@ Limits read_errormap(Session& session, const Call& call, ErrorOptions& options) 
 void check_errormap(Session& session, const Call& call) {
     ErrorOptions options;
     (void)read_errormap(session, call, options);
+    (void)attribute_options(call, options);
 }
 
 void run_errormap(Session& session, const Call& call) {
@@ -334,6 +341,7 @@ void run_errormap(Session& session, const Call& call) {
         };
         judge(session, call, limits, measured,
               sequence::Position{summary.pool.max_x, summary.pool.max_y}, i);
+        attribute_error(session, call, attribute_options(call, options), maps[i], i);
         sequence::PictureRequest request = pair_request(views, i);
         request.look.pixels = options.pixels;
         request.look.size = options.size;
@@ -388,7 +396,7 @@ Row hdrflip_row() {
         .modifier("saveexposures", "PREFIX",
                   "write PREFIX.NN.reference.exr, .test.exr and .flip.exr")
         .modifier("tests", "K", "compare K tests with the one reference below them")
-        .modifiers(threshold_modifiers())
+        .modifiers(attribute_modifiers(), threshold_modifiers())
         .frequent("fail,warn,layer,from,startExposure,stopExposure,numExposures,exposures,"
                   "tonemapper,view,ppd")
         .makes_map();
@@ -428,7 +436,8 @@ Rows compare_commands() {
             command("ldrflip", "LDR-FLIP: reference, test -> error map", run_ldrflip)
                 .checked(check_ldrflip)
                 .images(2, 1)
-                .modifiers(modifiers_of<FlipOptions>(), pair_modifiers(), threshold_modifiers())
+                .modifiers(modifiers_of<FlipOptions>(), pair_modifiers(), attribute_modifiers(),
+                           threshold_modifiers())
                 .frequent("fail,warn,layer,from,ppd")
                 .makes_map(),
             command("flipdiff",
@@ -442,7 +451,7 @@ Rows compare_commands() {
                 .checked(check_errormap)
                 .images(2, 1)
                 .images_of(hdrflip_pops, test_count)
-                .modifiers(error_modifiers())
+                .modifiers(error_modifiers(), attribute_modifiers())
                 .modifier("tests", "K", "compare K tests with the one reference below them")
                 .frequent("metric,fail,warn,layer,from"),
             tmqi_row()};

@@ -33,6 +33,7 @@ largest. The result is an error map on the image stack, and numbers:
   from=SPACE        its colour space (what the file says)
   startExposure=, stopExposure=, numExposures=   in stops (from the reference's luminance)
   ppd=X             pixels per degree of visual angle (67: a 4K screen, 0.7 m wide, at 0.7 m)
+  attribute=1       whose error it is: lights, objects (Cryptomatte) and layers that have changed
 
 Others: --ldrflip for display-referred images, --flipdiff with OpenImageIO's option names, --errormap
 for SMAPE, PSNR and the like, --filmstrip for a figure, --diff for the values themselves, --tmqi for

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <map>
-#include <set>
 
 #include "imagebuf/pixels/parallel.h"
 #include "imagebuf/qc/qc_header.h"
@@ -84,34 +83,9 @@ std::vector<size_t> AgainstScan::listed(size_t side) const {
     return listed;
 }
 
-// By the whole name; without that of the view layer where no layer has the whole name. A beauty
-// without a name, as the first part of a file may have it, is that of the other file.
 void AgainstScan::match_layers() {
-    using Layer = LayerReader::Layer;
-    const std::vector<size_t> ours = listed(1);
-    std::set<size_t> taken;
-    const auto match = [&](size_t theirs, const auto& same) {
-        const Layer& approved = m_sides[0].reader.layers()[theirs];
-        const auto found = std::find_if(ours.begin(), ours.end(), [&](size_t i) {
-            return taken.count(i) == 0 && same(approved, m_sides[1].reader.layers()[i]);
-        });
-        if (found == ours.end())
-            return false;
-        taken.insert(*found);
-        m_same.push_back({theirs, *found});
-        return true;
-    };
-    std::vector<size_t> left;
-    for (const size_t i : listed(0))
-        if (!match(i, [](const Layer& a, const Layer& b) { return a.name == b.name; }))
-            left.push_back(i);
-    for (const size_t i : left)
-        match(i, [](const Layer& a, const Layer& b) {
-            const bool nameless = a.name.empty() || b.name.empty();
-            return split_layer(a.name).layer_name == split_layer(b.name).layer_name ||
-                   (nameless && a.kind == "picture" && b.kind == "picture");
-        });
-    std::sort(m_same.begin(), m_same.end());
+    m_same =
+        same_layers(m_sides[0].reader.layers(), listed(0), m_sides[1].reader.layers(), listed(1));
     for (const auto& [theirs, same] : m_same)
         add_pair(theirs, same);
 }
@@ -186,43 +160,11 @@ const LayerReader::Layer& AgainstScan::layer(const Pair& pair, size_t side) cons
     return m_sides[side].reader.layers()[pair.layers[side]];
 }
 
-// Interleaved; 0 where the part has no such pixel.
-std::vector<float> AgainstScan::channels(size_t side, size_t part, const std::vector<int>& channels,
-                                         const ROI& window, int y) const {
-    const metrics::ChannelRow row = m_sides[side].reader.row_of(part, y);
-    std::vector<float> values(size_t(window.width()) * channels.size());
-    for (int64_t x = window.xbegin; row.pixels && x < window.xend; ++x) {
-        const int64_t from = x - row.x;
-        if (from < 0 || from >= row.width)
-            continue;
-        const float* pixel = row.pixels + from * row.stride;
-        float* to = &values[size_t(x - window.xbegin) * channels.size()];
-        for (size_t c = 0; c < channels.size(); ++c)
-            to[c] = pixel[channels[c]];
-    }
-    return values;
-}
-
-// Colours in linear Rec.709.
 std::vector<float> AgainstScan::values(const Pair& pair, size_t side, int y) const {
-    std::vector<float> row =
-        channels(side, layer(pair, side).part, pair.channels[side], pair.window, y);
-    const ColorSpace& space = m_sides[side].reader.space();
-    if (!pair.light || pair.channels[side].size() != 3)
-        return row;
-    if (space.encoded() || space.scale != 1)
-        for (float& v : row)
-            v = float(space.light(double(v), 1));
-    if (space.is_rec709)
-        return row;
-    for (size_t at = 0; at < row.size(); at += 3) {
-        const double in[3] = {row[at], row[at + 1], row[at + 2]};
-        for (size_t p = 0; p < 3; ++p) {
-            const auto& m = space.to_rec709[p];
-            row[at + p] = float(m[0] * in[0] + m[1] * in[1] + m[2] * in[2]);
-        }
-    }
-    return row;
+    const LayerReader& reader = m_sides[side].reader;
+    const size_t part = layer(pair, side).part;
+    return pair.light ? reader.light(part, pair.channels[side], pair.window, y)
+                      : reader.values(part, pair.channels[side], pair.window, y);
 }
 
 void AgainstScan::run() {
@@ -249,7 +191,8 @@ std::string AgainstScan::hash_row(size_t side, int y) const {
         const ROI& window = m_sides[side].reader.window(layer.part);
         if (y < window.ybegin || y >= window.yend)
             continue;
-        const std::vector<float> row = channels(side, layer.part, layer.channels, window, y);
+        const std::vector<float> row =
+            m_sides[side].reader.values(layer.part, layer.channels, window, y);
         hashes += fingerprint(row.data(), row.size() * sizeof(float));
     }
     return hashes;
@@ -273,16 +216,18 @@ AgainstScan::PairRow AgainstScan::scan_pair_row(const Pair& pair, int y) const {
     std::vector<float> depth;
     if (pair.data == PairKind::Position && m_depth >= 0) {
         const LayerReader::Layer& from = m_sides[0].reader.layers()[size_t(m_depth)];
-        depth = channels(0, from.part, from.channels, pair.window, y);
+        depth = m_sides[0].reader.values(from.part, from.channels, pair.window, y);
     }
     if (pair.data) {
         row.data = metrics::scan_pair(*pair.data, a, b, pair.channels[0].size(),
                                       depth.empty() ? nullptr : depth.data(), y);
     }
     if (pair.alpha[0] >= 0 && pair.alpha[1] >= 0) {
-        row.alpha = metrics::scan_pair(
-            PairKind::Alpha, channels(0, layer(pair, 0).part, {pair.alpha[0]}, pair.window, y),
-            channels(1, layer(pair, 1).part, {pair.alpha[1]}, pair.window, y), 1, nullptr, y);
+        const auto alpha = [&](size_t side) {
+            return m_sides[side].reader.values(layer(pair, side).part, {pair.alpha[side]},
+                                               pair.window, y);
+        };
+        row.alpha = metrics::scan_pair(PairKind::Alpha, alpha(0), alpha(1), 1, nullptr, y);
     }
     return row;
 }

@@ -67,8 +67,6 @@ private:
     void find_depth();
     const LayerReader::Layer& layer(const Pair& pair, size_t side) const;
     std::vector<float> values(const Pair& pair, size_t side, int y) const;
-    std::vector<float> channels(size_t side, size_t part, const std::vector<int>& channels,
-                                const OIIO::ROI& window, int y) const;
     void scan_row(int y, Row& row) const;
     PairRow scan_pair_row(const Pair& pair, int y) const;
     std::string hash_row(size_t side, int y) const;

@@ -2,6 +2,7 @@
 #include "imagebuf/qc/layer_reader.h"
 
 #include <algorithm>
+#include <set>
 
 #include "imagebuf/aov/channels.h"
 #include "imagebuf/qc/qc_header.h"
@@ -144,6 +145,77 @@ metrics::ChannelRow LayerReader::row_of(size_t which, int y) const {
     const size_t row = size_t(part.window.width()) * size_t(part.channels);
     return {part.pixels.data() + row * size_t(y - part.begin), part.channels, part.window.width(),
             part.window.xbegin, y};
+}
+
+std::vector<float> LayerReader::values(size_t part, const std::vector<int>& channels,
+                                       const OIIO::ROI& window, int y) const {
+    const metrics::ChannelRow row = row_of(part, y);
+    std::vector<float> values(size_t(window.width()) * channels.size());
+    for (int64_t x = window.xbegin; row.pixels && x < window.xend; ++x) {
+        const int64_t from = x - row.x;
+        if (from < 0 || from >= row.width)
+            continue;
+        const float* pixel = row.pixels + from * row.stride;
+        float* to = &values[size_t(x - window.xbegin) * channels.size()];
+        for (size_t c = 0; c < channels.size(); ++c)
+            to[c] = pixel[channels[c]];
+    }
+    return values;
+}
+
+std::vector<float> LayerReader::light(size_t part, const std::vector<int>& channels,
+                                      const OIIO::ROI& window, int y) const {
+    std::vector<float> row = values(part, channels, window, y);
+    if (channels.size() != 3)
+        return row;
+    if (m_space.convert) {
+        m_space.convert(row.data(), ptrdiff_t(row.size() / 3));
+        return row;
+    }
+    if (m_space.encoded() || m_space.scale != 1)
+        for (float& v : row)
+            v = float(m_space.light(double(v), 1));
+    if (m_space.is_rec709)
+        return row;
+    for (size_t at = 0; at < row.size(); at += 3) {
+        const double in[3] = {row[at], row[at + 1], row[at + 2]};
+        for (size_t p = 0; p < 3; ++p) {
+            const auto& m = m_space.to_rec709[p];
+            row[at + p] = float(m[0] * in[0] + m[1] * in[1] + m[2] * in[2]);
+        }
+    }
+    return row;
+}
+
+std::vector<std::array<size_t, 2>> same_layers(const std::vector<LayerReader::Layer>& first,
+                                               const std::vector<size_t>& listed_first,
+                                               const std::vector<LayerReader::Layer>& second,
+                                               const std::vector<size_t>& listed_second) {
+    using Layer = LayerReader::Layer;
+    std::vector<std::array<size_t, 2>> pairs;
+    std::set<size_t> taken;
+    const auto match = [&](size_t theirs, const auto& same) {
+        const auto found = std::find_if(listed_second.begin(), listed_second.end(), [&](size_t i) {
+            return taken.count(i) == 0 && same(first[theirs], second[i]);
+        });
+        if (found == listed_second.end())
+            return false;
+        taken.insert(*found);
+        pairs.push_back({theirs, *found});
+        return true;
+    };
+    std::vector<size_t> left;
+    for (const size_t i : listed_first)
+        if (!match(i, [](const Layer& a, const Layer& b) { return a.name == b.name; }))
+            left.push_back(i);
+    for (const size_t i : left)
+        match(i, [](const Layer& a, const Layer& b) {
+            const bool nameless = a.name.empty() || b.name.empty();
+            return split_layer(a.name).layer_name == split_layer(b.name).layer_name ||
+                   (nameless && a.kind == "picture" && b.kind == "picture");
+        });
+    std::sort(pairs.begin(), pairs.end());
+    return pairs;
 }
 
 } // namespace tonetool

@@ -2,6 +2,7 @@
 // The layers of all parts of one file, and their rows.
 #pragma once
 
+#include <array>
 #include <deque>
 #include <string>
 #include <vector>
@@ -54,6 +55,13 @@ public:
     void read_band(int begin, int end);
     /// Of the band; null where the part has no such row.
     metrics::ChannelRow row_of(size_t part, int y) const;
+    /// Channels of a part over the columns of a window, interleaved; 0 where the part has no such
+    /// pixel.
+    std::vector<float> values(size_t part, const std::vector<int>& channels,
+                              const OIIO::ROI& window, int y) const;
+    /// The same of colours: decoded, three of them in linear Rec.709.
+    std::vector<float> light(size_t part, const std::vector<int>& channels, const OIIO::ROI& window,
+                             int y) const;
 
 private:
     struct Part {
@@ -78,5 +86,13 @@ private:
     std::vector<LightGroup> m_groups;
     std::vector<Layer> m_layers;
 };
+
+/// Indices of the layers of two files that are the same, of those listed: by the whole name;
+/// without that of the view layer where no layer has the whole name. A beauty without a name, as
+/// the first part of a file may have it, is that of the other file.
+std::vector<std::array<size_t, 2>> same_layers(const std::vector<LayerReader::Layer>& first,
+                                               const std::vector<size_t>& listed_first,
+                                               const std::vector<LayerReader::Layer>& second,
+                                               const std::vector<size_t>& listed_second);
 
 } // namespace tonetool

@@ -183,8 +183,8 @@ void measure(QcFacts& facts, const std::vector<const ImageBuf*>& parts, const Qc
         facts.layers.push_back(layer_of(layer));
     for (const QcScan::Guide& guide : scan.guides())
         facts.guides.push_back(guide_of(scan, guide));
-    facts.objects = objects_of(scan);
     fill_picture(scan, facts.picture);
+    facts.picture.objects = objects_of(scan);
 }
 
 } // namespace

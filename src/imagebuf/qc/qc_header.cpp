@@ -111,11 +111,14 @@ std::string layer_kind(const AovLayer& layer, const ColorChoice& picture,
     return *kind ? kind : layer.has_rgb() ? "color" : "data";
 }
 
-bool is_exact(const std::string& kind, const std::string& name) {
+bool is_filtered(const std::string& name) {
     const std::string word = plain_word(name);
     const auto tells = [&](const char* part) { return word.find(part) != std::string::npos; };
-    const bool filtered = tells("mist") || tells("denois") || tells("filtered");
-    return (kind == "depth" || kind == "position" || kind == "id") && !filtered;
+    return tells("mist") || tells("denois") || tells("filtered");
+}
+
+bool is_exact(const std::string& kind, const std::string& name) {
+    return (kind == "depth" || kind == "position" || kind == "id") && !is_filtered(name);
 }
 
 } // namespace tonetool

@@ -72,17 +72,18 @@ struct QcGuide {
     }
 };
 
+struct QcObject {
+    uint32_t id = 0; ///< the bits of its ID
+    int64_t pixels = 0;
+};
+
 /// Which objects a frame shows, by the bits of their IDs: the first layer of IDs, of a Cryptomatte
 /// those of the largest coverage. An ID of 0 is nothing.
 struct QcObjects {
-    struct Object {
-        uint32_t id = 0;
-        int64_t pixels = 0;
-    };
     std::string layer; ///< "" if there is none
     /// The largest that take at least kShare of the pixels and are seen away from the left and the
     /// right border alone, where the other eye of a stereo pair may not see them; by size.
-    std::vector<Object> inside;
+    std::vector<QcObject> inside;
     static constexpr size_t kMost = 32;
     static constexpr double kShare = 0.001, kBorder = 0.08; ///< of the picture; of its width
     /// Two bits of kBits for each ID that there is.
@@ -142,6 +143,7 @@ struct QcPicture {
     std::string hash;   ///< hash of its pixel values
     QcCount alpha_low;  ///< below 0 by more than kAlphaSlack, or NaN
     QcCount alpha_high; ///< above 1 by as much
+    QcObjects objects;  ///< also of a file that has no beauty
     /// Rounding of filter weights that are added up in half float.
     static constexpr double kAlphaSlack = 1e-3;
     int64_t lit = 0; ///< non-black pixels, counted only where there is an alpha
@@ -182,7 +184,6 @@ struct QcFacts {
     std::vector<QcLayer> layers;
     /// The first two that there are of a depth, a normal, a position, an albedo.
     std::vector<QcGuide> guides;
-    QcObjects objects;
     QcPicture picture;
 };
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "tonetool/against.h"
+#include "tonetool/attribute.h"
 #include "tonetool/bias.h"
 #include "tonetool/cgtmo.h"
 #include "tonetool/color_tags.h"

@@ -101,7 +101,7 @@ function drawFacts(frame) {
       parts.push(box);
       later.push(draw);
     }
-    boxes.push(...parts);
+    boxes.push(...attributionBoxes(measurement.attribution), ...parts);
   }
   const files = [["reference", frame.reference], ["test", frame.test]].filter(([, file]) => file);
   boxes.push(...files.length ? [table("Files", files.map(([key, file]) => [key, name(file)]))] : []);

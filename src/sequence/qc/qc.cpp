@@ -85,8 +85,11 @@ QcShot searched(const std::vector<FrameResult*>& frames, bool keep_records) {
             const auto kept = std::exchange(result->record, nullptr);
             QcRecord record = kept ? std::move(*kept) : qc_from_json(result->qc);
             shot.set_limits(record.limits);
-            if (keep_records)
-                result->record = std::make_shared<QcRecord>(QcRecord{{}, record.limits});
+            if (keep_records) {
+                const auto limits = std::make_shared<QcRecord>();
+                limits->limits = record.limits;
+                result->record = limits;
+            }
             take_record(frame, std::move(record));
             any = true;
         }

@@ -30,8 +30,8 @@ void visit_lists(Facts& facts, const Visit& visit) {
     visit(picture.fingerprints, kPackedPeaks, 0, size_t(2));
     for (auto& guide : facts.guides)
         visit(guide.cells, kPackedCells * size_t(guide.channels), least_of_16, size_t(2));
-    if (!facts.objects.layer.empty())
-        visit(facts.objects.known, QcObjects::kBits / 8, 0, size_t(1));
+    if (!facts.picture.objects.layer.empty())
+        visit(facts.picture.objects.known, QcObjects::kBits / 8, 0, size_t(1));
 }
 
 template <class List>

@@ -62,10 +62,10 @@ void compare_layers(QcShot& shot, QcShot& others, const std::string& view) {
 void compare_objects(QcShot& shot, QcShot& others, const std::string& view) {
     std::set<uint32_t> told;
     for (QcFrame* frame : shot.measured()) {
-        const QcObjects& here = frame->facts.objects;
-        for (const QcObjects::Object& object : here.inside) {
+        const QcObjects& here = frame->facts.picture.objects;
+        for (const QcObject& object : here.inside) {
             const auto knows = [&](const QcFrame* other) {
-                const QcObjects& there = other->facts.objects;
+                const QcObjects& there = other->facts.picture.objects;
                 return there.layer != here.layer || there.knows(object.id);
             };
             const std::vector<QcFrame*> all = others.measured();

@@ -293,7 +293,7 @@ ordered_json list_of(const std::vector<Item>& items) {
 // Bits of IDs as 8 digits, as a Cryptomatte's manifest has them.
 ordered_json json_of(const QcObjects& objects) {
     ordered_json inside = ordered_json::array();
-    for (const QcObjects::Object& object : objects.inside)
+    for (const QcObject& object : objects.inside)
         inside.push_back({OIIO::Strutil::fmt::format("{:08x}", object.id), object.pixels});
     return {{"layer", objects.layer}, {"inside", inside}};
 }
@@ -334,7 +334,7 @@ QcFacts facts_of(const json& from) {
     for (const json& guide : from.at("guides"))
         facts.guides.push_back({guide.at(0).get<std::string>(), channels_of_guide(guide), {}});
     if (from.contains("objects"))
-        facts.objects = objects_of(from["objects"]);
+        facts.picture.objects = objects_of(from["objects"]);
     sequence::read_cells(from.at("cells").get<std::string>(), facts);
     if (facts.parts.empty())
         throw std::runtime_error("no part of a file");
@@ -355,8 +355,8 @@ std::string to_json(const QcRecord& record) {
         guides.push_back({guide.layer, guide.channels});
     ordered_json to = {
         {"limits", record.limits.texts()}, {"picture", json_of(facts.picture)}, {"guides", guides}};
-    if (!facts.objects.layer.empty())
-        to["objects"] = json_of(facts.objects);
+    if (!facts.picture.objects.layer.empty())
+        to["objects"] = json_of(facts.picture.objects);
     to.update(ordered_json{{"cells", cells_text(facts)},
                            {"layers", list_of(facts.layers)},
                            {"channels", channels},

@@ -285,7 +285,7 @@ ordered_json trimmed(const ShotResult& shot, const PictureStore& pictures,
         frame.erase("against");
         const bool whole = !many || detailed.count(index++) > 0;
         for (ordered_json& measured : frame["measurements"]) {
-            for (const char* key : {"histogram", "parameters", "settings"})
+            for (const char* key : {"histogram", "parameters", "settings", "attribution"})
                 if (!whole)
                     measured.erase(key);
         }

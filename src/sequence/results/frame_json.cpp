@@ -195,6 +195,8 @@ ordered_json json_of(const Measurement& measured) {
         to["evidence"] = measured.evidence;
     if (!measured.warnings.empty())
         to["warnings"] = measured.warnings;
+    if (!measured.attribution.empty())
+        to["attribution"] = parse_json<ordered_json>(measured.attribution);
     return to;
 }
 
@@ -221,6 +223,12 @@ Measurement measurement_of(const ordered_json& from) {
     measured.sentence = text(from, "sentence");
     measured.evidence = values<std::string>(from, "evidence");
     measured.warnings = values<std::string>(from, "warnings");
+    if (from.contains("attribution")) {
+        if (!from["attribution"].is_object())
+            throw std::runtime_error("\"attribution\" is " + shown_json(from["attribution"]) +
+                                     ", not an object");
+        measured.attribution = one_line(from["attribution"]);
+    }
     return measured;
 }
 

@@ -99,6 +99,7 @@ struct Measurement {
     std::string verdict, sentence;
     std::vector<std::string> evidence;
     std::vector<std::string> warnings;
+    std::string attribution; ///< whose error it is, as JSON (attribution.h); empty: not asked for
 };
 
 /// One frame number (and view).

@@ -10,6 +10,7 @@
 
 #include "imagebuf/pixels/utf8.h"
 #include "sequence/frames/frame_range.h"
+#include "sequence/results/attribution.h"
 #include "text/printable.h"
 
 namespace tonetool::sequence {
@@ -64,6 +65,10 @@ void add_measurements(Columns& columns, Row& row, const FrameResult& frame) {
         }
         for (const auto& [name, value] : measured.quantities)
             columns.put(row, start + name, text_of(value));
+        if (!measured.attribution.empty()) {
+            const auto findings = attribution_findings(measured.attribution);
+            columns.put(row, start + "findings", cell(OIIO::Strutil::join(findings, "; ")));
+        }
     }
 }
 

@@ -171,6 +171,16 @@ std::vector<Function> numbers_and_files() {
              AgainstFacts facts;
              return against_facts(facts, {&c.good}, {&c.bad}, c.error, linear<AgainstOptions>());
          }},
+        {"attribute", "reference",
+         [](const Call& c) {
+             AttributeResult found;
+             return attribute(found, {&c.bad}, {&c.good}, c.error, linear<AttributeOptions>());
+         }},
+        {"attribute", "test",
+         [](const Call& c) {
+             AttributeResult found;
+             return attribute(found, {&c.good}, {&c.bad}, c.error, linear<AttributeOptions>());
+         }},
         {"qc_facts", "alone",
          [](const Call& c) {
              QcFacts facts;
