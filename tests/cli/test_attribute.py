@@ -231,6 +231,14 @@ def test_ids_that_have_been_through_half(pair, tonetool):
     assert "the ids of View.CryptoObject in the test have been through half" in ran.err
 
 
+def test_ids_that_were_resized(pair, tonetool):
+    pair(Render())
+    for name in ("ref", "test"):
+        tonetool(f"{name}.exr", "--resize", "50x40", "-d", "float", "-o", f"{name}.small.exr")
+    ran = tonetool("ref.small.exr", "test.small.exr", "--hdrflip:attribute=1", status=1)
+    assert "ids of View.CryptoObject are not in its manifest, and 3 are: they have been resized" in ran.err
+
+
 # ---- goldens
 
 def near(value, wanted):

@@ -64,10 +64,10 @@ void run_attribute(AttributeResult& result, const ImageParts& reference, const I
     result.mean = mean_of(error);
     ExchangedLights lights = attribute_lights(input, meter, result.mean, options.alone);
     result.lights = std::move(lights.lights);
-    result.mattes = attribute_mattes(input, error, lights.test);
+    result.warnings = input.warnings();
+    result.mattes = attribute_mattes(input, error, lights.test, result.warnings);
     result.layers = attribute_layers(input);
     result.manifest_only = input.manifest_only();
-    result.warnings = input.warnings();
     if (result.lights.empty() && result.mattes.empty() && result.layers.empty())
         result.warnings.emplace_back(
             "the images have no light groups, Cryptomattes or other layers "

@@ -7,6 +7,7 @@
 #include "metrics/errors.h"
 #include "metrics/layer_change.h"
 #include "metrics/matte_findings.h"
+#include "metrics/refusal.h"
 
 namespace tonetool {
 namespace {
@@ -21,6 +22,16 @@ constexpr double kChangedShare = 1e-3;
 std::string name_in(const AttributeInput::Type& type, uint32_t id) {
     const auto found = type.names.find(id);
     return found != type.names.end() ? found->second : OIIO::Strutil::fmt::format("<{:08x}>", id);
+}
+
+// Ids that were filtered like colours are others, and many.
+void check_names(const AttributeInput::Type& type, size_t named, size_t unnamed) {
+    constexpr size_t some = 64;
+    if (!type.names.empty() && unnamed > some && unnamed > named)
+        throw Refusal(OIIO::Strutil::fmt::format(
+            "{} ids of {} are not in its manifest, and {} are: they have been resized or filtered, "
+            "which destroys them (valid: layers as they were rendered)",
+            unnamed, type.name, named));
 }
 
 LayerPixels pixels_of(const AttributeInput::Layer& layer) {
@@ -112,14 +123,28 @@ void compare_colours(const AttributeInput::Layer& layer, AttributedLayer& row) {
 
 std::vector<AttributedType> attribute_mattes(const AttributeInput& input,
                                              const std::vector<float>& error,
-                                             const std::vector<float>& test) {
+                                             const std::vector<float>& test,
+                                             std::vector<std::string>& warnings) {
+    constexpr size_t most = 1000;
     std::vector<AttributedType> types;
     const metrics::CoveredPixels pixels{size_t(input.region().width()), error.data(),
                                         input.picture()[0].data(), test.data()};
-    for (const AttributeInput::Type& type : input.types())
-        types.push_back({type.name, metrics::attributed_mattes(
-                                        type.coverage[0], type.coverage[1], pixels,
-                                        [&](uint32_t id) { return name_in(type, id); })});
+    for (const AttributeInput::Type& type : input.types()) {
+        size_t named = 0, unnamed = 0;
+        const auto name_of = [&](uint32_t id) {
+            ++(type.names.count(id) > 0 ? named : unnamed);
+            return name_in(type, id);
+        };
+        std::vector<AttributedMatte> rows =
+            metrics::attributed_mattes(type.coverage[0], type.coverage[1], pixels, name_of);
+        check_names(type, named, unnamed);
+        if (rows.size() > most) {
+            warnings.push_back(OIIO::Strutil::fmt::format("of {} the first {} of {} rows are told",
+                                                          type.name, most, rows.size()));
+            rows.resize(most);
+        }
+        types.push_back({type.name, std::move(rows)});
+    }
     return types;
 }
 

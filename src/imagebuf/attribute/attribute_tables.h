@@ -54,7 +54,8 @@ ExchangedLights attribute_lights(const AttributeInput& input, ErrorMeter& meter,
 /// `error` and `test`: of each pixel, and its R, G, B.
 std::vector<AttributedType> attribute_mattes(const AttributeInput& input,
                                              const std::vector<float>& error,
-                                             const std::vector<float>& test);
+                                             const std::vector<float>& test,
+                                             std::vector<std::string>& warnings);
 
 std::vector<AttributedLayer> attribute_layers(const AttributeInput& input);
 

@@ -124,6 +124,29 @@ TEST(Manifests, AMillionNames) {
                 testing::Contains(HasSubstr("900000 name(s) of View.CryptoObject are in one")));
 }
 
+// An id for each pixel: of a scene with many objects, or of ids that were filtered like colours.
+ImageBuf with_many_ids(const Render& render) {
+    ImageBuf image = render.image();
+    uint32_t id = 0x3f000000;
+    for (ImageBuf::Iterator<float> p(image); !p.done(); ++p, ++id) {
+        float bits = 0;
+        std::memcpy(&bits, &id, sizeof bits);
+        p[image.nchannels() - 4] = bits;
+    }
+    return image;
+}
+
+TEST(Manifests, ManyIdsAreToldInPartAndRefusedIfTheManifestDoesNotKnowThem) {
+    Render render;
+    EXPECT_THAT(refused(with_many_ids(render), with_many_ids(render)),
+                HasSubstr("1536 ids of View.CryptoObject are not in its manifest, and 0 are"));
+    render.attributes["manifest"] = "{}";
+    const AttributeResult result = attributed(with_many_ids(render), with_many_ids(render));
+    EXPECT_EQ(result.mattes[0].mattes.size(), 1000u);
+    EXPECT_THAT(result.warnings,
+                ElementsAre("of View.CryptoObject the first 1000 of 1536 rows are told"));
+}
+
 TEST(Manifests, OtherHashesAreNotLookedAt) {
     for (const char* name : {"hash", "conversion"}) {
         Render render;
