@@ -29,6 +29,14 @@ void describe(const CalibrationOptions&, See&& see) {
                "leave pixels of alpha 0 out of the statistics"));
 }
 
+/// The ways to clamp a colour, in the order of tonemap::Clip.
+inline std::vector<std::string> clip_names() {
+    return {"hue", "luminance", "neutral", "channel"};
+}
+inline std::string clip_text() {
+    return "what stays of a colour with a channel above 1; channel: each is clamped by itself";
+}
+
 template <class See>
 void describe(const TonemapOptions&, See&& see) {
     using O = TonemapOptions;
@@ -37,6 +45,7 @@ void describe(const TonemapOptions&, See&& see) {
     see(option("primaries", &O::primaries, "primaries that a curve works in and the result has")
             .one_of({"rec709", "image"}));
     see(option("clamp", &O::clamp, "clamp the result of a curve to 0 to 1"));
+    see(option("clip", &O::clip, clip_text()).one_of(clip_names()));
     see(option("unpremult", &O::unpremult, "divide colour by alpha before, multiply after"));
 }
 

@@ -12,6 +12,7 @@
 #include "imagebuf/pixels/row_source.h"
 #include "imagebuf/tone/cgtmo_guides.h"
 #include "imagebuf/tone/cgtmo_plan.h"
+#include "imagebuf/tone/noise.h"
 #include "imagebuf/tone/scene_stats.h"
 
 namespace tonetool {
@@ -27,7 +28,7 @@ class LocalMapping {
 public:
     LocalMapping(const ImageBuf& src, const CgTmoOptions& options, int nthreads)
         : m_src(src),
-          m_options(options),
+          m_options(with_preset(options)),
           m_nthreads(nthreads),
           m_region(src.roi()) {}
 
@@ -108,6 +109,12 @@ private:
         tonemap::take_logarithms(m_plan.what, m_luminance.data(), m_region.width(),
                                  m_region.height(), parallel);
         image.value = m_luminance.data();
+        if (!m_plan.what.edges || m_plan.what.edges->denoise == 0)
+            return;
+        m_noise = m_options.noise.empty()
+                      ? measured_noise(image, parallel)
+                      : noise_of_layer(m_src, m_options.noise, m_region, image.value, m_nthreads);
+        m_plan.what.edges->noise = m_noise.data();
     }
 
     void map_at_once(kernels::GuidePlanes& image, const kernels::Window& window) {
@@ -120,6 +127,12 @@ private:
 
     void map_on_base(kernels::GuidePlanes& image, const kernels::Window& window) {
         const auto parallel = make_parallel(m_nthreads);
+        const tonemap::LocalOutput to = output(window);
+        if (m_plan.show == LocalShow::Share) {
+            take_logarithms(image, parallel);
+            return tonemap::guided_share(m_plan.what, image, taps_of(m_plan, m_options.sigma),
+                                         window, to.rgb[0], to.stride, parallel);
+        }
         PagedArray<float> kept;
         tonemap::LocalBase base;
         if (m_plan.filter == BaseFilter::Wls) {
@@ -135,7 +148,6 @@ private:
                                  kept.data(), window.width, parallel);
             base = {kept.data(), window.width};
         }
-        const tonemap::LocalOutput to = output(window);
         if (m_plan.show == LocalShow::Picture)
             return tonemap::tone_map_local(m_plan.what, m_planes.view(), base, window, to,
                                            parallel);
@@ -157,17 +169,21 @@ private:
             if (m_plan.show != LocalShow::Picture)
                 rgb[1] = rgb[2] = rgb[0];
             float* pixel = pixels + y * spec.width * spec.nchannels;
-            for (int x = 0; x < spec.width; ++x, pixel += spec.nchannels)
+            for (int x = 0; x < spec.width; ++x, pixel += spec.nchannels) {
+                float color[3] = {rgb[0][x], rgb[1][x], rgb[2][x]};
+                if (m_plan.show == LocalShow::Picture)
+                    finish(color);
                 for (size_t c = 0; c < 3; ++c)
-                    pixel[to[c]] = finished(rgb[c][x]);
+                    pixel[to[c]] = color[c];
+            }
         });
     }
 
-    float finished(float v) const {
-        if (m_plan.show != LocalShow::Picture)
-            return v;
-        v = v > 0 ? v : 0;
-        return m_plan.encode(m_options.clamp ? std::min(v, 1.0f) : v);
+    void finish(float (&color)[3]) const {
+        if (m_options.clamp)
+            tonemap::clip_color(m_plan.clip, m_plan.what.curve.weights, color);
+        for (float& v : color)
+            v = m_plan.encode(v > 0 ? v : 0);
     }
 
     void tag(ImageSpec& spec) const {
@@ -191,13 +207,13 @@ private:
     }
 
     const ImageBuf& m_src;
-    const CgTmoOptions& m_options;
+    const CgTmoOptions m_options;
     int m_nthreads;
     ROI m_region;
     LocalPlan m_plan;
     ColorReader m_reader;
     ColorPlanes m_planes;
-    PagedArray<float> m_luminance;
+    PagedArray<float> m_luminance, m_noise;
 };
 
 } // namespace

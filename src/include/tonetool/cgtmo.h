@@ -19,11 +19,25 @@ namespace tonetool {
 
 struct CgTmoOptions {
     PixelOptions pixels; ///< the beauty and its colour space
-    /// "default": the base is a mean of log luminance, and beside the G-buffer AOVs a luminance
-    /// term (0.4 in log10) guides the filter, since emitters, their glow and shadows are not in a
-    /// G-buffer; "paper": Eq. 2 and 4 to the letter, the base is a mean of luminance that the
-    /// G-buffer AOVs alone guide. The options below override the preset.
-    std::string preset = "default";
+    /// "default": the base keeps edges of light (`base`); "classic": it is a mean of log luminance,
+    /// and beside the G-buffer AOVs a luminance term (0.4 in log10) guides the filter, since
+    /// emitters, their glow and shadows are not in a G-buffer; "paper": Eq. 2 and 4 to the letter,
+    /// the base is a mean of luminance over the whole window that the G-buffer AOVs alone guide.
+    /// Empty: "default", with the filters that have a base of their own "classic". The options
+    /// below override the preset.
+    std::string preset;
+    /// "mean": the base is the mean that the filter makes; "edges": a linear function of log
+    /// luminance in each window, by its mean and variance there, which neither turns the order of
+    /// two luminances round nor amplifies noise. Empty: the preset's.
+    std::string base;
+    /// What varies by more than this is an edge of light, in natural logarithms of luminance; 0.001
+    /// to 10 (0.16), with base "edges" alone.
+    std::optional<double> edge;
+    /// How much of the noise's variance is no detail; 0, none, to 100 (2), with base "edges" alone.
+    std::optional<double> denoise;
+    /// Layer of one channel that holds the variance of the mean of luminance, as a renderer
+    /// estimates it; empty: it is measured where surfaces are flat. With base "edges" alone.
+    std::string noise;
     std::string domain;             ///< of the base: "log", "linear"; empty: the preset's
     std::optional<double> lumsigma; ///< of the luminance term in log10, 0: none, to 10
     /// The G-buffer AOVs that guide the filter: each is the name of a layer or of a file that holds
@@ -37,7 +51,8 @@ struct CgTmoOptions {
     /// An AOV, light or panorama that was requested but is missing is an error, not a warning.
     bool strict = false;
     double sigma = 8; ///< of the window in pixels, 1 to 20; the window's radius is 2.5 sigma
-    int samples = 80; ///< neighbours that are sampled in the window, 4 to 400; 0: all
+    /// Neighbours that are sampled in the window, 4 to 400; 0: all. Unset: the preset's.
+    std::optional<int> samples;
     std::string normaldist = "euclid"; ///< |n - m|^2, or "dot": 1 - |n m|
     /// The footprint of a pixel in the scene. "pixel": each pixel's own, from its neighbours'
     /// positions; "global": the median of those; "camera": from its distance and the field of view;
@@ -69,9 +84,11 @@ struct CgTmoOptions {
     double saturation = 1;       ///< C' = (C / L)^saturation Ld, 0 to 4
     std::string encode = "srgb"; ///< encoding of the result, as TonemapOptions::encode
     bool clamp = true;           ///< clamp the result to [0,1]
+    std::string clip;            ///< how, as TonemapOptions::clip; empty: the preset's
     /// "picture": the tone-mapped image; or one factor of luminance, the same in R, G and B,
     /// linear, neither encoded nor clamped: "base", which the curve compresses, or "detail", which
-    /// it leaves.
+    /// it leaves; or, with base "edges", "share": how much of what a pixel differs by from the mean
+    /// about it is in its base, 0 to 1.
     std::string show = "picture";
 };
 

@@ -84,7 +84,12 @@ struct TonemapOptions {
     std::string primaries = "rec709";
     /// Encoding of a curve's result: none (linear), srgb, gamma2.2, rec1886 (2.4), gamma2.6.
     std::string encode = "srgb";
-    bool clamp = true;      ///< clamp the result of a curve to [0,1]
+    bool clamp = true; ///< clamp the result of a curve to [0,1]
+    /// How a colour with a channel above 1 is clamped. "channel": each channel by itself, which
+    /// turns its hue; "luminance": its luminance and hue stay, and it becomes whiter; "neutral":
+    /// its hue stays, and it becomes darker; "hue": as "luminance" where it is nearly white, as
+    /// "neutral" where it is saturated.
+    std::string clip = "channel";
     bool unpremult = false; ///< divide colour by alpha before and multiply after
 };
 
