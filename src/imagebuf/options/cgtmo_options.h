@@ -84,10 +84,12 @@ void describe_base(See&& see) {
 template <class See>
 void describe_curve(See&& see) {
     using O = CgTmoOptions;
+    see(option("count", &O::count, count_text()).one_of(count_names()).unset("the preset's"));
     see(option("lwa", &O::lwa,
                "adaptation luminance: geometric, harmonic, arithmetic or median of the panorama "
-               "(of the image without one), or a number")
-            .shown_as("NAME|X"));
+               "(of the image without one), cells: of the means of cells of the image, or a number")
+            .shown_as("NAME|X")
+            .unset("cells; preset=paper, classic: geometric"));
     see(option("env", &O::env,
                "latitude-longitude panorama at the camera, in the image's unit, for lwa")
             .shown_as("FILE")
@@ -99,11 +101,13 @@ void describe_curve(See&& see) {
             .unset("as maximum says"));
     see(option("maximum", &O::maximum,
                "where lmax comes from: the lights in the image, their groups, the panorama, the "
-               "image; auto: the first there is")
-            .one_of({"auto", "lights", "groups", "env", "image"}));
+               "image; first: the first there is, auto: a table of lights or the image")
+            .one_of({"auto", "lights", "groups", "env", "image", "first"})
+            .unset("auto; preset=paper, classic: first"));
     see(option("maxpercentile", "max_percentile", &O::max_percentile,
                "percentile of the luminances of groups and image that counts as their largest")
-            .within(50, 100));
+            .within(50, 100)
+            .unset("99.99; preset=paper, classic: 100"));
     see(option("bias", &O::bias, "bias of Drago's curve").within(0.01, 1));
     see(option("ldmax", &O::ldmax, "luminance of the display's white in cd/m2")
             .within(1, 10000)

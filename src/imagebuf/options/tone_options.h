@@ -10,6 +10,15 @@
 
 namespace tonetool {
 
+/// Which pixels are measured.
+inline std::vector<std::string> count_names() {
+    return {"lit", "all"};
+}
+inline std::string count_text() {
+    return "pixels that are measured; lit: neither black on the background nor of alpha 0, all: "
+           "every finite one";
+}
+
 template <class See>
 void describe(const CalibrationOptions&, See&& see) {
     using O = CalibrationOptions;
@@ -21,6 +30,11 @@ void describe(const CalibrationOptions&, See&& see) {
     see(option("level", &O::level,
                "local means over 2^N x 2^N cells of the image; 0: one mean for the image")
             .within(0, 20));
+    see(option("count", &O::count, count_text())
+            .one_of(count_names())
+            .unset("lit; with skipblack or skiptransparent: all"));
+    see(option("means", &O::means, "what the mean is of: pixels, or the means of about 2300 cells")
+            .one_of({"pixels", "cells"}));
     see(option("epsilon", &O::epsilon, "added to each luminance before its logarithm")
             .within(1e-30, 1));
     see(option("skipblack", "skip_black", &O::skip_black,

@@ -4,7 +4,7 @@
 
 #include <OpenImageIO/strutil.h>
 #include <algorithm>
-#include <memory>
+#include <vector>
 
 #include "imagebuf/color/color_reader.h"
 #include "imagebuf/pixels/guard.h"
@@ -12,6 +12,7 @@
 #include "imagebuf/pixels/row_source.h"
 #include "imagebuf/tone/cgtmo_guides.h"
 #include "imagebuf/tone/cgtmo_plan.h"
+#include "imagebuf/tone/counted_pixels.h"
 #include "imagebuf/tone/noise.h"
 #include "imagebuf/tone/scene_stats.h"
 
@@ -37,8 +38,11 @@ public:
         m_plan = plan_local(m_options);
         const ROI part = part_of(m_src, roi);
         read_color();
-        measure();
-        map(part);
+        LocalGuides guides(m_src, m_options, m_region, m_nthreads);
+        if (m_plan.filter == BaseFilter::Guided)
+            guides.read(m_plan.what, summary);
+        measure(guides);
+        map(guides, part);
         ImageBuf out = copy_pixels(m_src, part, m_nthreads);
         place(out);
         tag(out.specmod());
@@ -49,7 +53,7 @@ public:
 
 private:
     void read_color() {
-        m_reader.open(m_src, m_options.pixels, m_region, false, m_nthreads);
+        m_reader.open(m_src, m_options.pixels, m_region, m_options.count == "lit", m_nthreads);
         m_planes = m_reader.planes();
         m_reader.read(m_region.ybegin, m_region.yend, m_planes);
         summary.layer = m_planes.choice.layer;
@@ -61,9 +65,18 @@ private:
                 format("{} pixel(s) are not finite and became black", summary.nonfinite));
     }
 
-    // Lwa and Lmax.
-    void measure() {
-        SceneStats scene = measure_scene(m_src, m_options, m_reader, m_planes, m_nthreads);
+    // Lwa and Lmax. Alpha is not looked at again.
+    void measure(const LocalGuides& guides) {
+        std::vector<uint8_t> found;
+        const uint8_t* background = guides.background();
+        if (m_options.count == "lit" && m_plan.filter != BaseFilter::Guided) {
+            found = background_of(m_src, summary.layer, m_region, m_nthreads);
+            background = found.empty() ? nullptr : found.data();
+        }
+        SceneStats scene =
+            measure_scene(m_src, m_options, m_reader, m_planes, background, m_nthreads);
+        m_planes.alpha = {};
+        summary.counted = scene.counted;
         summary.adaptation = m_plan.what.curve.adaptation = scene.adaptation;
         summary.maximum = m_plan.what.curve.maximum = scene.maximum;
         summary.adaptation_from = scene.adaptation_from;
@@ -77,15 +90,12 @@ private:
 
     // The colours of a part of the region become display light. What it takes is gone afterwards,
     // before the result needs memory.
-    void map(const ROI& part) {
-        LocalGuides guides(m_src, m_options, m_region, m_nthreads);
+    void map(const LocalGuides& guides, const ROI& part) {
         kernels::GuidePlanes image;
         image.stride = image.width = m_region.width();
         image.height = m_region.height();
-        if (m_plan.filter == BaseFilter::Guided) {
-            guides.read(m_plan.what, summary);
+        if (m_plan.filter == BaseFilter::Guided)
             image = guides.view();
-        }
         summary.samples = m_plan.samples;
         const kernels::Window window{part.xbegin - m_region.xbegin, part.ybegin - m_region.ybegin,
                                      part.width(), part.height()};

@@ -28,6 +28,12 @@ public:
     /// Planes of the region without a value; valid as long as this is.
     const kernels::GuidePlanes& view() const { return m_view; }
 
+    /// 1 where no surface is seen; null where no guide tells.
+    const uint8_t* background() const {
+        const bool tells = m_guides.has_position() || m_guides.has_normal() || m_guides.has_depth();
+        return tells ? m_view.background : nullptr;
+    }
+
 private:
     GBufferNames find(const std::string& beauty) const;
     GBufferNames find_in_files(GuideOptions& asked) const;

@@ -40,10 +40,13 @@ struct Preset {
     const char *domain, *base, *clip;
     double lumsigma;
     int samples;
+    const char *count, *lwa, *maximum;
+    double max_percentile;
 };
-constexpr Preset kPresets[] = {{"default", "log", "mean", "channel", kLuminanceSigma, 80},
-                               {"paper", "linear", "mean", "channel", 0, 0},
-                               {"classic", "log", "mean", "channel", kLuminanceSigma, 80}};
+constexpr Preset kPresets[] = {
+    {"default", "log", "edges", "hue", kLuminanceSigma, 80, "lit", "cells", "auto", 99.99},
+    {"paper", "linear", "mean", "channel", 0, 0, "all", "geometric", "first", 100},
+    {"classic", "log", "mean", "channel", kLuminanceSigma, 80, "all", "geometric", "first", 100}};
 
 void check_edges(const CgTmoOptions& o) {
     const bool edges = o.base == "edges";
@@ -110,6 +113,10 @@ CgTmoOptions with_preset(const CgTmoOptions& options) {
     check_edges(o);
     o.lumsigma = o.lumsigma.value_or(o.base == "edges" ? 0 : preset.lumsigma);
     o.samples = o.samples.value_or(preset.samples);
+    fill(o.count, preset.count);
+    fill(o.lwa, preset.lwa);
+    fill(o.maximum, preset.maximum);
+    o.max_percentile = o.max_percentile.value_or(preset.max_percentile);
     return o;
 }
 

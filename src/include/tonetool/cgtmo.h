@@ -19,10 +19,12 @@ namespace tonetool {
 
 struct CgTmoOptions {
     PixelOptions pixels; ///< the beauty and its colour space
-    /// "default": the base keeps edges of light (`base`); "classic": it is a mean of log luminance,
-    /// and beside the G-buffer AOVs a luminance term (0.4 in log10) guides the filter, since
-    /// emitters, their glow and shadows are not in a G-buffer; "paper": Eq. 2 and 4 to the letter,
-    /// the base is a mean of luminance over the whole window that the G-buffer AOVs alone guide.
+    /// "default": the base keeps edges of light (`base`), and the statistics are those of a scene
+    /// (`count`, `lwa`, `max_percentile`); "classic": the base is a mean of log luminance, and
+    /// beside the G-buffer AOVs a luminance term (0.4 in log10) guides the filter, since emitters,
+    /// their glow and shadows are not in a G-buffer; the statistics are those of all pixels;
+    /// "paper": Eq. 2 and 4 to the letter, the base is a mean of luminance over the whole window
+    /// that the G-buffer AOVs alone guide.
     /// Empty: "default", with the filters that have a base of their own "classic". The options
     /// below override the preset.
     std::string preset;
@@ -64,9 +66,14 @@ struct CgTmoOptions {
     /// Parameters of weighted least squares, valid with that filter alone: the sensitivity to
     /// edges, 0 to 4 (1.2), and the smoothness of the base, 0 to 100 (0.125).
     std::optional<double> wlsalpha, wlslambda;
+    /// Which pixels are measured. "lit": those that show something, neither black on the background
+    /// nor of alpha 0; "all": every finite pixel. Empty: the preset's.
+    std::string count;
     /// Adaptation luminance: "geometric", "harmonic", "arithmetic", "median" of the panorama, or
-    /// of the image without one; or a number.
-    std::string lwa = "geometric";
+    /// of the image without one; "cells": the geometric mean of the means of about 2300 square
+    /// cells of the image, which noise hardly moves, or that of the panorama's pixels; or a number.
+    /// Empty: the preset's.
+    std::string lwa;
     /// File of a latitude-longitude panorama from the camera's position, in the image's unit.
     std::string env;
     std::string weight = "solidangle"; ///< PanoramaOptions::weight
@@ -74,10 +81,12 @@ struct CgTmoOptions {
     /// The source of Lmax. "lights": the largest luminance in `lights.table` among the lights that
     /// light the image; "groups": the largest luminance in the layers of the light groups; "env":
     /// in the panorama; "image": in the image. Where a source is not available the next one is
-    /// used. "auto": the first source that was given, groups only if they add up to the image.
-    std::string maximum = "auto";
-    /// Percentile of groups and image that replaces their maximum; 50 to 100.
-    double max_percentile = 100;
+    /// used. "first": the first source that was given, groups only if they add up to the image;
+    /// "auto": the lights if there is a table, else the image. Empty: the preset's.
+    std::string maximum;
+    /// Percentile of groups and image that replaces their maximum; 50 to 100. With count "lit" all
+    /// larger luminances of the image are passed over, at least one below 100. Unset: the preset's.
+    std::optional<double> max_percentile;
     LightOptions lights;
     double bias = 0.85;          ///< of Drago's curve, 0.01 to 1
     double ldmax = 100;          ///< cd/m2 of the display, 1 to 10000; 100 counts as 1
@@ -104,6 +113,7 @@ struct CgTmoSummary {
     double footprint = 0;   ///< median, in the unit of positions; 0: unknown
     int samples = 0;        ///< neighbours of each pixel; 0: all (wls)
     int64_t background = 0; ///< pixels without a surface
+    int64_t counted = 0;    ///< pixels whose light was measured
     int64_t nonfinite = 0, negative = 0;
     std::vector<std::string> warnings;
     std::vector<std::string> notes; ///< choices among several candidates

@@ -85,13 +85,13 @@ TEST(Noise, IsThatOfTheLight) {
     GuidedScene scene = flat_scene(400, 300, 2);
     kernels::Uniform random(9);
     for (float& v : scene.plane[GuidedScene::kValue])
-        v = float(0.2 * (random() - 0.5)); // of variance 0.04 / 12
+        v = float(0.05 * (random() - 0.5)); // of variance 0.0025 / 12
     const auto noise = noise_of(view_of(scene), kernels::in_order());
     double sum = 0;
     for (int y = 0; y < 300; ++y)
         for (int x = 0; x < 180; ++x)
             sum += double(noise[size_t(y * 400 + x)]);
-    EXPECT_NEAR(sum / (300 * 180), 0.04 / 12, 0.02 * 0.04 / 12);
+    EXPECT_NEAR(sum / (300 * 180), 0.0025 / 12, 0.02 * 0.0025 / 12);
 }
 
 TEST(Noise, DoesNotDependOnTheSchedule) {
