@@ -2,6 +2,7 @@
 #include "imagebuf/tone/calibrate.h"
 
 #include <OpenImageIO/strutil.h>
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -124,7 +125,11 @@ double Calibration::cells_of(const float* plane, int nthreads) const {
 // all black stays what it is unless it was asked for light.
 double Calibration::keep_lit(const ImageBuf& image, const ColorPlanes& planes,
                              std::vector<float>& luminance, int nthreads) const {
-    const auto background = background_of(image, planes.choice.layer, m_region, nthreads);
+    // What shows no surface matters only where there is no light.
+    const bool dark =
+        std::any_of(luminance.begin(), luminance.end(), [](float v) { return v <= 0; });
+    const auto background = dark ? background_of(image, planes.choice.layer, m_region, nthreads)
+                                 : std::vector<uint8_t>();
     const bool alpha = planes.choice.a >= 0 && !planes.alpha.empty();
     const CountedPixels counted = counted_pixels(
         luminance.data(), m_region.width(), m_region.height(),
