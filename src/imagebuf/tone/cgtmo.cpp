@@ -8,6 +8,7 @@
 
 #include "imagebuf/color/color_reader.h"
 #include "imagebuf/pixels/guard.h"
+#include "imagebuf/pixels/has_pixels.h"
 #include "imagebuf/pixels/parallel.h"
 #include "imagebuf/pixels/row_source.h"
 #include "imagebuf/tone/cgtmo_guides.h"
@@ -37,13 +38,12 @@ public:
         check_readable(m_src, "source");
         m_plan = plan_local(m_options);
         const ROI part = part_of(m_src, roi);
-        read_color();
-        LocalGuides guides(m_src, m_options, m_region, m_nthreads);
-        if (m_plan.filter == BaseFilter::Guided)
-            guides.read(m_plan.what, summary);
-        measure(guides);
-        map(guides, part);
-        ImageBuf out = copy_pixels(m_src, part, m_nthreads);
+        ImageBuf whole = read_once();
+        m_pixels = whole.initialized() ? &whole : &m_src;
+        make(part);
+        ImageBuf out = whole.initialized() && same_window(part, whole.roi())
+                           ? std::move(whole)
+                           : copy_pixels(*m_pixels, part, m_nthreads);
         place(out);
         tag(out.specmod());
         dst = std::move(out);
@@ -52,8 +52,33 @@ public:
     CgTmoSummary summary;
 
 private:
+    // All channels of a file, which each reader of a few would have to decode again. Other files
+    // and types are read as what they are.
+    ImageBuf read_once() const {
+        const ImageSpec& native = m_src.nativespec();
+        bool floats = is_file_to_read(m_src) && native.nchannels == m_src.nchannels() &&
+                      std::string(m_src.file_format_name()) == "openexr";
+        for (int c = 0; c < native.nchannels; ++c)
+            floats = floats && native.channelformat(c).is_floating_point();
+        if (!floats)
+            return {};
+        (void)chosen_color(deciding_spec(m_src), m_options.pixels); // before it takes any time
+        return copy_pixels(m_src, part_of(m_src, {}), m_nthreads);
+    }
+
+    // The picture, in the planes of colour. The guides are gone afterwards, before the result needs
+    // memory.
+    void make(const ROI& part) {
+        read_color();
+        LocalGuides guides(m_src, *m_pixels, m_options, m_region, m_nthreads);
+        if (m_plan.filter == BaseFilter::Guided)
+            guides.read(m_plan.what, summary);
+        measure(guides);
+        map(guides, part);
+    }
+
     void read_color() {
-        m_reader.open(m_src, m_options.pixels, m_region, m_options.count == "lit", m_nthreads);
+        m_reader.open(*m_pixels, m_options.pixels, m_region, m_options.count == "lit", m_nthreads);
         m_planes = m_reader.planes();
         m_reader.read(m_region.ybegin, m_region.yend, m_planes);
         summary.layer = m_planes.choice.layer;
@@ -70,11 +95,11 @@ private:
         std::vector<uint8_t> found;
         const uint8_t* background = guides.background();
         if (m_options.count == "lit" && m_plan.filter != BaseFilter::Guided) {
-            found = background_of(m_src, summary.layer, m_region, m_nthreads);
+            found = background_of(*m_pixels, summary.layer, m_region, m_nthreads);
             background = found.empty() ? nullptr : found.data();
         }
         SceneStats scene =
-            measure_scene(m_src, m_options, m_reader, m_planes, background, m_nthreads);
+            measure_scene(*m_pixels, m_options, m_reader, m_planes, background, m_nthreads);
         m_planes.alpha = {};
         summary.counted = scene.counted;
         summary.adaptation = m_plan.what.curve.adaptation = scene.adaptation;
@@ -88,8 +113,7 @@ private:
         m_luminance = std::move(scene.luminance);
     }
 
-    // The colours of a part of the region become display light. What it takes is gone afterwards,
-    // before the result needs memory.
+    // The colours of a part of the region become display light.
     void map(const LocalGuides& guides, const ROI& part) {
         kernels::GuidePlanes image;
         image.stride = image.width = m_region.width();
@@ -217,6 +241,7 @@ private:
     }
 
     const ImageBuf& m_src;
+    const ImageBuf* m_pixels = nullptr; ///< where they are read: the source, or all of it in memory
     const CgTmoOptions m_options;
     int m_nthreads;
     ROI m_region;

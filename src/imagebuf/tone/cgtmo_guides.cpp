@@ -110,7 +110,7 @@ void LocalGuides::read(tonemap::LocalOperator& what, CgTmoSummary& summary) {
     m_view.stride = m_view.width = m_region.width();
     m_view.height = m_region.height();
     const GBufferNames names = find(summary.layer);
-    m_guides = read_gbuffer(m_image, names, m_region, m_nthreads);
+    m_guides = read_gbuffer(m_pixels, names, m_region, m_nthreads);
     append(summary.warnings, m_guides.warnings);
     summary.notes = names.notes;
     if (names.depth && m_guides.has_depth())
