@@ -127,7 +127,8 @@ namespace ToneAlgo {
 ///
 /// Colour: as tonemap with a curve, in linear Rec.709; every other channel is carried. Missing
 /// AOVs: without position, normal or albedo its term is left out, with a warning; without all of
-/// them the luminance term alone remains. Background (no surface): only background pixels are its
+/// them a base "edges" has neighbours by distance alone, without a warning, and a base "mean" the
+/// luminance term. Background (no surface): only background pixels are its
 /// neighbours. NaN, Inf, negative colour: as tonemap; such pixels take no part in the base, nor do
 /// black ones in that of weighted least squares. Weighted least squares are solved for the whole
 /// image whatever the ROI, on one thread, and take 0.4 kB of memory for each pixel. They are solved
