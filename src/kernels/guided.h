@@ -46,6 +46,9 @@ struct GuidedTerms {
 inline constexpr float kLeastFootprint = 1e-15f, kMostFootprint = 1e15f;
 inline constexpr float kLargestGuidedValue = 1e35f, kFarthestPosition = 1e15f;
 
+/// Variances below this are 0: what is left of them in float are roundings.
+inline constexpr float kLeastVariance = 1e-7f;
+
 /// Weights whose log2 is below this are 0.
 inline constexpr float kLeastLog2Weight = -126.5f;
 

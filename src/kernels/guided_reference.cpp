@@ -97,14 +97,11 @@ double guide_exponent(const GuidePlanes& image, const GuidedTerms& terms, ptrdif
     return out;
 }
 
-} // namespace
-
-double guided_reference(const GuidePlanes& image, const GuidedTerms& terms, const TapSets& taps,
-                        int x, int y) {
+// Calls add(weight, value) on the pixels of the window that count.
+template <class Add>
+void visit_window(const GuidePlanes& image, const GuidedTerms& terms, const TapSets& taps, int x,
+                  int y, const Add& add) {
     const ptrdiff_t i = (y - image.first_row) * image.stride + x;
-    if (!counts(image, terms, i))
-        return double(image.value[i]);
-    double sum = 0, weights = 0;
     for (const Tap& tap : taps.at(x, y)) {
         const int nx = x + tap.dx, ny = y + tap.dy;
         if (nx < 0 || nx >= image.width || ny < 0 || ny >= image.height)
@@ -116,11 +113,37 @@ double guided_reference(const GuidePlanes& image, const GuidedTerms& terms, cons
             guide_exponent(image, terms, i, j) - double(tap.log2_weight) * std::log(2.0);
         if (-exponent < double(kLeastLog2Weight) * std::log(2.0))
             continue;
-        const double w = std::exp(-exponent);
-        sum += w * std::min(double(image.value[j]), double(kLargestGuidedValue));
-        weights += w;
+        add(std::exp(-exponent), std::min(double(image.value[j]), double(kLargestGuidedValue)));
     }
+}
+
+} // namespace
+
+double guided_reference(const GuidePlanes& image, const GuidedTerms& terms, const TapSets& taps,
+                        int x, int y) {
+    const ptrdiff_t i = (y - image.first_row) * image.stride + x;
+    if (!counts(image, terms, i))
+        return double(image.value[i]);
+    double sum = 0, weights = 0;
+    visit_window(image, terms, taps, x, y, [&](double w, double value) {
+        sum += w * value;
+        weights += w;
+    });
     return weights > 0 ? sum / weights : double(image.value[i]);
+}
+
+GuidedMoments moments_reference(const GuidePlanes& image, const GuidedTerms& terms,
+                                const TapSets& taps, int x, int y) {
+    const double mean = guided_reference(image, terms, taps, x, y);
+    if (!counts(image, terms, (y - image.first_row) * image.stride + x))
+        return {mean, 0};
+    double sum = 0, weights = 0;
+    visit_window(image, terms, taps, x, y, [&](double w, double value) {
+        sum += w * (value - mean) * (value - mean);
+        weights += w;
+    });
+    const double variance = weights > 0 ? sum / weights : 0;
+    return {mean, variance < double(kLeastVariance) ? 0 : variance};
 }
 
 } // namespace tonetool::kernels

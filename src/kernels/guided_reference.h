@@ -11,4 +11,11 @@ namespace tonetool::kernels {
 double guided_reference(const GuidePlanes& image, const GuidedTerms& terms, const TapSets& taps,
                         int x, int y);
 
+/// Its weighted mean and variance.
+struct GuidedMoments {
+    double mean, variance;
+};
+GuidedMoments moments_reference(const GuidePlanes& image, const GuidedTerms& terms,
+                                const TapSets& taps, int x, int y);
+
 } // namespace tonetool::kernels

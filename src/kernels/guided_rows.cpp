@@ -289,65 +289,164 @@ void FilterRun(const GuidedLayout& layout, const GuidedScales& scales, const Gui
     }
 }
 
-template <bool kPosition, bool kAngle, bool kRangeOfValue>
-void WithPlain(const GuidedLayout& layout, const GuidedScales& scales, const GuidedRun& run,
-               float* out) {
-    switch (layout.plain) {
+// Sums of what the neighbours differ by from the pixel itself: a variance that is far less than the
+// square of the mean keeps its digits.
+struct MomentsOfRun {
+    alignas(64) float first[kGuidedRun] = {}, second[kGuidedRun] = {}, weights[kGuidedRun] = {};
+
+    HWY_INLINE void Add(ptrdiff_t x, V one, V two, V weight) {
+        hn::Store(hn::Add(hn::Load(d, first + x), one), d, first + x);
+        hn::Store(hn::Add(hn::Load(d, second + x), two), d, second + x);
+        hn::Store(hn::Add(hn::Load(d, weights + x), weight), d, weights + x);
+    }
+};
+
+template <class Terms>
+HWY_INLINE void AddMoments(const Terms& terms, const Batch& batch, ptrdiff_t x, ptrdiff_t pitch,
+                           MomentsOfRun& sums) {
+    V first = hn::Zero(d), second = hn::Zero(d), weight = hn::Zero(d);
+    for (ptrdiff_t i = 0; i < kBatch; i += kTogether) {
+        Together w;
+        terms.Weigh(batch.at + i, x, pitch, batch.start + i, w);
+        for (int k = 0; k < kTogether; ++k) {
+            const V away = hn::Sub(hn::LoadU(d, batch.at[i + k] + x), terms.value);
+            const V share = hn::Mul(w[k], away);
+            weight = hn::Add(weight, w[k]);
+            first = hn::Add(first, share);
+            second = hn::MulAdd(share, away, second);
+        }
+    }
+    sums.Add(x, first, second, weight);
+}
+
+template <class Terms>
+void MomentsRun(const GuidedLayout& layout, const GuidedScales& scales, const GuidedRun& run,
+                float* HWY_RESTRICT mean, float* HWY_RESTRICT variance) {
+    const auto lanes = ptrdiff_t(hn::Lanes(d));
+    const float* const row = run.rows[0] + run.column;
+    MomentsOfRun all;
+    for (ptrdiff_t block = 0; block < run.count; block += kBlock) {
+        MomentsOfRun sums;
+        for (ptrdiff_t i = block; i < std::min(block + kBlock, run.count); i += kBatch) {
+            const Batch batch(run, i, Terms::kAngle ? scales.angle : 0.0f);
+            for (ptrdiff_t x = 0; x < kGuidedRun; x += lanes)
+                AddMoments(Terms(layout, scales, row + x), batch, x, run.pitch, sums);
+        }
+        for (ptrdiff_t x = 0; x < kGuidedRun; x += lanes)
+            all.Add(x, hn::Load(d, sums.first + x), hn::Load(d, sums.second + x),
+                    hn::Load(d, sums.weights + x));
+    }
+    for (ptrdiff_t x = 0; x < kGuidedRun; x += lanes) {
+        const V weight = hn::Load(d, all.weights + x);
+        const auto some = hn::Gt(weight, hn::Zero(d));
+        const V away = hn::IfThenElseZero(some, hn::Div(hn::Load(d, all.first + x), weight));
+        const V square = hn::IfThenElseZero(some, hn::Div(hn::Load(d, all.second + x), weight));
+        const V v = hn::NegMulAdd(away, away, square);
+        hn::StoreU(hn::Add(hn::LoadU(d, row + x), away), d, mean + x);
+        hn::StoreU(hn::IfThenElseZero(hn::Ge(v, hn::Set(d, kLeastVariance)), v), d, variance + x);
+    }
+}
+
+// What is made of a run, by the terms that its layout has.
+struct MeansTask {
+    static constexpr bool kRange = true;
+    const GuidedLayout& layout;
+    const GuidedScales& scales;
+    const GuidedRun& run;
+    float* out;
+
+    template <class Terms>
+    void Do() const {
+        FilterRun<Terms>(layout, scales, run, out);
+    }
+};
+
+struct MomentsTask {
+    static constexpr bool kRange = false;
+    const GuidedLayout& layout;
+    const GuidedScales& scales;
+    const GuidedRun& run;
+    float *mean, *variance;
+
+    template <class Terms>
+    void Do() const {
+        MomentsRun<Terms>(layout, scales, run, mean, variance);
+    }
+};
+
+template <bool kPosition, bool kAngle, bool kRangeOfValue, class Task>
+void WithPlain(const Task& task) {
+    if constexpr (Task::kRange)
+        switch (task.layout.plain) {
+        case 1:
+            return task.template Do<Terms<kPosition, 1, 0, kAngle, kRangeOfValue>>();
+        case 4:
+            return task.template Do<Terms<kPosition, 4, 0, kAngle, kRangeOfValue>>();
+        case 7:
+            return task.template Do<Terms<kPosition, 7, 0, kAngle, kRangeOfValue>>();
+        default:
+            break;
+        }
+    switch (task.layout.plain) {
     case 0:
-        return FilterRun<Terms<kPosition, 0, 0, kAngle, kRangeOfValue>>(layout, scales, run, out);
-    case 1:
-        return FilterRun<Terms<kPosition, 1, 0, kAngle, kRangeOfValue>>(layout, scales, run, out);
+        return task.template Do<Terms<kPosition, 0, 0, kAngle, kRangeOfValue>>();
     case 3:
-        return FilterRun<Terms<kPosition, 3, 0, kAngle, kRangeOfValue>>(layout, scales, run, out);
-    case 4:
-        return FilterRun<Terms<kPosition, 4, 0, kAngle, kRangeOfValue>>(layout, scales, run, out);
-    case 6:
-        return FilterRun<Terms<kPosition, 6, 0, kAngle, kRangeOfValue>>(layout, scales, run, out);
+        return task.template Do<Terms<kPosition, 3, 0, kAngle, kRangeOfValue>>();
     default:
-        return FilterRun<Terms<kPosition, 7, 0, kAngle, kRangeOfValue>>(layout, scales, run, out);
+        return task.template Do<Terms<kPosition, 6, 0, kAngle, kRangeOfValue>>();
     }
 }
 
 // With packed pairs the range is the only other plane.
-template <bool kPosition, int kPairs>
-void WithPairs(const GuidedLayout& layout, const GuidedScales& scales, const GuidedRun& run,
-               float* out) {
-    if (layout.range_of_value)
-        FilterRun<Terms<kPosition, 0, kPairs, false, true>>(layout, scales, run, out);
-    else if (layout.plain > 0)
-        FilterRun<Terms<kPosition, 1, kPairs, false, false>>(layout, scales, run, out);
-    else
-        FilterRun<Terms<kPosition, 0, kPairs, false, false>>(layout, scales, run, out);
+template <bool kPosition, int kPairs, class Task>
+void WithPairs(const Task& task) {
+    if constexpr (Task::kRange) {
+        if (task.layout.range_of_value)
+            return task.template Do<Terms<kPosition, 0, kPairs, false, true>>();
+        if (task.layout.plain > 0)
+            return task.template Do<Terms<kPosition, 1, kPairs, false, false>>();
+    }
+    task.template Do<Terms<kPosition, 0, kPairs, false, false>>();
 }
 
-template <bool kPosition>
-void WithPosition(const GuidedLayout& layout, const GuidedScales& scales, const GuidedRun& run,
-                  float* out) {
-    if (layout.pairs == 3)
-        WithPairs<kPosition, 3>(layout, scales, run, out);
-    else if (layout.pairs == 2)
-        WithPairs<kPosition, 2>(layout, scales, run, out);
-    else if (layout.angle && layout.range_of_value)
-        WithPlain<kPosition, true, true>(layout, scales, run, out);
-    else if (layout.angle)
-        WithPlain<kPosition, true, false>(layout, scales, run, out);
-    else if (layout.range_of_value)
-        WithPlain<kPosition, false, true>(layout, scales, run, out);
+template <bool kPosition, class Task>
+void WithPosition(const Task& task) {
+    if (task.layout.pairs == 3)
+        return WithPairs<kPosition, 3>(task);
+    if (task.layout.pairs == 2)
+        return WithPairs<kPosition, 2>(task);
+    if constexpr (Task::kRange) {
+        if (task.layout.angle && task.layout.range_of_value)
+            return WithPlain<kPosition, true, true>(task);
+        if (task.layout.range_of_value)
+            return WithPlain<kPosition, false, true>(task);
+    }
+    if (task.layout.angle)
+        return WithPlain<kPosition, true, false>(task);
+    WithPlain<kPosition, false, false>(task);
+}
+
+template <class Task>
+void ByPosition(const Task& task) {
+    if (task.layout.position)
+        WithPosition<true>(task);
     else
-        WithPlain<kPosition, false, false>(layout, scales, run, out);
+        WithPosition<false>(task);
 }
 
 void Filter(const GuidedLayout& layout, const GuidedScales& scales, const GuidedRun& run,
             float* out) {
-    if (layout.position)
-        WithPosition<true>(layout, scales, run, out);
-    else
-        WithPosition<false>(layout, scales, run, out);
+    ByPosition(MeansTask{layout, scales, run, out});
+}
+
+void Moments(const GuidedLayout& layout, const GuidedScales& scales, const GuidedRun& run,
+             float* mean, float* variance) {
+    ByPosition(MomentsTask{layout, scales, run, mean, variance});
 }
 
 const GuidedRows& GuidedTable() {
-    static const GuidedRows table = {hwy::TargetName(HWY_TARGET), Fetch, PrepareRow, PrepareOutside,
-                                     Filter};
+    static const GuidedRows table = {
+        hwy::TargetName(HWY_TARGET), Fetch, PrepareRow, PrepareOutside, Filter, Moments};
     return table;
 }
 

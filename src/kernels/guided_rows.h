@@ -61,6 +61,11 @@ struct GuidedRows {
     /// keeps its value.
     void (*filter)(const GuidedLayout& layout, const GuidedScales& scales, const GuidedRun& run,
                    float* out);
+
+    /// The weighted means and variances of a run, for layouts without a range. A pixel without any
+    /// valid neighbour keeps its value, with variance 0.
+    void (*moments)(const GuidedLayout& layout, const GuidedScales& scales, const GuidedRun& run,
+                    float* mean, float* variance);
 };
 
 /// The functions for the best instruction set of this machine.

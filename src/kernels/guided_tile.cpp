@@ -74,7 +74,8 @@ void GuidedTile::prepare(int y, int x0, int columns) {
     m_rows.prepare_outside(m_layout, end - to, row + (to - first));
 }
 
-void GuidedTile::filter(const Window& window, const GuidedRow& row) {
+// Calls run() on the rows of a window while those around them are prepared.
+void GuidedTile::each_row(const Window& window, const std::function<void(int y, int x0)>& run) {
     const int half = m_taps.half(), x0 = window.x0 / kGuidedRun * kGuidedRun;
     const int runs = (window.x0 + window.width - x0 + kGuidedRun - 1) / kGuidedRun;
     for (int y = window.y0 - half; y < window.y0 + half; ++y)
@@ -83,9 +84,23 @@ void GuidedTile::filter(const Window& window, const GuidedRow& row) {
         prepare(y + half, x0, runs * kGuidedRun);
         for (int dy = -half; dy <= half; ++dy)
             *(m_table.begin() + dy + half) = row_of(y + dy) + m_lead;
-        filter_row(y, window, x0, m_filtered.data());
-        row(window.x0, y, window.width, m_filtered.data());
+        run(y, x0);
     }
+}
+
+void GuidedTile::filter(const Window& window, const GuidedRow& row) {
+    each_row(window, [&](int y, int x0) {
+        filter_row(y, window, x0, m_filtered.data(), nullptr);
+        row(window.x0, y, window.width, m_filtered.data());
+    });
+}
+
+void GuidedTile::moments(const Window& window, const MomentsRow& row) {
+    m_variance.resize(m_filtered.size());
+    each_row(window, [&](int y, int x0) {
+        filter_row(y, window, x0, m_filtered.data(), m_variance.data());
+        row(window.x0, y, window.width, m_filtered.data(), m_variance.data());
+    });
 }
 
 // Prefetches a run of a row, and at the ends of the tile what is beside it: spread over the time
@@ -102,8 +117,8 @@ bool GuidedTile::counts(float value, float range) const {
     return value >= m_scales.least && value <= largest && std::abs(range) <= largest;
 }
 
-void GuidedTile::filter_row(int y, const Window& window, int x0, float* out) {
-    alignas(64) float means[kGuidedRun];
+void GuidedTile::filter_row(int y, const Window& window, int x0, float* out, float* variance) {
+    alignas(64) float means[kGuidedRun], variances[kGuidedRun];
     const int end = window.x0 + window.width;
     const float* const values = m_image.value + (y - m_image.first_row) * m_image.stride;
     const float* const range = m_image.range ? m_image.range + (values - m_image.value) : nullptr;
@@ -111,12 +126,18 @@ void GuidedTile::filter_row(int y, const Window& window, int x0, float* out) {
         const auto& taps = m_taps.at(x, y);
         if (y + 1 < window.y0 + window.height)
             fetch(y + m_taps.half() + 1, x, x == x0, x + kGuidedRun >= end);
-        m_rows.filter(m_layout, m_scales,
-                      {m_table.data() + m_taps.half(), x - x0, m_layout.pitch, taps.data(),
-                       ptrdiff_t(taps.size())},
-                      means);
-        for (int i = std::max(x, window.x0); i < std::min(x + kGuidedRun, end); ++i)
-            out[i - window.x0] = counts(values[i], range ? range[i] : 0) ? means[i - x] : values[i];
+        const GuidedRun run{m_table.data() + m_taps.half(), x - x0, m_layout.pitch, taps.data(),
+                            ptrdiff_t(taps.size())};
+        if (variance)
+            m_rows.moments(m_layout, m_scales, run, means, variances);
+        else
+            m_rows.filter(m_layout, m_scales, run, means);
+        for (int i = std::max(x, window.x0); i < std::min(x + kGuidedRun, end); ++i) {
+            const bool valid = counts(values[i], range ? range[i] : 0);
+            out[i - window.x0] = valid ? means[i - x] : values[i];
+            if (variance)
+                variance[i - window.x0] = valid ? variances[i - x] : 0;
+        }
     }
 }
 

@@ -54,6 +54,7 @@ void add_results(Module& module) {
         .field("footprint", &S::footprint, "Median, in the unit of positions; 0: unknown.")
         .field("samples", &S::samples, "Neighbours of each pixel; 0: all.")
         .field("background", &S::background, "Pixels without a surface.")
+        .field("counted", &S::counted, "Pixels whose light was measured.")
         .field("nonfinite", &S::nonfinite, "Pixels with NaN or Inf.")
         .field("negative", &S::negative, "Pixels with a negative component.")
         .field("warnings", &S::warnings, "What a user must know, one sentence each.")

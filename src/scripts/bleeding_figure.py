@@ -19,10 +19,10 @@ INK, FRAME = (0.85, 0.85, 0.85), (1, 1, 0)
 # Squares by their left and upper end and their side, in heights of the image: what is shown of the
 # picture, and the part of it whose objects are as bright as what is behind them.
 PLACES = [((0, 0, 1), (0.22, 0.38, 0.32)), ((0, 0, 1), (0.2, 0.66, 0.33))]
-COLUMNS = {"CG-TMO": "--cgtmo:samples=0",
+COLUMNS = {"CG-TMO": "--cgtmo:preset=classic:samples=0",
            "luminance": "--cgtmo:filter=none:show=base",
            "base, bilateral filter of luminance": "--cgtmo:filter=bilateral:samples=0:show=base",
-           "base, guided filter": "--cgtmo:samples=0:show=base"}
+           "base, guided filter": "--cgtmo:preset=classic:samples=0:show=base"}
 
 
 def made(program, image, command, folder):

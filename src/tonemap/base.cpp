@@ -2,6 +2,7 @@
 #include "tonemap/base.h"
 
 #include <algorithm>
+#include <functional>
 #include <memory>
 #include <mutex>
 #include <vector>
@@ -22,13 +23,15 @@ constexpr int kTileWidth = 7 * kGuidedRun, kTileHeight = 540;
 // Filters tiles in parallel: each takes a work space that is free, or makes one.
 class Tiles {
 public:
+    using Work = std::function<void(GuidedTile& space, const Window& tile)>;
+
     Tiles(const kernels::GuidePlanes& image, const kernels::GuidedTerms& terms,
-          const kernels::TapSets& taps, const Window& window, const kernels::GuidedRow& row)
+          const kernels::TapSets& taps, const Window& window, const Work& work)
         : m_image(image),
           m_terms(terms),
           m_taps(taps),
           m_window(window),
-          m_row(row),
+          m_work(work),
           m_first(window.x0 / kGuidedRun * kGuidedRun),
           m_across((window.x0 + window.width - m_first + kTileWidth - 1) / kTileWidth),
           m_down((window.height + kTileHeight - 1) / kTileHeight),
@@ -43,7 +46,7 @@ public:
         const int y0 = int(i / m_across) * m_height;
         const int y1 = std::min(y0 + m_height, m_window.height);
         auto space = take();
-        space->filter({x0, m_window.y0 + y0, x1 - x0, y1 - y0}, m_row);
+        m_work(*space, {x0, m_window.y0 + y0, x1 - x0, y1 - y0});
         const std::lock_guard<std::mutex> hold(m_lock);
         m_free.push_back(std::move(space));
     }
@@ -65,22 +68,36 @@ private:
     const kernels::GuidedTerms& m_terms;
     const kernels::TapSets& m_taps;
     Window m_window;
-    const kernels::GuidedRow& m_row;
+    const Work& m_work;
     int m_first; ///< column that tiles are counted from
     int m_across, m_down, m_height;
     std::mutex m_lock;
     std::vector<std::unique_ptr<GuidedTile>> m_free;
 };
 
+void each_tile(const kernels::GuidePlanes& image, const kernels::GuidedTerms& terms,
+               const kernels::TapSets& taps, const Window& window,
+               const kernels::ParallelFor& parallel, const Tiles::Work& work) {
+    if (window.width <= 0 || window.height <= 0)
+        return;
+    Tiles tiles(image, terms, taps, window, work);
+    parallel(tiles.count(), [&tiles](int64_t i) { tiles.run(i); });
+}
+
 } // namespace
 
 void filter_base(const kernels::GuidePlanes& image, const kernels::GuidedTerms& terms,
                  const kernels::TapSets& taps, const Window& window, const kernels::GuidedRow& row,
                  const kernels::ParallelFor& parallel) {
-    if (window.width <= 0 || window.height <= 0)
-        return;
-    Tiles tiles(image, terms, taps, window, row);
-    parallel(tiles.count(), [&tiles](int64_t i) { tiles.run(i); });
+    each_tile(image, terms, taps, window, parallel,
+              [&row](GuidedTile& space, const Window& tile) { space.filter(tile, row); });
+}
+
+void filter_moments(const kernels::GuidePlanes& image, const kernels::GuidedTerms& terms,
+                    const kernels::TapSets& taps, const Window& window,
+                    const kernels::MomentsRow& row, const kernels::ParallelFor& parallel) {
+    each_tile(image, terms, taps, window, parallel,
+              [&row](GuidedTile& space, const Window& tile) { space.moments(tile, row); });
 }
 
 void filter_base(const kernels::GuidePlanes& image, const kernels::GuidedTerms& terms,

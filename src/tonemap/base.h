@@ -20,4 +20,9 @@ void filter_base(const kernels::GuidePlanes& image, const kernels::GuidedTerms& 
                  const kernels::TapSets& taps, const kernels::Window& window, float* out,
                  ptrdiff_t stride, const kernels::ParallelFor& parallel);
 
+/// The means of a window and their variances; the image has no range.
+void filter_moments(const kernels::GuidePlanes& image, const kernels::GuidedTerms& terms,
+                    const kernels::TapSets& taps, const kernels::Window& window,
+                    const kernels::MomentsRow& row, const kernels::ParallelFor& parallel);
+
 } // namespace tonetool::tonemap

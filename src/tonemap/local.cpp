@@ -88,6 +88,63 @@ private:
     const LocalOutput& m_output;
 };
 
+// Part of a row of a base with edge terms.
+struct EdgeRow {
+    int count;
+    const float *base, *share;
+};
+
+// Pixels that are handed out at once, in buffers on the stack.
+constexpr int kEdgePart = 256;
+
+// Of one row, in the order of its pixels.
+void split_edges(const EdgeTerms& terms, const float* value, const float* noise, const float* mean,
+                 const float* variance, int count, float* base, float* share) {
+    const auto edge = float(terms.edge * terms.edge), denoise = float(terms.denoise);
+    for (int x = 0; x < count; ++x) {
+        const float v = variance[x];
+        const float of_edge = v / (v + edge);
+        const float of_noise = noise ? std::min(1.0f, denoise * noise[x] / std::max(v, 1e-9f)) : 0;
+        share[x] = 1 - (1 - of_edge) * (1 - of_noise);
+        base[x] = mean[x] + share[x] * (value[x] - mean[x]);
+    }
+}
+
+template <class Take>
+void each_edge_row(const LocalOperator& what, const GuidePlanes& image,
+                   const kernels::TapSets& taps, const Window& window,
+                   const kernels::ParallelFor& parallel, const Take& take) {
+    GuidePlanes planes = image;
+    planes.range = nullptr;
+    filter_moments(
+        planes, terms_of(what), taps, window,
+        [&](int x0, int y, int count, const float* mean, const float* variance) {
+            float base[kEdgePart], share[kEdgePart];
+            const float* const value = image.value + (y - image.first_row) * image.stride + x0;
+            const float* const plane = what.edges->noise;
+            const float* const noise = plane ? plane + ptrdiff_t(y) * image.width + x0 : nullptr;
+            for (int x = 0; x < count; x += kEdgePart) {
+                const int n = std::min(kEdgePart, count - x);
+                split_edges(*what.edges, value + x, noise ? noise + x : nullptr, mean + x,
+                            variance + x, n, base, share);
+                take(x0 + x, y, EdgeRow{n, base, share});
+            }
+        },
+        parallel);
+}
+
+// Hands out rows of the base.
+void each_base(const LocalOperator& what, const GuidePlanes& image, const kernels::TapSets& taps,
+               const Window& window, const kernels::ParallelFor& parallel,
+               const kernels::GuidedRow& row) {
+    if (what.edges)
+        return each_edge_row(
+            what, image, taps, window, parallel,
+            [&](int x0, int y, const EdgeRow& part) { row(x0, y, part.count, part.base); });
+    const Planes planes(what, image, taps, window, parallel);
+    filter_base(planes.view(), terms_of(what), taps, window, row, parallel);
+}
+
 } // namespace
 
 void take_logarithms(const LocalOperator& what, float* luminance, int width, int height,
@@ -103,8 +160,17 @@ void take_logarithms(const LocalOperator& what, float* luminance, int width, int
 void guided_base(const LocalOperator& what, const GuidePlanes& image, const kernels::TapSets& taps,
                  const Window& window, float* base, ptrdiff_t stride,
                  const kernels::ParallelFor& parallel) {
-    const Planes planes(what, image, taps, window, parallel);
-    filter_base(planes.view(), terms_of(what), taps, window, base, stride, parallel);
+    each_base(what, image, taps, window, parallel, [&](int x0, int y, int count, const float* row) {
+        std::copy_n(row, count, base + (y - window.y0) * stride + (x0 - window.x0));
+    });
+}
+
+void guided_share(const LocalOperator& what, const GuidePlanes& image, const kernels::TapSets& taps,
+                  const Window& window, float* share, ptrdiff_t stride,
+                  const kernels::ParallelFor& parallel) {
+    each_edge_row(what, image, taps, window, parallel, [&](int x0, int y, const EdgeRow& row) {
+        std::copy_n(row.share, row.count, share + (y - window.y0) * stride + (x0 - window.x0));
+    });
 }
 
 void local_part(const LocalOperator& what, const ConstRgb& color, const LocalBase& base,
@@ -130,12 +196,9 @@ void local_part(const LocalOperator& what, const ConstRgb& color, const LocalBas
 void tone_map_guided(const LocalOperator& what, const ConstRgb& color, const GuidePlanes& image,
                      const kernels::TapSets& taps, const Window& window, const LocalOutput& output,
                      const kernels::ParallelFor& parallel) {
-    const Planes planes(what, image, taps, window, parallel);
     const Recombination recombine(what, color, window, output);
-    filter_base(
-        planes.view(), terms_of(what), taps, window,
-        [&](int x0, int y, int count, const float* base) { recombine(x0, y, count, base); },
-        parallel);
+    each_base(what, image, taps, window, parallel,
+              [&](int x0, int y, int count, const float* base) { recombine(x0, y, count, base); });
 }
 
 void tone_map_local(const LocalOperator& what, const ConstRgb& color, const LocalBase& base,

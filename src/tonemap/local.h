@@ -3,11 +3,23 @@
 // library sees only numbers and planes.
 #pragma once
 
+#include <optional>
+
 #include "kernels/guided.h"
 #include "kernels/local_rows.h"
 #include "kernels/views.h"
 
 namespace tonetool::tonemap {
+
+/// A base that is a linear function of the logarithm of luminance within each window, so that it is
+/// never steeper than luminance: detail of a variance well below `edge`^2 is left out of it, edges
+/// of light are not, and neither is noise.
+struct EdgeTerms {
+    double edge = 0.16; ///< natural logarithm: what varies by more is an edge
+    double denoise = 2; ///< how much of the noise's variance is no detail
+    const float* noise =
+        nullptr; ///< variance of noise, a packed plane of the image's size; null: none
+};
 
 struct LocalOperator {
     kernels::LocalCurve curve;  ///< `log_base` is set by what follows
@@ -15,8 +27,9 @@ struct LocalOperator {
     /// The base is a geometric mean of luminance, not an arithmetic one (the paper's): one bright
     /// pixel does not fill it.
     bool logarithmic = false;
-    double luminance_sigma = 0;    ///< of the term on log10 of luminance; 0: none, as in the paper
-    double least_luminance = 1e-6; ///< darker pixels count as this in logarithms
+    double luminance_sigma = 0;     ///< of the term on log10 of luminance; 0: none, as in the paper
+    double least_luminance = 1e-6;  ///< darker pixels count as this in logarithms
+    std::optional<EdgeTerms> edges; ///< the base keeps edges; logarithmic, no luminance term
 };
 
 /// The base of a window: luminance or, if logarithmic, its natural logarithm. Row stride in floats.
@@ -43,6 +56,12 @@ void take_logarithms(const LocalOperator& what, float* luminance, int width, int
 void guided_base(const LocalOperator& what, const kernels::GuidePlanes& image,
                  const kernels::TapSets& taps, const kernels::Window& window, float* base,
                  ptrdiff_t stride, const kernels::ParallelFor& parallel);
+
+/// How much of what a pixel differs by from the mean about it is in its base, with edge terms: 0
+/// (all is detail) to 1. Row stride of `share` in floats.
+void guided_share(const LocalOperator& what, const kernels::GuidePlanes& image,
+                  const kernels::TapSets& taps, const kernels::Window& window, float* share,
+                  ptrdiff_t stride, const kernels::ParallelFor& parallel);
 
 /// Tone maps a window on the base that guided_base would make, which is not kept.
 void tone_map_guided(const LocalOperator& what, const kernels::ConstRgb& color,

@@ -1,6 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """--cgtmo: laws of the operator, its guides, and what is refused."""
 
+import subprocess
+from pathlib import Path
+
 import numpy as np
 import OpenImageIO as oiio
 import pytest
@@ -146,6 +149,31 @@ def test_luminance_is_base_times_detail(tonetool, tmp_path, kind, domain):
     tonetool("detail.exr", "--cgtmo:filter=none:show=base:layer=ViewLayer.Combined", "-d", "float",
              "-o", "again.exr")
     assert np.abs(color(tmp_path / "again.exr") / detail - 1).max() <= 2e-6, "it is linear Rec.709"
+
+
+def bytes_read(program, folder, *words):
+    """By the system's account of a shell and the program it ran."""
+    script = '"$@" > out.txt 2>&1 || exit 1; cat /proc/$$/io'
+    done = subprocess.run(["bash", "-c", script, "bash", program, *map(str, words)], cwd=folder,
+                          capture_output=True, text=True, check=True)
+    return int(dict(line.split(": ") for line in done.stdout.splitlines())["rchar"])
+
+
+@pytest.mark.skipif(not Path("/proc/self/io").exists(), reason="the system keeps no such account")
+@pytest.mark.parametrize("options", ["", ":maximum=groups", ":preset=classic", ":filter=wls"])
+def test_a_file_is_read_once(program, make_image, tmp_path, options):
+    layers = ["", "light_key.", "light_rim.", "light_off.", "albedo."]
+    names = [layer + c for layer in layers for c in "RGB"] + ["A", "Z"]
+    names += [f"{layer}.{c}" for layer in ("P", "N") for c in "XYZ"]
+    read, size = [], []
+    for width in (30, 230):
+        pixels = np.random.default_rng(1).random((200, width, len(names)))
+        source = make_image(f"{width}.exr", width, 200, names, pixels=pixels)
+        read.append(bytes_read(program, tmp_path, source, f"--cgtmo{options or ':strict=0'}", "-d",
+                               "uint8", "-o", "out.png"))
+        size.append((tmp_path / source).stat().st_size)
+    assert size[1] > 3e6
+    assert read[1] - read[0] <= 1.02 * (size[1] - size[0])
 
 
 BAD = [

@@ -148,12 +148,12 @@ def test_guides_in_other_parts(planes, write, mapped, tmp_path):
 
 
 def test_positions_of_depth(planes, write, mapped):
-    expected, _ = mapped(write("all.exr", planes), "samples=0")
+    expected, _ = mapped(write("all.exr", planes), "preset=classic:samples=0")
     rest = write("rest.exr", {n: p for n, p in planes.items() if not n.startswith("Position")})
     # The gallery's lens: 36 mm behind 45 mm and the like make about 40 degrees.
-    found, ran = mapped(rest, "samples=0:fov=40")
+    found, ran = mapped(rest, "preset=classic:samples=0:fov=40")
     assert ran.fact("position").startswith("of Depth")
-    without, _ = mapped(rest, "samples=0:position=none")
+    without, _ = mapped(rest, "preset=classic:samples=0:position=none")
     assert rms(expected, found) < 0.02 < rms(expected, without) * 2
     assert rms(expected, found) < 0.5 * rms(expected, without)
     _, ran = mapped(rest)

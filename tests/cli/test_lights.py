@@ -13,6 +13,8 @@ from conftest import TESTIMAGES
 CORNELL = TESTIMAGES / "cornell_ref.exr"
 GALLERY = TESTIMAGES / "gallery_ref.exr"
 WEIGHTS = np.array([0.2126, 0.7152, 0.0722])
+# Sources of the maximum in their order, and means of all pixels.
+CLASSIC = "--cgtmo:preset=classic"
 GROUPS = ("key", "lamp", "off")
 CHANNELS = tuple("RGB") + tuple(f"RGBA_{g}.{c}" for g in GROUPS for c in "RGB")
 
@@ -100,9 +102,9 @@ def test_groups_that_do_not_add_up(tonetool, make_image):
     ran = tonetool(source, "--lightindex", "-o", "m.exr")
     assert "0.5 of" in ran.err and float(ran.fact("difference")) == pytest.approx(0.5)
     # Nobody asked for the groups: they are not used. Who asks gets them, and the warning.
-    ran = tonetool(source, "--cgtmo", "-o", "out.exr")
+    ran = tonetool(source, CLASSIC, "-o", "out.exr")
     assert maximum(ran) == (2, "image") and "add up" in ran.err
-    ran = tonetool(source, "--cgtmo:maximum=groups", "-o", "out.exr")
+    ran = tonetool(source, f"{CLASSIC}:maximum=groups", "-o", "out.exr")
     assert maximum(ran) == (1, "groups key") and "add up" in ran.err
 
 
@@ -138,7 +140,7 @@ def test_the_fallbacks_in_their_order(tonetool, two_lights, make_image, write, r
             (two_lights, f"env={pano}:maximum=image", (8.1, "image")),
             (plain, f"env={pano}", (3, "env")),
             (plain, "lwa=geometric", (0.5, "image"))):
-        ran = tonetool(source, f"--cgtmo:{options}", "-o", "out.exr")
+        ran = tonetool(source, f"{CLASSIC}:{options}", "-o", "out.exr")
         value, origin = maximum(ran)
         assert (value, origin) == (pytest.approx(expected[0]), expected[1]), options
         spec = read("out.exr")[1]
@@ -148,7 +150,7 @@ def test_the_fallbacks_in_their_order(tonetool, two_lights, make_image, write, r
 
 def test_only_lights_that_are_seen_count(tonetool, two_lights, write):
     write("t.json", {"key": 5, "lamp": 3, "off": 1e4})
-    ran = tonetool(two_lights, "--cgtmo:lights=t.json", "-o", "o.exr")
+    ran = tonetool(two_lights, f"{CLASSIC}:lights=t.json", "-o", "o.exr")
     assert maximum(ran) == (5, "lights key") and ran.fact("light-index") == "groups"
 
 
@@ -163,9 +165,9 @@ def test_what_was_asked_for_and_is_not_there(tonetool, two_lights, make_image, w
             (two_lights, "lights=other.csv", ["key, lamp, off", "sun, sky", "of the light groups"],
              (8, "groups key")),
             (two_lights, "lights=t.csv", ['"lamp" is not in', "2, is taken"], (50, "lights key"))):
-        ran = tonetool(source, f"--cgtmo:{options}:{guides}", "-o", "out.exr")
+        ran = tonetool(source, f"{CLASSIC}:{options}:{guides}", "-o", "out.exr")
         assert maximum(ran) == expected and all(word in ran.err for word in words), ran.err
-        ran = tonetool(source, f"--cgtmo:{options}:{guides}:strict=1", "-o", "s.exr", status=1)
+        ran = tonetool(source, f"{CLASSIC}:{options}:{guides}:strict=1", "-o", "s.exr", status=1)
         assert words[0] in ran.err
 
 
@@ -178,29 +180,29 @@ def test_an_index_layer(tonetool, make_image, write):
     write("t.csv", "# cd/m2\nindex,r,g,b\n0,1,1,1\n1,4,4,4 # bulb\n2,9,9,9\n")
     for channel in ("lightindex", "M", "light_id.I", "view.lightIndex"):
         source = image("i.exr", [0, 0, 1, -1], channel)
-        ran = tonetool(source, "--cgtmo:lights=t.csv", "-o", "o.exr")
+        ran = tonetool(source, f"{CLASSIC}:lights=t.csv", "-o", "o.exr")
         assert maximum(ran) == (pytest.approx(4), "lights 1"), channel
         assert "maximum" not in ran.err
         assert ran.fact("light-index") == channel.removesuffix(".I")
     source = image("mine.exr", [2, 1], "which")
-    assert maximum(tonetool(source, "--cgtmo:lights=t.csv:lightindex=which", "-o", "o.exr"))[0] == \
+    assert maximum(tonetool(source, f"{CLASSIC}:lights=t.csv:lightindex=which", "-o", "o.exr"))[0] == \
         pytest.approx(9)
-    assert "which" in tonetool(source, "--cgtmo:lights=t.csv:lightindex=witch", "-o", "o.exr",
+    assert "which" in tonetool(source, f"{CLASSIC}:lights=t.csv:lightindex=witch", "-o", "o.exr",
                                status=1).err
     # Out of range, NaN and what a filter made: left out, counted, said.
     source = image("bad.exr", [0, 7, 7, np.nan, np.inf, -3, 1.4], "M")
-    ran = tonetool(source, "--cgtmo:lights=t.csv", "-o", "o.exr")
+    ran = tonetool(source, f"{CLASSIC}:lights=t.csv", "-o", "o.exr")
     assert maximum(ran)[0] == pytest.approx(4)
     for words in ('index 7 of "M" (2 pixels)', "2 pixel(s) of \"M\"", "not whole numbers"):
         assert words in ran.err, ran.err
-    assert "index 7" in tonetool(source, "--cgtmo:lights=t.csv:strict=1:position=none:normal=none:"
+    assert "index 7" in tonetool(source, f"{CLASSIC}:lights=t.csv:strict=1:position=none:normal=none:"
                                  "albedo=none", "-o", "o.exr", status=1).err
     noise = np.random.default_rng(1).random((1100, 1000, 4))
     make_image("noise.exr", 1000, 1100, ("R", "G", "B", "M"), pixels=noise)
-    assert "different values" in tonetool("noise.exr", "--cgtmo:lights=t.csv", "-o", "o.exr",
+    assert "different values" in tonetool("noise.exr", f"{CLASSIC}:lights=t.csv", "-o", "o.exr",
                                           status=1).err
     source = image("none.exr", [-1, -1], "M")
-    ran = tonetool(source, "--cgtmo:lights=t.csv", "-o", "o.exr")
+    ran = tonetool(source, f"{CLASSIC}:lights=t.csv", "-o", "o.exr")
     assert maximum(ran) == (0.5, "image") and "holds no index" in ran.err
 
 
@@ -217,7 +219,7 @@ def test_an_index_of_whole_numbers(tonetool, tmp_path, write):
     back = oiio.ImageInput.open(str(tmp_path / "u.exr")).spec()
     assert [str(f) for f in back.channelformats][3] == "uint"
     write("t.csv", "0,1\n1,4\n2,9\n")
-    assert maximum(tonetool("u.exr", "--cgtmo:lights=t.csv", "-o", "o.exr")) == (9, "lights 2")
+    assert maximum(tonetool("u.exr", f"{CLASSIC}:lights=t.csv", "-o", "o.exr")) == (9, "lights 2")
 
 
 @pytest.mark.parametrize("bits", (8, 16))
@@ -230,7 +232,7 @@ def test_an_index_of_whole_numbers_that_a_command_touched(tonetool, tmp_path, wr
     image.set_pixels(oiio.ROI(), pixels)
     assert image.write(str(tmp_path / "i.tif"))
     write("t.csv", "0,1\n1,4\n2,9\n")
-    ran = tonetool("i.tif", "--chnames", "R,G,B,M", "--cgtmo:lights=t.csv", "-o", "o.png")
+    ran = tonetool("i.tif", "--chnames", "R,G,B,M", f"{CLASSIC}:lights=t.csv", "-o", "o.png")
     assert maximum(ran) == (9, "lights 2")
 
 
@@ -238,16 +240,16 @@ def test_an_index_in_a_file_of_its_own(tonetool, two_lights, make_image, write):
     tonetool(two_lights, "--lightindex", "-o", "m.exr")
     write("t.csv", "lamp,6\nkey,5\n")
     plain = make_image("plain.exr", 16, 4, ("R", "G", "B"), pixels=np.full((4, 16, 3), 0.5))
-    ran = tonetool(plain, "--cgtmo:lights=t.csv:lightindex=m.exr", "-o", "o.exr")
+    ran = tonetool(plain, f"{CLASSIC}:lights=t.csv:lightindex=m.exr", "-o", "o.exr")
     assert maximum(ran) == (6, "lights lamp") and ran.fact("light-index") == "m.exr"
     make_image("one.exr", 16, 4, ("Y",), pixels=np.ones((4, 16, 1)))
     write("u.csv", "0,3\n1,7\n")
-    ran = tonetool(plain, "--cgtmo:lights=u.csv:lightindex=one.exr", "-o", "o.exr")
+    ran = tonetool(plain, f"{CLASSIC}:lights=u.csv:lightindex=one.exr", "-o", "o.exr")
     assert maximum(ran) == (7, "lights 1")
     for name, size, channels, words in (("small.exr", (8, 4), ("M",), ("8x4", "16x4")),
                                         ("two.exr", (16, 4), ("a", "b"), ("two.exr", "lightindex"))):
         make_image(name, *size, channels, pixels=np.ones((size[1], size[0], len(channels))))
-        ran = tonetool(plain, f"--cgtmo:lights=u.csv:lightindex={name}", "-o", "x.exr", status=1)
+        ran = tonetool(plain, f"{CLASSIC}:lights=u.csv:lightindex={name}", "-o", "x.exr", status=1)
         assert all(word in ran.err for word in words)
 
 
@@ -259,16 +261,16 @@ def test_the_names_an_index_was_made_with(tonetool, two_lights, make_image, read
     source = make_image("both.exr", 16, 4, ("R", "G", "B", "lightindex"), pixels=color,
                         attributes={"lightindex:names": names})
     write("t.csv", "lamp,6\nkey,5\n")
-    assert maximum(tonetool(source, "--cgtmo:lights=t.csv", "-o", "o.exr")) == (6, "lights lamp")
+    assert maximum(tonetool(source, f"{CLASSIC}:lights=t.csv", "-o", "o.exr")) == (6, "lights lamp")
 
 
 def test_percentiles_leave_fireflies_out(tonetool, make_image):
     key = np.full((10, 100), 2.0)
     key[3, 7] = 500
     source = lit(make_image, "fly.exr", {"key": key, "lamp": 0.1})
-    assert maximum(tonetool(source, "--cgtmo", "-o", "o.exr"))[0] == 500
-    assert maximum(tonetool(source, "--cgtmo:maxpercentile=99.5", "-o", "o.exr"))[0] == 2
-    ran = tonetool(source, "--cgtmo:maxpercentile=99.5:maximum=image", "-o", "o.exr")
+    assert maximum(tonetool(source, CLASSIC, "-o", "o.exr"))[0] == 500
+    assert maximum(tonetool(source, f"{CLASSIC}:maxpercentile=99.5", "-o", "o.exr"))[0] == 2
+    ran = tonetool(source, f"{CLASSIC}:maxpercentile=99.5:maximum=image", "-o", "o.exr")
     assert maximum(ran)[0] == pytest.approx(2.1)
 
 
@@ -297,19 +299,19 @@ def test_lights_without_a_luminance_are_named(tonetool, two_lights, write):
     write("t.json", {"groups": {
         "key": {"lights": [{"name": "spot", "type": "SPOT", "power_lum_W": 11}]},
         "lamp": {"lights": [LAMP]}}})
-    ran = tonetool(two_lights, "--cgtmo:lights=t.json", "-o", "o.exr")
+    ran = tonetool(two_lights, f"{CLASSIC}:lights=t.json", "-o", "o.exr")
     assert "spot is a light without an area (SPOT)" in ran.err
     assert maximum(ran) == (8, "groups key")
 
 
 def test_another_unit(tonetool, two_lights, write):
     write("t.csv", "key,5000\nlamp,20\n")
-    assert maximum(tonetool(two_lights, "--cgtmo:lights=t.csv:lightunit=0.01", "-o", "o.exr")) == \
+    assert maximum(tonetool(two_lights, f"{CLASSIC}:lights=t.csv:lightunit=0.01", "-o", "o.exr")) == \
         (50, "lights key")
     write("nits.csv", "key,5e5\nlamp,20\n")
-    assert "lightunit=" in tonetool(two_lights, "--cgtmo:lights=nits.csv", "-o", "o.exr").err
+    assert "lightunit=" in tonetool(two_lights, f"{CLASSIC}:lights=nits.csv", "-o", "o.exr").err
     # Powers without an area are no luminance: the groups' own maximum is.
-    ran = tonetool(two_lights, "--cgtmo:lights=t.csv:lightunit=power:index=power", "-o", "o.exr")
+    ran = tonetool(two_lights, f"{CLASSIC}:lights=t.csv:lightunit=power:index=power", "-o", "o.exr")
     assert maximum(ran) == (8, "groups key") and "without an area" in ran.err
     # A large panel of low luminance is the light of the largest power.
     write("t.json", {"key": {"power": 1, "area": 0.001}, "lamp": {"power": 50, "area": 100}})
@@ -350,7 +352,7 @@ def test_what_is_wrong_with_a_table(tonetool, two_lights, write, tmp_path, name,
 
 
 def adaptation(tonetool, options, source="grey.exr"):
-    ran = tonetool(source, f"--cgtmo:{options}", "-o", "out.exr")
+    ran = tonetool(source, f"{CLASSIC}:{options}", "-o", "out.exr")
     return float(ran.fact("adaptation")), ran
 
 
@@ -407,7 +409,7 @@ def test_what_is_wrong_with_a_panorama(tonetool, grey, make_image, tmp_path):
                            (f"env={one}", ["1 x 1"]), ("env=none.exr", ["none.exr", "no such file"]),
                            ("env=text.exr", ["text.exr"]), ("maximum=env", ["env="]),
                            ("env=square.exr:weight=area", ["area", "solidangle"])):
-        ran = tonetool(grey, f"--cgtmo:{options}", "-o", "bad.exr", status=1)
+        ran = tonetool(grey, f"{CLASSIC}:{options}", "-o", "bad.exr", status=1)
         assert all(word in ran.err for word in words), ran.err
         assert not (tmp_path / "bad.exr").exists()
     assert adaptation(tonetool, f"env={one}:weight=none")[0] == pytest.approx(0.2, rel=1e-5)
@@ -418,7 +420,7 @@ def test_a_black_panorama_and_one_with_holes(tonetool, grey, make_image):
     value, ran = adaptation(tonetool, "env=black.exr:maximum=env")
     assert value == pytest.approx(0.5, rel=1e-5) and ran.fact("adaptation-from") == "image"
     assert maximum(ran) == (0.5, "image") and "is black and is left out" in ran.err
-    ran = tonetool(grey, "--cgtmo:env=black.exr:strict=1:position=none:normal=none:albedo=none",
+    ran = tonetool(grey, f"{CLASSIC}:env=black.exr:strict=1:position=none:normal=none:albedo=none",
                    "-o", "out.exr", status=1)
     assert "is black" in ran.err
     pixels = np.full((4, 8, 3), 0.25)
@@ -427,7 +429,7 @@ def test_a_black_panorama_and_one_with_holes(tonetool, grey, make_image):
     value, ran = adaptation(tonetool, "env=holes.exr")
     assert value == pytest.approx(0.25, rel=1e-5) and "1 pixel(s) of the panorama" in ran.err
     make_image("nan.exr", 8, 4, pixels=np.full((4, 8, 3), np.nan))
-    assert "no finite pixel" in tonetool(grey, "--cgtmo:env=nan.exr", "-o", "x.exr", status=1).err
+    assert "no finite pixel" in tonetool(grey, f"{CLASSIC}:env=nan.exr", "-o", "x.exr", status=1).err
 
 
 def test_a_panorama_at_another_exposure(tonetool, grey, make_image):
@@ -453,12 +455,12 @@ def test_a_panorama_cut_to_its_data_window(tonetool, grey, make_image):
 def test_sky_everywhere_and_one_pixel(tonetool, make_image, write):
     write("t.csv", "key,5\noff,3\n")
     sky = lit(make_image, "sky.exr", {"off": [[0.4] * 8] * 6})
-    assert maximum(tonetool(sky, "--cgtmo:lights=t.csv", "-o", "o.exr")) == (3, "lights off")
-    assert maximum(tonetool(sky, "--cgtmo", "-o", "o.exr")) == (pytest.approx(.4), "groups off")
+    assert maximum(tonetool(sky, f"{CLASSIC}:lights=t.csv", "-o", "o.exr")) == (3, "lights off")
+    assert maximum(tonetool(sky, CLASSIC, "-o", "o.exr")) == (pytest.approx(.4), "groups off")
     one = lit(make_image, "one.exr", {"key": [[2]]})
-    assert maximum(tonetool(one, "--cgtmo:lights=t.csv", "-o", "o.exr")) == (5, "lights key")
+    assert maximum(tonetool(one, f"{CLASSIC}:lights=t.csv", "-o", "o.exr")) == (5, "lights key")
     dark = lit(make_image, "dark.exr", {"key": [[0]]})
-    assert "black" in tonetool(dark, "--cgtmo:lights=t.csv", "-o", "o.exr", status=1).err
+    assert "black" in tonetool(dark, f"{CLASSIC}:lights=t.csv", "-o", "o.exr", status=1).err
 
 
 BAD = [
@@ -474,7 +476,7 @@ BAD = [
 @pytest.mark.parametrize("modifiers,words", BAD)
 def test_what_is_wrong_is_said(tonetool, two_lights, write, modifiers, words):
     write("t.csv", "key,1\n")
-    ran = tonetool(two_lights, f"--cgtmo:{modifiers}", "-o", "out.exr", status=1)
+    ran = tonetool(two_lights, f"{CLASSIC}:{modifiers}", "-o", "out.exr", status=1)
     assert all(word in ran.err for word in words), ran.err
 
 
@@ -490,7 +492,7 @@ def scenes():
 def test_rendered_scenes_with_their_lights(tonetool, scene, light):
     """The largest radiance in lights.json of a group that is seen, by its own arithmetic."""
     folder = scenes() / scene
-    ran = tonetool(folder / "ref.exr", f"--cgtmo:lights={folder}/lights.json:env={folder}/"
+    ran = tonetool(folder / "ref.exr", f"{CLASSIC}:lights={folder}/lights.json:env={folder}/"
                    "env_pano.exr", "-o", "out.exr")
     lights = json.loads((folder / "lights.json").read_text())["groups"][light]["lights"]
     brightest = max(np.dot(one["radiance_rgb"], WEIGHTS) for one in lights)

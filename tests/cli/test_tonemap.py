@@ -186,7 +186,8 @@ def test_calibration_leaves_out_what_it_is_asked_to(tonetool, make_image):
     pixels[0, :, 3] = [1, 1, 0, 1]
     pixels[0, :, :3] = np.array([1, 4, 1e4, 0])[:, None]
     source = make_image("in.exr", 4, 1, ("R", "G", "B", "A"), pixels=pixels)
-    for modifiers, kept in (("", [1, 4, 1e4, 0]), (":skipblack=1", [1, 4, 1e4]),
+    for modifiers, kept in (("", [1, 4, 0]), (":count=all", [1, 4, 1e4, 0]),
+                            (":skipblack=1", [1, 4, 1e4]),
                             (":skiptransparent=1", [1, 4, 0]),
                             (":skipblack=1:skiptransparent=1", [1, 4])):
         ran = tonetool(source, f"--calibrate:method=mean{modifiers}", "-o", "out.exr")

@@ -38,6 +38,7 @@ void report_summary(Session& session, const std::string& label, const CgTmoSumma
             line("note", note);
     line("samples", std::to_string(found.samples));
     line("background", std::to_string(found.background));
+    line("counted", std::to_string(found.counted));
     line("footprint", format_number(found.footprint));
     line("light-index", found.light_index.empty() ? "none" : found.light_index);
     line("adaptation", format_number(found.adaptation));

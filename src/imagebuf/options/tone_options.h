@@ -10,6 +10,15 @@
 
 namespace tonetool {
 
+/// Which pixels are measured.
+inline std::vector<std::string> count_names() {
+    return {"lit", "all"};
+}
+inline std::string count_text() {
+    return "pixels that are measured; lit: neither black on the background nor of alpha 0, all: "
+           "every finite one";
+}
+
 template <class See>
 void describe(const CalibrationOptions&, See&& see) {
     using O = CalibrationOptions;
@@ -21,12 +30,25 @@ void describe(const CalibrationOptions&, See&& see) {
     see(option("level", &O::level,
                "local means over 2^N x 2^N cells of the image; 0: one mean for the image")
             .within(0, 20));
+    see(option("count", &O::count, count_text())
+            .one_of(count_names())
+            .unset("lit; with skipblack or skiptransparent: all"));
+    see(option("means", &O::means, "what the mean is of: pixels, or the means of about 2300 cells")
+            .one_of({"pixels", "cells"}));
     see(option("epsilon", &O::epsilon, "added to each luminance before its logarithm")
             .within(1e-30, 1));
     see(option("skipblack", "skip_black", &O::skip_black,
                "leave pixels of luminance 0 out of the statistics"));
     see(option("skiptransparent", "skip_transparent", &O::skip_transparent,
                "leave pixels of alpha 0 out of the statistics"));
+}
+
+/// The ways to clamp a colour, in the order of tonemap::Clip.
+inline std::vector<std::string> clip_names() {
+    return {"hue", "luminance", "neutral", "channel"};
+}
+inline std::string clip_text() {
+    return "what stays of a colour with a channel above 1; channel: each is clamped by itself";
 }
 
 template <class See>
@@ -37,6 +59,7 @@ void describe(const TonemapOptions&, See&& see) {
     see(option("primaries", &O::primaries, "primaries that a curve works in and the result has")
             .one_of({"rec709", "image"}));
     see(option("clamp", &O::clamp, "clamp the result of a curve to 0 to 1"));
+    see(option("clip", &O::clip, clip_text()).one_of(clip_names()));
     see(option("unpremult", &O::unpremult, "divide colour by alpha before, multiply after"));
 }
 

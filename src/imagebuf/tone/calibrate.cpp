@@ -2,6 +2,7 @@
 #include "imagebuf/tone/calibrate.h"
 
 #include <OpenImageIO/strutil.h>
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -11,8 +12,10 @@
 #include "imagebuf/pixels/guard.h"
 #include "imagebuf/pixels/parallel.h"
 #include "imagebuf/pixels/row_source.h"
+#include "imagebuf/tone/counted_pixels.h"
 #include "metrics/order_statistics.h"
 #include "metrics/refusal.h"
+#include "tonemap/cell_mean.h"
 
 namespace tonetool {
 namespace {
@@ -30,8 +33,18 @@ void check(const CalibrationOptions& options, const ImageBuf& image) {
     if (options.level > 0 && options.method == CalibrationMethod::Manual)
         throw Refusal("local means need a calibration by means: method mean or auto");
     check_options(options);
+    const bool skips = options.skip_black || options.skip_transparent;
+    if (skips && options.count == "lit")
+        throw Refusal("count=lit leaves out what skipblack and skiptransparent would: say one");
+    if (options.level > 0 && options.means == "cells")
+        throw Refusal("means=cells is one mean for the image: level has cells of its own");
     if (options.white_percentile)
         check_range(*options.white_percentile, 0.001, 100, "white percentile");
+}
+
+bool counts_lit(const CalibrationOptions& options) {
+    return options.count.empty() ? !options.skip_black && !options.skip_transparent
+                                 : options.count == "lit";
 }
 
 // Pixels that are not to be in the statistics become NaN.
@@ -70,13 +83,15 @@ double Calibration::factor_of(double mean) const {
 
 void Calibration::measure(const ImageBuf& image, const PixelOptions& pixels, int nthreads) {
     ColorReader reader;
-    const bool alpha = m_options.skip_transparent;
+    const bool lit = counts_lit(m_options), alpha = m_options.skip_transparent || lit;
     reader.open(image, pixels, m_region, alpha, nthreads);
     ColorPlanes planes = reader.planes();
     reader.read(m_region.ybegin, m_region.yend, planes);
     const auto plane = read_luminance(reader, planes, nthreads);
     std::vector<float> luminance(plane.data(), plane.data() + luminance_bytes(m_region) / 4);
     leave_out(m_options, planes, luminance);
+    const double of_cells =
+        lit ? keep_lit(image, planes, luminance, nthreads) : cells_of(luminance.data(), nthreads);
     auto means = std::make_unique<tonemap::LocalMeans>(luminance.data(), m_region.width(),
                                                        m_region.height(), m_options.level,
                                                        m_options.epsilon, make_parallel(nthreads));
@@ -86,7 +101,7 @@ void Calibration::measure(const ImageBuf& image, const PixelOptions& pixels, int
             "no pixel is left for the statistics (non-finite, black and transparent ones are "
             "left out as asked)");
     if (m_options.method != CalibrationMethod::Manual) {
-        m_summary.mean = means->mean();
+        m_summary.mean = m_options.means == "cells" ? of_cells : means->mean();
         m_summary.key = m_options.method == CalibrationMethod::Mean
                             ? m_options.key
                             : tonemap::auto_key(m_summary.mean);
@@ -97,6 +112,38 @@ void Calibration::measure(const ImageBuf& image, const PixelOptions& pixels, int
         m_means = std::move(means);
     if (m_options.white_percentile)
         find_white(luminance, nthreads);
+}
+
+double Calibration::cells_of(const float* plane, int nthreads) const {
+    if (m_options.means != "cells")
+        return 0;
+    return tonemap::cell_mean(plane, m_region.width(), m_region.height(), make_parallel(nthreads))
+        .mean;
+}
+
+// Leaves out what shows nothing, and returns the mean of cells, if it is wanted. A picture that is
+// all black stays what it is unless it was asked for light.
+double Calibration::keep_lit(const ImageBuf& image, const ColorPlanes& planes,
+                             std::vector<float>& luminance, int nthreads) const {
+    // What shows no surface matters only where there is no light.
+    const bool dark =
+        std::any_of(luminance.begin(), luminance.end(), [](float v) { return v <= 0; });
+    const auto background = dark ? background_of(image, planes.choice.layer, m_region, nthreads)
+                                 : std::vector<uint8_t>();
+    const bool alpha = planes.choice.a >= 0 && !planes.alpha.empty();
+    const CountedPixels counted = counted_pixels(
+        luminance.data(), m_region.width(), m_region.height(),
+        {alpha ? planes.alpha.data() : nullptr, background.empty() ? nullptr : background.data()},
+        make_parallel(nthreads));
+    if (counted.lit == 0 && m_options.count.empty())
+        return cells_of(luminance.data(), nthreads);
+    for (size_t i = 0; i < luminance.size(); ++i) {
+        const float v = counted.luminance[i];
+        luminance[i] = v == tonemap::kBlackSurface ? 0
+                       : v > 0                     ? v
+                                                   : std::numeric_limits<float>::quiet_NaN();
+    }
+    return cells_of(counted.luminance.data(), nthreads);
 }
 
 void Calibration::find_white(std::vector<float>& luminance, int nthreads) {

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "imagebuf/pixels/planes.h"
 #include "tonemap/calibration.h"
 #include "tonetool/tonemap.h"
 
@@ -29,6 +30,9 @@ public:
 private:
     void measure(const OIIO::ImageBuf& image, const PixelOptions& pixels, int nthreads);
     double factor_of(double mean) const;
+    double cells_of(const float* plane, int nthreads) const;
+    double keep_lit(const OIIO::ImageBuf& image, const ColorPlanes& planes,
+                    std::vector<float>& luminance, int nthreads) const;
     void find_white(std::vector<float>& luminance, int nthreads);
 
     CalibrationOptions m_options;

@@ -4,14 +4,17 @@
 
 #include <OpenImageIO/strutil.h>
 #include <algorithm>
-#include <memory>
+#include <vector>
 
 #include "imagebuf/color/color_reader.h"
 #include "imagebuf/pixels/guard.h"
+#include "imagebuf/pixels/has_pixels.h"
 #include "imagebuf/pixels/parallel.h"
 #include "imagebuf/pixels/row_source.h"
 #include "imagebuf/tone/cgtmo_guides.h"
 #include "imagebuf/tone/cgtmo_plan.h"
+#include "imagebuf/tone/counted_pixels.h"
+#include "imagebuf/tone/noise.h"
 #include "imagebuf/tone/scene_stats.h"
 
 namespace tonetool {
@@ -27,7 +30,7 @@ class LocalMapping {
 public:
     LocalMapping(const ImageBuf& src, const CgTmoOptions& options, int nthreads)
         : m_src(src),
-          m_options(options),
+          m_options(with_preset(options)),
           m_nthreads(nthreads),
           m_region(src.roi()) {}
 
@@ -35,10 +38,12 @@ public:
         check_readable(m_src, "source");
         m_plan = plan_local(m_options);
         const ROI part = part_of(m_src, roi);
-        read_color();
-        measure();
-        map(part);
-        ImageBuf out = copy_pixels(m_src, part, m_nthreads);
+        ImageBuf whole = read_once();
+        m_pixels = whole.initialized() ? &whole : &m_src;
+        make(part);
+        ImageBuf out = whole.initialized() && same_window(part, whole.roi())
+                           ? std::move(whole)
+                           : copy_pixels(*m_pixels, part, m_nthreads);
         place(out);
         tag(out.specmod());
         dst = std::move(out);
@@ -47,8 +52,33 @@ public:
     CgTmoSummary summary;
 
 private:
+    // All channels of a file, which each reader of a few would have to decode again. Other files
+    // and types are read as what they are.
+    ImageBuf read_once() const {
+        const ImageSpec& native = m_src.nativespec();
+        bool floats = is_file_to_read(m_src) && native.nchannels == m_src.nchannels() &&
+                      std::string(m_src.file_format_name()) == "openexr";
+        for (int c = 0; c < native.nchannels; ++c)
+            floats = floats && native.channelformat(c).is_floating_point();
+        if (!floats)
+            return {};
+        (void)chosen_color(deciding_spec(m_src), m_options.pixels); // before it takes any time
+        return copy_pixels(m_src, part_of(m_src, {}), m_nthreads);
+    }
+
+    // The picture, in the planes of colour. The guides are gone afterwards, before the result needs
+    // memory.
+    void make(const ROI& part) {
+        read_color();
+        LocalGuides guides(m_src, *m_pixels, m_options, m_region, m_nthreads);
+        if (m_plan.filter == BaseFilter::Guided)
+            guides.read(m_plan.what, summary);
+        measure(guides);
+        map(guides, part);
+    }
+
     void read_color() {
-        m_reader.open(m_src, m_options.pixels, m_region, false, m_nthreads);
+        m_reader.open(*m_pixels, m_options.pixels, m_region, m_options.count == "lit", m_nthreads);
         m_planes = m_reader.planes();
         m_reader.read(m_region.ybegin, m_region.yend, m_planes);
         summary.layer = m_planes.choice.layer;
@@ -60,9 +90,18 @@ private:
                 format("{} pixel(s) are not finite and became black", summary.nonfinite));
     }
 
-    // Lwa and Lmax.
-    void measure() {
-        SceneStats scene = measure_scene(m_src, m_options, m_reader, m_planes, m_nthreads);
+    // Lwa and Lmax. Alpha is not looked at again.
+    void measure(const LocalGuides& guides) {
+        std::vector<uint8_t> found;
+        const uint8_t* background = guides.background();
+        if (m_options.count == "lit" && m_plan.filter != BaseFilter::Guided) {
+            found = background_of(*m_pixels, summary.layer, m_region, m_nthreads);
+            background = found.empty() ? nullptr : found.data();
+        }
+        SceneStats scene =
+            measure_scene(*m_pixels, m_options, m_reader, m_planes, background, m_nthreads);
+        m_planes.alpha = {};
+        summary.counted = scene.counted;
         summary.adaptation = m_plan.what.curve.adaptation = scene.adaptation;
         summary.maximum = m_plan.what.curve.maximum = scene.maximum;
         summary.adaptation_from = scene.adaptation_from;
@@ -74,17 +113,13 @@ private:
         m_luminance = std::move(scene.luminance);
     }
 
-    // The colours of a part of the region become display light. What it takes is gone afterwards,
-    // before the result needs memory.
-    void map(const ROI& part) {
-        LocalGuides guides(m_src, m_options, m_region, m_nthreads);
+    // The colours of a part of the region become display light.
+    void map(const LocalGuides& guides, const ROI& part) {
         kernels::GuidePlanes image;
         image.stride = image.width = m_region.width();
         image.height = m_region.height();
-        if (m_plan.filter == BaseFilter::Guided) {
-            guides.read(m_plan.what, summary);
+        if (m_plan.filter == BaseFilter::Guided)
             image = guides.view();
-        }
         summary.samples = m_plan.samples;
         const kernels::Window window{part.xbegin - m_region.xbegin, part.ybegin - m_region.ybegin,
                                      part.width(), part.height()};
@@ -108,6 +143,12 @@ private:
         tonemap::take_logarithms(m_plan.what, m_luminance.data(), m_region.width(),
                                  m_region.height(), parallel);
         image.value = m_luminance.data();
+        if (!m_plan.what.edges || m_plan.what.edges->denoise == 0)
+            return;
+        m_noise = m_options.noise.empty()
+                      ? measured_noise(image, parallel)
+                      : noise_of_layer(m_src, m_options.noise, m_region, image.value, m_nthreads);
+        m_plan.what.edges->noise = m_noise.data();
     }
 
     void map_at_once(kernels::GuidePlanes& image, const kernels::Window& window) {
@@ -120,6 +161,12 @@ private:
 
     void map_on_base(kernels::GuidePlanes& image, const kernels::Window& window) {
         const auto parallel = make_parallel(m_nthreads);
+        const tonemap::LocalOutput to = output(window);
+        if (m_plan.show == LocalShow::Share) {
+            take_logarithms(image, parallel);
+            return tonemap::guided_share(m_plan.what, image, taps_of(m_plan, m_options.sigma),
+                                         window, to.rgb[0], to.stride, parallel);
+        }
         PagedArray<float> kept;
         tonemap::LocalBase base;
         if (m_plan.filter == BaseFilter::Wls) {
@@ -135,7 +182,6 @@ private:
                                  kept.data(), window.width, parallel);
             base = {kept.data(), window.width};
         }
-        const tonemap::LocalOutput to = output(window);
         if (m_plan.show == LocalShow::Picture)
             return tonemap::tone_map_local(m_plan.what, m_planes.view(), base, window, to,
                                            parallel);
@@ -157,17 +203,21 @@ private:
             if (m_plan.show != LocalShow::Picture)
                 rgb[1] = rgb[2] = rgb[0];
             float* pixel = pixels + y * spec.width * spec.nchannels;
-            for (int x = 0; x < spec.width; ++x, pixel += spec.nchannels)
+            for (int x = 0; x < spec.width; ++x, pixel += spec.nchannels) {
+                float color[3] = {rgb[0][x], rgb[1][x], rgb[2][x]};
+                if (m_plan.show == LocalShow::Picture)
+                    finish(color);
                 for (size_t c = 0; c < 3; ++c)
-                    pixel[to[c]] = finished(rgb[c][x]);
+                    pixel[to[c]] = color[c];
+            }
         });
     }
 
-    float finished(float v) const {
-        if (m_plan.show != LocalShow::Picture)
-            return v;
-        v = v > 0 ? v : 0;
-        return m_plan.encode(m_options.clamp ? std::min(v, 1.0f) : v);
+    void finish(float (&color)[3]) const {
+        if (m_options.clamp)
+            tonemap::clip_color(m_plan.clip, m_plan.what.curve.weights, color);
+        for (float& v : color)
+            v = m_plan.encode(v > 0 ? v : 0);
     }
 
     void tag(ImageSpec& spec) const {
@@ -191,13 +241,14 @@ private:
     }
 
     const ImageBuf& m_src;
-    const CgTmoOptions& m_options;
+    const ImageBuf* m_pixels = nullptr; ///< where they are read: the source, or all of it in memory
+    const CgTmoOptions m_options;
     int m_nthreads;
     ROI m_region;
     LocalPlan m_plan;
     ColorReader m_reader;
     ColorPlanes m_planes;
-    PagedArray<float> m_luminance;
+    PagedArray<float> m_luminance, m_noise;
 };
 
 } // namespace

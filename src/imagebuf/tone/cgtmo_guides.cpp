@@ -110,7 +110,7 @@ void LocalGuides::read(tonemap::LocalOperator& what, CgTmoSummary& summary) {
     m_view.stride = m_view.width = m_region.width();
     m_view.height = m_region.height();
     const GBufferNames names = find(summary.layer);
-    m_guides = read_gbuffer(m_image, names, m_region, m_nthreads);
+    m_guides = read_gbuffer(m_pixels, names, m_region, m_nthreads);
     append(summary.warnings, m_guides.warnings);
     summary.notes = names.notes;
     if (names.depth && m_guides.has_depth())
@@ -142,6 +142,11 @@ void LocalGuides::show(const GBufferNames& names, CgTmoSummary& summary) {
 }
 
 void LocalGuides::stand_in(tonemap::LocalOperator& what, CgTmoSummary& summary) {
+    const bool none = !m_view.position[0] && !m_view.normal[0] && !m_view.albedo[0];
+    if (none && what.edges && !m_options.strict) {
+        summary.notes.push_back("no guide among the layers: distance alone tells neighbours");
+        return;
+    }
     const std::tuple<const char*, bool> guides[] = {
         {"position", !m_view.position[0] && m_options.position != "none"},
         {"normal", !m_view.normal[0] && m_options.normal != "none"},
@@ -154,8 +159,7 @@ void LocalGuides::stand_in(tonemap::LocalOperator& what, CgTmoSummary& summary) 
             throw Refusal(lack + "; " + name + "= names one, \"none\" does without");
         summary.warnings.push_back(lack + ": its term is left out");
     }
-    if (!m_view.position[0] && !m_view.normal[0] && !m_view.albedo[0] &&
-        what.luminance_sigma == 0) {
+    if (none && !what.edges && what.luminance_sigma == 0) {
         what.luminance_sigma = kLuminanceSigma;
         summary.warnings.push_back(
             format("without a guide only luminance tells edges: lumsigma={}", kLuminanceSigma));

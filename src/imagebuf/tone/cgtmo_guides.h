@@ -15,9 +15,11 @@ namespace tonetool {
 
 class LocalGuides {
 public:
-    LocalGuides(const OIIO::ImageBuf& image, const CgTmoOptions& options, OIIO::ROI region,
-                int nthreads)
+    /// `pixels` has those of the image, perhaps in memory; parts and files are found by the image.
+    LocalGuides(const OIIO::ImageBuf& image, const OIIO::ImageBuf& pixels,
+                const CgTmoOptions& options, OIIO::ROI region, int nthreads)
         : m_image(image),
+          m_pixels(pixels),
           m_options(options),
           m_region(region),
           m_nthreads(nthreads) {}
@@ -27,6 +29,12 @@ public:
 
     /// Planes of the region without a value; valid as long as this is.
     const kernels::GuidePlanes& view() const { return m_view; }
+
+    /// 1 where no surface is seen; null where no guide tells.
+    const uint8_t* background() const {
+        const bool tells = m_guides.has_position() || m_guides.has_normal() || m_guides.has_depth();
+        return tells ? m_view.background : nullptr;
+    }
 
 private:
     GBufferNames find(const std::string& beauty) const;
@@ -39,6 +47,7 @@ private:
     void camera_footprints();
 
     const OIIO::ImageBuf& m_image;
+    const OIIO::ImageBuf& m_pixels;
     const CgTmoOptions& m_options;
     OIIO::ROI m_region;
     int m_nthreads;

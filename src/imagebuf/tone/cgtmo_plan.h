@@ -6,6 +6,7 @@
 #include <string>
 
 #include "imagebuf/color/tone_rows.h"
+#include "tonemap/clip.h"
 #include "tonemap/local.h"
 #include "tonemap/wls.h"
 #include "tonetool/cgtmo.h"
@@ -13,7 +14,7 @@
 namespace tonetool {
 
 enum class BaseFilter { Guided, Bilateral, Wls, None };
-enum class LocalShow { Picture, Base, Detail };
+enum class LocalShow { Picture, Base, Detail, Share };
 
 inline constexpr double kLuminanceSigma = 0.4; ///< in log10: Durand and Dorsey's
 
@@ -21,12 +22,17 @@ struct LocalPlan {
     BaseFilter filter = BaseFilter::Guided;
     LocalShow show = LocalShow::Picture;
     Encoding encode = nullptr;
+    tonemap::Clip clip = tonemap::Clip::Channel;
     tonemap::LocalOperator what; ///< without the luminances of the scene and the footprint
     tonemap::WlsTerms wls;
     int half = 0;    ///< of the window, in pixels
     int samples = 0; ///< of the window; all of it where it holds no more
 };
 
+/// The options with the preset's in place of those that are unset.
+CgTmoOptions with_preset(const CgTmoOptions& options);
+
+/// The plan of options that have all the preset's.
 LocalPlan plan_local(const CgTmoOptions& options);
 
 /// The offsets that the filter looks at.

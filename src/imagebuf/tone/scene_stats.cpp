@@ -10,8 +10,10 @@
 #include "imagebuf/lights/light_maximum.h"
 #include "imagebuf/pixels/checks.h"
 #include "imagebuf/pixels/parallel.h"
+#include "imagebuf/tone/counted_pixels.h"
 #include "metrics/order_statistics.h"
 #include "metrics/refusal.h"
+#include "tonemap/cell_mean.h"
 #include "tonemap/luminance_means.h"
 
 namespace tonetool {
@@ -21,8 +23,15 @@ using OIIO::ImageBuf;
 using OIIO::Strutil::fmt::format;
 
 constexpr double kEpsilon = 1e-6;
-// Between figures of the scene and of the image, before another unit is suspected.
-constexpr double kFar = 1000;
+// Added to luminances that are above 0.
+constexpr double kNothing = 1e-30;
+// Between figures of the lights and of the image, before another unit is suspected; of a panorama
+// and of the image.
+constexpr double kFar = 1000, kFarMean = 4;
+// What is said of a picture: more pixels than this share show nothing; the mean of all pixels is so
+// many times less; more than this share is so many times above Lmax; Lmax is closer to Lwa.
+constexpr double kMostlyNothing = 0.5, kOtherMean = 2, kAboveMaximum = 1e-3, kFarAbove = 4,
+                 kNoRange = 2;
 
 enum Source { Lights, Groups, Env, Image, kSources };
 constexpr const char* kSourceNames[kSources] = {"lights", "groups", "env", "image"};
@@ -36,22 +45,32 @@ public:
           m_options(options),
           m_nthreads(nthreads),
           m_out(out),
-          m_lights(image, options.pixels, options.lights, options.max_percentile, nthreads) {}
+          m_lights(image, options.pixels, options.lights, *options.max_percentile, nthreads) {}
 
-    void measure(ColorReader& reader, ColorPlanes& planes) {
+    void measure(ColorReader& reader, ColorPlanes& planes, const uint8_t* background) {
         check();
         m_lights.read_table();
         read_panorama();
         m_out.luminance = read_luminance(reader, planes, m_nthreads);
         m_region = planes.region;
-        m_means = tonemap::luminance_means(m_out.luminance.data(), m_region.width(),
-                                           m_region.height(), kEpsilon, make_parallel(m_nthreads));
+        const bool alpha = planes.choice.a >= 0 && !planes.alpha.empty();
+        count({alpha ? planes.alpha.data() : nullptr, background});
+        m_means = means_of(m_measured, lit() ? kNothing : kEpsilon);
+        m_out.counted = m_means.counted;
         find_maximum();
         find_adaptation();
         compare();
+        say();
     }
 
 private:
+    bool lit() const { return m_options.count == "lit"; }
+    tonemap::LuminanceMeans means_of(const float* plane, double epsilon) const {
+        return tonemap::luminance_means(plane, m_region.width(), m_region.height(), epsilon,
+                                        make_parallel(m_nthreads));
+    }
+    void count(const ShownPixels& shown);
+    void say() const;
     void check();
     void read_panorama();
     void find_maximum();
@@ -61,6 +80,10 @@ private:
     double image_mean() const;
     double panorama_mean() const;
     double image_maximum() const;
+    metrics::OrderStatistics order() const {
+        return {m_measured, m_region.width(), m_region.height(), m_region.width(),
+                make_parallel(m_nthreads)};
+    }
     double image_percentile(metrics::Wanted wanted) const;
     bool asked(Source source) const;
     void compare();
@@ -73,21 +96,37 @@ private:
     std::optional<PanoramaStats> m_panorama;
     std::string m_no_panorama; ///< why it is not used
     OIIO::ROI m_region;
-    tonemap::LuminanceMeans m_means; ///< of the image
+    CountedPixels m_counted;           ///< with count=lit
+    const float* m_measured = nullptr; ///< luminances, of the pixels that count
+    tonemap::LuminanceMeans m_means;   ///< of them
 };
+
+void SceneMeasure::count(const ShownPixels& shown) {
+    m_measured = m_out.luminance.data();
+    if (!lit())
+        return;
+    m_counted = counted_pixels(m_measured, m_region.width(), m_region.height(), shown,
+                               make_parallel(m_nthreads));
+    m_measured = m_counted.luminance.data();
+    if (!m_counted.alpha_tells)
+        m_out.warnings.push_back("alpha is 0 wherever there is light: it does not say which pixels "
+                                 "show something");
+}
 
 void SceneMeasure::check() {
     const CgTmoOptions& o = m_options;
     if (!number_of(o.lwa))
-        check_one_of("lwa", o.lwa, {"geometric", "harmonic", "arithmetic", "median", "a number"});
+        check_one_of("lwa", o.lwa,
+                     {"cells", "geometric", "harmonic", "arithmetic", "median", "a number"});
     if (o.lights.table.empty() && o.maximum == "lights")
         throw Refusal("maximum=lights needs a table of lights (lights=)");
     if (o.lights.table.empty() && !o.lights.layer.empty() && o.lights.layer != "groups")
         throw Refusal("lightindex= needs a table of lights (lights=)");
-    if (!o.lights.table.empty() && o.maximum != "auto" && o.maximum != "lights")
+    const bool looks = o.maximum == "auto" || o.maximum == "first" || o.maximum == "lights";
+    if (!o.lights.table.empty() && !looks)
         throw Refusal(
             format("maximum={} does not look at the table of lights (valid with it: auto, "
-                   "lights)",
+                   "first, lights)",
                    o.maximum));
     if (o.env.empty() && o.maximum == "env")
         throw Refusal("maximum=env needs a panorama (env=)");
@@ -143,7 +182,10 @@ void SceneMeasure::find_maximum() {
     for (int i = 0; i < kSources; ++i)
         first = m_options.maximum == kSourceNames[i] ? i : first;
     std::vector<std::string> missed;
+    const bool automatic = m_options.maximum == "auto";
     for (int i = first; i < kSources; ++i) {
+        if (automatic && (i == Groups || i == Env))
+            continue;
         std::string why;
         maximum_from(Source(i), why);
         if (m_out.maximum > 0) {
@@ -195,21 +237,29 @@ void SceneMeasure::take_lights(Source source, std::string& why) {
 }
 
 double SceneMeasure::image_percentile(metrics::Wanted wanted) const {
-    const metrics::OrderStatistics order(m_out.luminance.data(), m_region.width(),
-                                         m_region.height(), m_region.width(),
-                                         make_parallel(m_nthreads));
-    return order.count() > 0 ? order.find({wanted})[0] : 0;
+    const metrics::OrderStatistics sorted = order();
+    return sorted.count() > 0 ? sorted.find({wanted})[0] : 0;
 }
 
 double SceneMeasure::image_maximum() const {
-    if (m_options.max_percentile >= 100)
+    if (*m_options.max_percentile >= 100)
         return m_means.max;
-    return image_percentile(metrics::Wanted::percentile(m_options.max_percentile / 100));
+    if (!lit())
+        return image_percentile(metrics::Wanted::percentile(*m_options.max_percentile / 100));
+    // All that are above the percentile are passed over; a little less than a pixel is none.
+    constexpr double rounding = 1e-6;
+    const double above = (100 - *m_options.max_percentile) / 100 * double(m_means.counted);
+    const auto passed = std::max<int64_t>(1, int64_t(std::ceil(above - rounding)));
+    return image_percentile(metrics::Wanted::rank(m_means.counted - 1 - passed));
 }
 
 double SceneMeasure::image_mean() const {
     if (m_options.lwa == "arithmetic")
         return m_means.arithmetic;
+    if (m_options.lwa == "cells")
+        return tonemap::cell_mean(m_measured, m_region.width(), m_region.height(),
+                                  make_parallel(m_nthreads))
+            .mean;
     if (m_options.lwa == "median")
         return image_percentile(metrics::Wanted::rank(m_means.counted / 2));
     return m_options.lwa == "harmonic" ? m_means.harmonic : m_means.geometric;
@@ -234,25 +284,56 @@ void SceneMeasure::find_adaptation() {
 
 // Tables and panoramas in another unit, or at another exposure.
 void SceneMeasure::compare() {
-    const auto far = [](double a, double b) { return b > 0 && (a > kFar * b || b > kFar * a); };
-    if (m_out.maximum_from == "lights" && far(m_out.maximum, m_means.max))
+    const auto far = [](double a, double b, double times) {
+        return b > 0 && (a > times * b || b > times * a);
+    };
+    if (m_out.maximum_from == "lights" && far(m_out.maximum, m_means.max, kFar))
         m_out.warnings.push_back(format("by the table light {} has {:.6g}, the brightest pixel "
                                         "{:.6g}: lightunit= brings them to one unit",
                                         m_out.maximum_light, m_out.maximum, m_means.max));
     if (m_out.adaptation_from != "env")
         return;
-    if (const double own = image_mean(); far(m_out.adaptation, own))
+    if (const double own = image_mean(); far(m_out.adaptation, own, kFarMean))
         m_out.warnings.push_back(format("the {} mean of the panorama is {:.6g}, of the image {:.6g}"
                                         ": they should have one unit and one exposure",
-                                        m_options.lwa, m_out.adaptation, own));
+                                        m_options.lwa == "cells" ? "geometric" : m_options.lwa,
+                                        m_out.adaptation, own));
+}
+
+// What a look at the numbers would tell, but who looks.
+void SceneMeasure::say() const {
+    auto& warnings = m_out.warnings;
+    const auto pixels = double(m_region.npixels());
+    if (lit() && double(m_counted.nothing) > kMostlyNothing * pixels)
+        warnings.push_back(format("{:.0f} % of the pixels show nothing and are not measured",
+                                  100 * double(m_counted.nothing) / pixels));
+    if (lit() && m_counted.nothing > 0 && m_out.adaptation_from == "image") {
+        const double all = means_of(m_out.luminance.data(), kEpsilon).geometric;
+        if (m_out.adaptation > kOtherMean * all)
+            warnings.push_back(format("Lwa of all pixels would be {:.6g}, {:.3g} times less", all,
+                                      m_out.adaptation / all));
+    }
+    if (m_out.maximum_from == "lmax" || m_out.maximum_from == "lights") {
+        const auto most = float(kFarAbove * m_out.maximum);
+        const auto above = std::count_if(m_measured, m_measured + m_region.npixels(),
+                                         [most](float v) { return v > most; });
+        if (double(above) > kAboveMaximum * pixels)
+            warnings.push_back(format("{} pixels are above {} times the maximum, {:.6g}: is it in "
+                                      "the image's unit?",
+                                      above, kFarAbove, m_out.maximum));
+    }
+    if (m_out.maximum < kNoRange * m_out.adaptation)
+        warnings.push_back(format("Lmax {:.6g} and Lwa {:.6g} differ by less than {}x: there is "
+                                  "nothing to compress",
+                                  m_out.maximum, m_out.adaptation, kNoRange));
 }
 
 } // namespace
 
 SceneStats measure_scene(const ImageBuf& image, const CgTmoOptions& options, ColorReader& reader,
-                         ColorPlanes& planes, int nthreads) {
+                         ColorPlanes& planes, const uint8_t* background, int nthreads) {
     SceneStats out;
-    SceneMeasure(image, options, nthreads, out).measure(reader, planes);
+    SceneMeasure(image, options, nthreads, out).measure(reader, planes, background);
     return out;
 }
 

@@ -15,12 +15,15 @@ namespace tonetool {
 struct SceneStats {
     double adaptation = 0, maximum = 0;
     std::string adaptation_from, maximum_from, maximum_light, light_index;
+    int64_t counted = 0; ///< pixels whose light was measured
     std::vector<std::string> warnings;
     PagedArray<float> luminance; ///< packed; NaN where the colour was not finite
 };
 
-/// `planes` hold the colour of the whole image, as `reader` reads it.
+/// `planes` hold the colour of the whole image, as `reader` reads it, and alpha where the options
+/// need it; `background` is 1 where the image shows no surface, null where nothing tells.
 SceneStats measure_scene(const OIIO::ImageBuf& image, const CgTmoOptions& options,
-                         ColorReader& reader, ColorPlanes& planes, int nthreads);
+                         ColorReader& reader, ColorPlanes& planes, const uint8_t* background,
+                         int nthreads);
 
 } // namespace tonetool

@@ -11,6 +11,7 @@
 #include "imagebuf/color/curve_plan.h"
 #include "imagebuf/color/tone_rows.h"
 #include "imagebuf/color/view.h"
+#include "imagebuf/options/tone_options.h"
 #include "imagebuf/pixels/guard.h"
 #include "imagebuf/pixels/names.h"
 #include "imagebuf/pixels/parallel.h"
@@ -19,6 +20,7 @@
 #include "imagebuf/tone/calibrate.h"
 #include "kernels/curve_rows.h"
 #include "metrics/refusal.h"
+#include "tonemap/clip.h"
 
 namespace tonetool {
 namespace {
@@ -108,7 +110,9 @@ private:
                                   : "");
             },
             [&] { return plan_curve(curve, false); });
-        m_curve.use.clamp = m_options.clamp;
+        const bool by_channel = m_clip == tonemap::Clip::Channel;
+        m_curve.use.clamp = m_options.clamp && by_channel;
+        m_clips = m_options.clamp && !by_channel;
         if (!rec709())
             m_curve.use.weights = luminance_weights();
         summary.curve = m_curve.name;
@@ -132,6 +136,11 @@ private:
     void check_output() {
         if (m_options.primaries != "rec709" && m_options.primaries != "image")
             throw Refusal("primaries is \"" + m_options.primaries + "\"; valid: rec709, image");
+        const auto clips = clip_names();
+        const auto clip = std::find(clips.begin(), clips.end(), m_options.clip);
+        if (clip == clips.end())
+            throw Refusal(unknown_name("clip", m_options.clip, clips));
+        m_clip = tonemap::Clip(clip - clips.begin());
         m_encode = find_encoding(m_options.encode);
         if (!m_encode)
             throw Refusal(
@@ -181,9 +190,21 @@ private:
         }
         kernels::curve_rows(m_curve.numbers, m_curve.use, row.rgb, row.rgb, ptrdiff_t(width),
                             scale);
+        if (m_clips)
+            clip(row, width);
         if (m_options.encode != "none")
             for (float* plane : row.rgb)
                 std::transform(plane, plane + width, plane, m_encode);
+    }
+
+    void clip(ToneRow& row, size_t width) const {
+        const auto weights = rec709() ? kernels::kLuminance : luminance_weights();
+        for (size_t x = 0; x < width; ++x) {
+            float color[3] = {row.rgb[0][x], row.rgb[1][x], row.rgb[2][x]};
+            tonemap::clip_color(m_clip, weights, color);
+            for (size_t c = 0; c < 3; ++c)
+                row.rgb[c][x] = color[c];
+        }
     }
 
     void look(ToneRow& row, size_t width, ToneCounts& counts) const {
@@ -235,6 +256,8 @@ private:
     bool m_decode = false; ///< what a view gets is decoded before
     Calibration m_calibration;
     Encoding m_encode = nullptr;
+    tonemap::Clip m_clip = tonemap::Clip::Channel;
+    bool m_clips = false; ///< colours, not channels
 };
 
 } // namespace

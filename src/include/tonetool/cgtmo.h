@@ -19,11 +19,27 @@ namespace tonetool {
 
 struct CgTmoOptions {
     PixelOptions pixels; ///< the beauty and its colour space
-    /// "default": the base is a mean of log luminance, and beside the G-buffer AOVs a luminance
-    /// term (0.4 in log10) guides the filter, since emitters, their glow and shadows are not in a
-    /// G-buffer; "paper": Eq. 2 and 4 to the letter, the base is a mean of luminance that the
-    /// G-buffer AOVs alone guide. The options below override the preset.
-    std::string preset = "default";
+    /// "default": the base keeps edges of light (`base`), and the statistics are those of a scene
+    /// (`count`, `lwa`, `max_percentile`); "classic": the base is a mean of log luminance, and
+    /// beside the G-buffer AOVs a luminance term (0.4 in log10) guides the filter, since emitters,
+    /// their glow and shadows are not in a G-buffer; the statistics are those of all pixels;
+    /// "paper": Eq. 2 and 4 to the letter, the base is a mean of luminance over the whole window
+    /// that the G-buffer AOVs alone guide.
+    /// Empty: "default", with the filters that have a base of their own "classic". The options
+    /// below override the preset.
+    std::string preset;
+    /// "mean": the base is the mean that the filter makes; "edges": a linear function of log
+    /// luminance in each window, by its mean and variance there, which neither turns the order of
+    /// two luminances round nor amplifies noise. Empty: the preset's.
+    std::string base;
+    /// What varies by more than this is an edge of light, in natural logarithms of luminance; 0.001
+    /// to 10 (0.16), with base "edges" alone.
+    std::optional<double> edge;
+    /// How much of the noise's variance is no detail; 0, none, to 100 (2), with base "edges" alone.
+    std::optional<double> denoise;
+    /// Layer of one channel that holds the variance of the mean of luminance, as a renderer
+    /// estimates it; empty: it is measured where surfaces are flat. With base "edges" alone.
+    std::string noise;
     std::string domain;             ///< of the base: "log", "linear"; empty: the preset's
     std::optional<double> lumsigma; ///< of the luminance term in log10, 0: none, to 10
     /// The G-buffer AOVs that guide the filter: each is the name of a layer or of a file that holds
@@ -37,7 +53,8 @@ struct CgTmoOptions {
     /// An AOV, light or panorama that was requested but is missing is an error, not a warning.
     bool strict = false;
     double sigma = 8; ///< of the window in pixels, 1 to 20; the window's radius is 2.5 sigma
-    int samples = 80; ///< neighbours that are sampled in the window, 4 to 400; 0: all
+    /// Neighbours that are sampled in the window, 4 to 400; 0: all. Unset: the preset's.
+    std::optional<int> samples;
     std::string normaldist = "euclid"; ///< |n - m|^2, or "dot": 1 - |n m|
     /// The footprint of a pixel in the scene. "pixel": each pixel's own, from its neighbours'
     /// positions; "global": the median of those; "camera": from its distance and the field of view;
@@ -49,9 +66,14 @@ struct CgTmoOptions {
     /// Parameters of weighted least squares, valid with that filter alone: the sensitivity to
     /// edges, 0 to 4 (1.2), and the smoothness of the base, 0 to 100 (0.125).
     std::optional<double> wlsalpha, wlslambda;
+    /// Which pixels are measured. "lit": those that show something, neither black on the background
+    /// nor of alpha 0; "all": every finite pixel. Empty: the preset's.
+    std::string count;
     /// Adaptation luminance: "geometric", "harmonic", "arithmetic", "median" of the panorama, or
-    /// of the image without one; or a number.
-    std::string lwa = "geometric";
+    /// of the image without one; "cells": the geometric mean of the means of about 2300 square
+    /// cells of the image, which noise hardly moves, or that of the panorama's pixels; or a number.
+    /// Empty: the preset's.
+    std::string lwa;
     /// File of a latitude-longitude panorama from the camera's position, in the image's unit.
     std::string env;
     std::string weight = "solidangle"; ///< PanoramaOptions::weight
@@ -59,19 +81,23 @@ struct CgTmoOptions {
     /// The source of Lmax. "lights": the largest luminance in `lights.table` among the lights that
     /// light the image; "groups": the largest luminance in the layers of the light groups; "env":
     /// in the panorama; "image": in the image. Where a source is not available the next one is
-    /// used. "auto": the first source that was given, groups only if they add up to the image.
-    std::string maximum = "auto";
-    /// Percentile of groups and image that replaces their maximum; 50 to 100.
-    double max_percentile = 100;
+    /// used. "first": the first source that was given, groups only if they add up to the image;
+    /// "auto": the lights if there is a table, else the image. Empty: the preset's.
+    std::string maximum;
+    /// Percentile of groups and image that replaces their maximum; 50 to 100. With count "lit" all
+    /// larger luminances of the image are passed over, at least one below 100. Unset: the preset's.
+    std::optional<double> max_percentile;
     LightOptions lights;
     double bias = 0.85;          ///< of Drago's curve, 0.01 to 1
     double ldmax = 100;          ///< cd/m2 of the display, 1 to 10000; 100 counts as 1
     double saturation = 1;       ///< C' = (C / L)^saturation Ld, 0 to 4
     std::string encode = "srgb"; ///< encoding of the result, as TonemapOptions::encode
     bool clamp = true;           ///< clamp the result to [0,1]
+    std::string clip;            ///< how, as TonemapOptions::clip; empty: the preset's
     /// "picture": the tone-mapped image; or one factor of luminance, the same in R, G and B,
     /// linear, neither encoded nor clamped: "base", which the curve compresses, or "detail", which
-    /// it leaves.
+    /// it leaves; or, with base "edges", "share": how much of what a pixel differs by from the mean
+    /// about it is in its base, 0 to 1.
     std::string show = "picture";
 };
 
@@ -87,6 +113,7 @@ struct CgTmoSummary {
     double footprint = 0;   ///< median, in the unit of positions; 0: unknown
     int samples = 0;        ///< neighbours of each pixel; 0: all (wls)
     int64_t background = 0; ///< pixels without a surface
+    int64_t counted = 0;    ///< pixels whose light was measured
     int64_t nonfinite = 0, negative = 0;
     std::vector<std::string> warnings;
     std::vector<std::string> notes; ///< choices among several candidates
@@ -100,7 +127,8 @@ namespace ToneAlgo {
 ///
 /// Colour: as tonemap with a curve, in linear Rec.709; every other channel is carried. Missing
 /// AOVs: without position, normal or albedo its term is left out, with a warning; without all of
-/// them the luminance term alone remains. Background (no surface): only background pixels are its
+/// them a base "edges" has neighbours by distance alone, without a warning, and a base "mean" the
+/// luminance term. Background (no surface): only background pixels are its
 /// neighbours. NaN, Inf, negative colour: as tonemap; such pixels take no part in the base, nor do
 /// black ones in that of weighted least squares. Weighted least squares are solved for the whole
 /// image whatever the ROI, on one thread, and take 0.4 kB of memory for each pixel. They are solved

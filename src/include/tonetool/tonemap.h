@@ -57,6 +57,13 @@ struct CalibrationOptions {
     /// middles (the article's MIP levels, counted from the top). 0: one mean for the image. The
     /// largest valid level is the last one whose cells are at least a pixel wide.
     int level = 0;
+    /// Which pixels are in the statistics. "lit": those that show something: neither black on the
+    /// background, nor of alpha 0; "all": every finite pixel. Empty: "lit", with one of the
+    /// switches below "all".
+    std::string count;
+    /// "pixels": the mean is of pixels; "cells": of the means of about 2300 square cells, which the
+    /// noise of pixels hardly moves.
+    std::string means = "pixels";
     double epsilon = 1e-6;         ///< added to each luminance before its logarithm, > 0
     bool skip_black = false;       ///< leave pixels of luminance 0 out of the statistics
     bool skip_transparent = false; ///< leave pixels of alpha 0 out of the statistics
@@ -84,7 +91,12 @@ struct TonemapOptions {
     std::string primaries = "rec709";
     /// Encoding of a curve's result: none (linear), srgb, gamma2.2, rec1886 (2.4), gamma2.6.
     std::string encode = "srgb";
-    bool clamp = true;      ///< clamp the result of a curve to [0,1]
+    bool clamp = true; ///< clamp the result of a curve to [0,1]
+    /// How a colour with a channel above 1 is clamped. "channel": each channel by itself, which
+    /// turns its hue; "luminance": its luminance and hue stay, and it becomes whiter; "neutral":
+    /// its hue stays, and it becomes darker; "hue": as "luminance" where it is nearly white, as
+    /// "neutral" where it is saturated.
+    std::string clip = "channel";
     bool unpremult = false; ///< divide colour by alpha before and multiply after
 };
 
