@@ -48,7 +48,8 @@ void run_qc(Session& session, const Call& call) {
                            "\" is what a comparison has made, no render (valid: "
                            "--qc before the comparison)");
     }
-    sequence::QcRecord record{{}, fault_limits(call, sequence::qc_rules())};
+    sequence::QcRecord record;
+    record.limits = fault_limits(call, sequence::qc_rules());
     session.stack.push(call.images[0]);
     session.outcome.produced = true;
     if (!session.check.result)
