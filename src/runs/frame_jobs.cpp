@@ -69,9 +69,13 @@ void make_folders(const FramePlan& plan, const FrameRun& run) {
 }
 
 // Of a case: the reference would pass as its own test.
-bool same_file(const Strings& files) {
+bool same_file(const FramePlan& plan, const FrameRun& run) {
+    const CheckPlan& check = plan.check;
+    const Strings files =
+        words_at(run.words, check.inputs.size() == 2 ? check.inputs : plan.sequences);
     std::error_code none;
-    return files.size() > 1 && std::filesystem::equivalent(files[0], files[1], none);
+    return plan.named && check.compares && files.size() > 1 &&
+           std::filesystem::equivalent(files[0], files[1], none);
 }
 
 std::string crashed(const std::string& how) {
@@ -136,7 +140,7 @@ void FrameContext::run_commands(Session& session, size_t index) const {
         make_folders(plan, run);
     if (gone.status == Status::Missing)
         session.check.absent = absent_approved(session, files);
-    if (plan.named && same_file(files)) {
+    if (same_file(plan, run)) {
         session.error("", "reference and test are the same file");
     } else if (gone.status != Status::Missing || !session.check.absent.empty()) {
         Runner(session, run.words).run_all();

@@ -128,7 +128,8 @@ void pair_named_cases(Scan& scan, std::vector<Files>& listings) {
             listing.names =
                 sequence::file_names(scan.texts()[pattern.at], scan.options, pairs.items);
             for (std::string& name : listing.names)
-                name = (name.compare(0, 1, "-") == 0 ? "./" : "") + name;
+                if (pattern.is_output && name.compare(0, 1, "-") == 0)
+                    name.insert(0, "./"); // else it would be a command
         }
         listings.push_back(std::move(listing));
     }

@@ -202,6 +202,9 @@ def test_one_file_on_both_sides(tonetool, files):
     assert [(row["status"], row["message"]) for row in table(folder / "t.csv")] == [
         ("error", "reference and test are the same file"), ("passed", "")]
     tonetool("r/%N.exr", "r/%N.exr", FLIP, status=1)
+    tonetool("r/a.exr", "r/%N.exr", FLIP, "--csv", "t.csv", status=1)  # one reference among the tests
+    assert [row["status"] for row in table(folder / "t.csv")] == ["error", "passed"]
+    tonetool("r/%N.exr", "r/%N.exr", "--add", "-o", "t/%N_twice.exr")  # nothing is compared
 
 
 # ---- results
@@ -290,6 +293,19 @@ def test_folders_of_outputs_are_made(tonetool, suite):
     (suite / "small").mkdir()
     tonetool("r/%N.exr", "--resize", "4x4", "-o", "small/%N.exr")
     assert (suite / "small/hair/long.exr").exists()
+
+
+def test_names_in_modifiers_and_texts(tonetool, suite):
+    (suite / "x").mkdir()
+    ran = tonetool("r/ä%N.exr", "t/ä%N.exr", "--hdrflip:fail=0.5:print=0:saveexposures=x/e%N", "--echo", "<%N>")
+    assert "< b>" in ran.out and "1 case: 1 passed" in ran.out
+    assert list((suite / "x").glob("e b*"))
+    assert "%N" in tonetool("r/plane.exr", "--echo", "<%N>").out  # without a name it is a text
+
+
+def test_a_dry_run_lists_the_cases(tonetool, suite):
+    ran = tonetool("r/%N.exr", "t/%N.exr", FLIP, "--dry-run", "--json", "j.json")
+    assert "4 cases asked for, 3 there, missing: plane" in ran.out and not (suite / "j.json").exists()
 
 
 # ---- frames of cases

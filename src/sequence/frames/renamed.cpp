@@ -2,9 +2,13 @@
 #include "sequence/frames/renamed.h"
 
 #include <OpenImageIO/filesystem.h>
+#include <OpenImageIO/strutil.h>
 #include <algorithm>
+#include <cstdint>
 #include <filesystem>
+#include <map>
 #include <numeric>
+#include <set>
 
 namespace tonetool::sequence {
 
@@ -12,16 +16,41 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr size_t kMostPairs = 100000; // a hint is not worth more
+constexpr size_t kMostPairs = 100000, kMostRead = 64; // a hint is not worth more
 
-bool same_bytes(const std::string& a, const std::string& b) {
-    std::error_code why_a, why_b;
-    const auto size = fs::file_size(a, why_a);
-    if (why_a || fs::file_size(b, why_b) != size || why_b || size > (uintmax_t(1) << 30))
-        return false;
-    std::string one, other;
-    return OIIO::Filesystem::read_text_file(a, one) && OIIO::Filesystem::read_text_file(b, other) &&
-           one == other;
+// What tells a file from others: its size, and a hash of its bytes where another has that size.
+struct Contents {
+    uintmax_t size = 0;
+    uint64_t hash = 0;
+    bool known = false;
+    bool operator==(const Contents& o) const {
+        return known && o.known && size == o.size && hash == o.hash;
+    }
+};
+
+Contents contents_of(const std::string& file, const std::set<uintmax_t>& sizes) {
+    constexpr uintmax_t most = uintmax_t(1) << 28;
+    std::error_code why;
+    Contents contents;
+    contents.size = fs::file_size(file, why);
+    std::string bytes;
+    if (why || contents.size > most || sizes.count(contents.size) == 0 ||
+        !OIIO::Filesystem::read_text_file(file, bytes))
+        return contents;
+    contents.hash = OIIO::Strutil::strhash(bytes);
+    contents.known = true;
+    return contents;
+}
+
+std::set<uintmax_t> sizes_of(const std::vector<std::string>& names, const std::vector<size_t>& of) {
+    std::set<uintmax_t> sizes;
+    for (const size_t i : of) {
+        std::error_code why;
+        const uintmax_t size = fs::file_size(names[i], why);
+        if (!why)
+            sizes.insert(size);
+    }
+    return sizes;
 }
 
 // Letters to change, add or leave out.
@@ -65,7 +94,17 @@ std::vector<std::string> renamed_hints(const Pairing& pairs, const std::vector<b
                     hints[b] = ", renamed? \"" + pairs.items[a].name + "\" is there";
                 }
     };
-    join([&](size_t a, size_t b) { return same_bytes(pairs.names[0][a], pairs.names[1][b]); });
+    if (lost.size() + extra.size() <= kMostRead) {
+        const std::vector<std::string>&references = pairs.names[0], &tests = pairs.names[1];
+        const std::set<uintmax_t> sizes = sizes_of(references, lost),
+                                  others = sizes_of(tests, extra);
+        std::map<size_t, Contents> contents;
+        for (const size_t i : lost)
+            contents[i] = contents_of(references[i], others);
+        for (const size_t i : extra)
+            contents[i] = contents_of(tests[i], sizes);
+        join([&](size_t a, size_t b) { return contents[a] == contents[b]; });
+    }
     join([&](size_t a, size_t b) {
         return pairs.items[a].method == pairs.items[b].method &&
                is_near(pairs.items[a].name, pairs.items[b].name);
