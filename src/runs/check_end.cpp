@@ -2,6 +2,7 @@
 #include "runs/check_end.h"
 
 #include <OpenImageIO/filesystem.h>
+#include <OpenImageIO/sysutil.h>
 #include <filesystem>
 #include <ostream>
 
@@ -10,6 +11,8 @@
 #include "sequence/frames/file_stamp.h"
 #include "sequence/report/report_files.h"
 #include "sequence/results/check_files.h"
+#include "sequence/results/ci_texts.h"
+#include "sequence/results/method_table.h"
 #include "sequence/results/shot_exposures.h"
 #include "sequence/results/tables.h"
 #include "sequence/verdict/accepted.h"
@@ -51,7 +54,7 @@ std::vector<EndFile> places_of(const CheckPlan& check) {
     std::vector<EndFile> places;
     for (const auto& [command, file] : check.written()) {
         const bool is_file = command != "merge" && command != "state" && command != "pictures" &&
-                             command != "exit-zero" && command != "accept";
+                             command != "exit-zero" && command != "accept" && command != "github";
         if (is_file && file != "-")
             places.push_back({command, file, normal(file), sequence::stamp_of(file)});
     }
@@ -91,6 +94,35 @@ void refuse_in_run(const FramePlan& plan, const std::vector<EndFile>& places, co
             if (place.is(file))
                 place.refuse(file, "is written as an image, too");
     }
+}
+
+void write_table(const sequence::ShotResult& shot, const CheckPlan& check,
+                 const std::string& file) {
+    sequence::write_text(sequence::method_table(shot, check.table, sequence::table_format(file)),
+                         file);
+    const std::string lacking = sequence::lacking_in_table(shot, check.table);
+    if (!lacking.empty())
+        throw CommandError("--table: no number of " + lacking);
+}
+
+// Tables for papers, and what continuous integration shows.
+void write_for_others(const sequence::ShotResult& shot, const CheckPlan& check, std::ostream& out,
+                      Strings& errors) {
+    const sequence::CheckFiles files = check.written();
+    if (const auto table = files.find("table"); table != files.end())
+        sequence::attempt(errors, [&] { write_table(shot, check, table->second); });
+    Strings summaries;
+    if (const auto summary = files.find("summary"); summary != files.end())
+        summaries.push_back(summary->second);
+    if (check.has("github")) {
+        out << sequence::github_text(shot) << std::flush;
+        const std::string of_step(OIIO::Sysutil::getenv("GITHUB_STEP_SUMMARY"));
+        if (!of_step.empty() && !check.dry_run)
+            summaries.push_back(of_step);
+    }
+    for (const std::string& file : summaries)
+        sequence::attempt(errors,
+                          [&] { sequence::append_text(sequence::summary_text(shot), file); });
 }
 
 } // namespace
@@ -155,6 +187,7 @@ int conclude_check(const sequence::ShotResult& shot, const FramePlan& plan,
         const std::string text = sequence::bad_frames_text(shot, plan.check.bad_from);
         sequence::attempt(errors, [&] { sequence::write_text(text, bad->second); });
     }
+    write_for_others(shot, plan.check, out, errors);
     if (!unkept.empty())
         errors.push_back(unkept);
     for (const std::string& complaint : sequence::unused_acceptances(shot))

@@ -98,8 +98,27 @@ private:
             throw CommandError(name + " is given twice");
         if (word.is("report") || word.is("pictures"))
             take_picture_limits(word, name);
+        else if (word.is("table"))
+            take_table(word, name, argument);
         else if (!word.is("qc") && !word.is("against")) // whose own are read when they run
             take_modifiers(name, word);
+    }
+
+    void take_table(const Word& word, const std::string& name, const std::string& file) {
+        if (!file.empty())
+            (void)sequence::table_format(file);
+        sequence::MethodTableOptions& table = m_plan.table;
+        for (const auto& [key, value] : word.token.modifiers) {
+            if (key == "quantity")
+                table.quantities = split(value, ',');
+            else if (key == "methods")
+                table.methods = split(value, ',');
+            else if (key == "digits")
+                table.digits = checked_integer(name + ": " + key, value, {0, 17});
+            else
+                throw CommandError(name + " has no modifier \"" + key +
+                                   "\" (valid: quantity, digits, methods)");
+        }
     }
 
     void take_modifiers(const std::string& name, const Word& word) {

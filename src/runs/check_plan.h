@@ -9,6 +9,7 @@
 #include "chain/language/line.h"
 #include "sequence/frames/file_sequence.h"
 #include "sequence/report/report_page.h"
+#include "sequence/results/method_table.h"
 #include "sequence/results/results.h"
 #include "text/text.h"
 
@@ -32,6 +33,7 @@ struct CheckPlan {
     Strings part_lists;                                   ///< files of --merge-list
     sequence::PictureCounts pictures;                     ///< of --report and --pictures
     sequence::PageLimits page;                            ///< of --report
+    sequence::MethodTableOptions table;
     /// The words without those that say which frames, where to and how fast; and where they are.
     Strings essence;
     std::vector<size_t> essence_at;

@@ -126,7 +126,7 @@ void PlanRun::remove_abandoned() const {
             files.push_back(m_state->file(m_context.item(i)));
             files.push_back(m_sample_state->file(m_context.item(i)));
         }
-        const Strings drawn = m_pictures->files(run.frame.number, run.frame.view);
+        const Strings drawn = m_pictures->files(run.frame.item());
         files.insert(files.end(), drawn.begin(), drawn.end());
     }
     remove_abandoned_outputs(files);

@@ -15,6 +15,21 @@ chain::Rows check_commands() {
         command("csv FILE", "Write a table of all frames, a line each").whole_line(),
         command("junit FILE", "Write a test case for each frame, as CI systems read them")
             .whole_line(),
+        command("table FILE",
+                "Write the numbers of named cases (%N) as a table for a paper: a row for each "
+                "name, a column for each method (%M) or quantity; .md, .tex or .csv")
+            .modifier("quantity", "NAME,...", "as of --csv: hdrflip.mean (the first)")
+            .modifier("digits", "N", "behind the decimal point, in .md and .tex (4)")
+            .modifier("methods", "NAME,...", "which, in that order (all)")
+            .whole_line(),
+        command("github",
+                "Print what did not pass as annotations of GitHub, and add a summary to the file "
+                "that GITHUB_STEP_SUMMARY names")
+            .whole_line(),
+        command("summary FILE",
+                "Add a heading, the verdict and a table of what did not pass, as Markdown, to the "
+                "end of the file")
+            .whole_line(),
         command("bad-frames FILE",
                 "Write the numbers of the frames to render again, in one line as render farms read "
                 "it: 1004,1006,1009-1011")

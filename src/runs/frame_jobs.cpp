@@ -3,6 +3,7 @@
 
 #include <OpenImageIO/sysutil.h>
 #include <algorithm>
+#include <filesystem>
 #include <ostream>
 #include <sstream>
 
@@ -51,6 +52,32 @@ bool draws_pairs(const chain::ParsedLine& line) {
            !any({"if", "while", "for"});
 }
 
+// Of cases: the folders of their names are made as they are written.
+void make_folders(const FramePlan& plan, const FrameRun& run) {
+    for (const size_t at : plan.check.outputs) {
+        const std::filesystem::path folder = std::filesystem::path(run.words[at]).parent_path();
+        const std::string& pattern = plan.line.texts[at];
+        if (!sequence::has_names(pattern) || plan.check.dry_run || folder.empty())
+            continue;
+        const std::string fixed =
+            sequence::NamePattern(sequence::without_range(pattern), true).fixed_part();
+        const std::string root = fixed.substr(0, fixed.rfind('/') + 1);
+        std::error_code why; // a write tells what is wrong
+        if (root.empty() || std::filesystem::is_directory(root, why))
+            std::filesystem::create_directories(folder, why);
+    }
+}
+
+// Of a case: the reference would pass as its own test.
+bool same_file(const FramePlan& plan, const FrameRun& run) {
+    const CheckPlan& check = plan.check;
+    const Strings files =
+        words_at(run.words, check.inputs.size() == 2 ? check.inputs : plan.sequences);
+    std::error_code none;
+    return plan.named && check.compares && files.size() > 1 &&
+           std::filesystem::equivalent(files[0], files[1], none);
+}
+
 std::string crashed(const std::string& how) {
     return "the libraries that read or compare its files crashed: " + how;
 }
@@ -76,15 +103,15 @@ std::string kept_in(const std::optional<State>& state, const FramePlan& plan,
     const size_t all = plan.runs.size();
     for (size_t i = 0; i < all; ++i)
         count += is_kept(i) ? 1 : 0;
-    return std::to_string(count) + " of " + std::to_string(all) + " frame" + (all == 1 ? "" : "s") +
-           " kept in " + plan.check.argument("state");
+    return std::to_string(count) + " of " + std::to_string(all) +
+           (plan.named ? " case" : " frame") + (all == 1 ? "" : "s") + " kept in " +
+           plan.check.argument("state");
 }
 
 } // namespace
 
 sequence::Item FrameContext::item(size_t index) const {
-    const Frame& frame = plan.runs[index].frame;
-    return {frame.number, frame.view};
+    return plan.runs[index].frame.item();
 }
 
 Session FrameContext::session(size_t index, std::ostream& out, std::ostream& err) const {
@@ -109,14 +136,18 @@ void FrameContext::run_commands(Session& session, size_t index) const {
     const FrameRun& run = plan.runs[index];
     const Strings files = words_at(run.words, plan.sequences);
     const sequence::Probe gone = sequence::missing_of(files);
+    if (plan.named && gone.status != Status::Missing)
+        make_folders(plan, run);
     if (gone.status == Status::Missing)
         session.check.absent = absent_approved(session, files);
-    if (gone.status != Status::Missing || !session.check.absent.empty()) {
+    if (same_file(plan, run)) {
+        session.error("", "reference and test are the same file");
+    } else if (gone.status != Status::Missing || !session.check.absent.empty()) {
         Runner(session, run.words).run_all();
         if (session.outcome.misused)
             session.out << chain::help_text();
     } else {
-        session.error("", gone.message);
+        session.error("", run.absent.empty() ? gone.message : run.absent);
     }
 }
 
@@ -243,6 +274,8 @@ FrameResult CheckedFrames::unchecked(size_t index) const {
     FrameResult result;
     result.frame = run.frame.number;
     result.view = run.frame.view;
+    result.name = run.frame.name;
+    result.method = run.frame.method;
     result.test_frame = run.test_frame;
     result.reference = names.size() > 1 ? names[0] : "";
     result.test = names.empty() ? "" : names[names.size() > 1 ? 1 : 0];
@@ -268,6 +301,8 @@ CheckedFrames::Checked CheckedFrames::check(size_t index) const {
                                   ? "the command line cannot be run"
                                   : session.outcome.first_error;
     sequence::settle(result, error, words_at(run.words, plan.check.inputs));
+    if (result.status == Status::Missing && !run.absent.empty())
+        result.message = run.absent;
     if (painter.drawn)
         checked.pictures = m_pictures.texts(result, *painter.drawn);
     // Warnings are the verdict's matter: whether they count may differ when the result is found.
@@ -345,7 +380,7 @@ void CheckedFrames::claim(const Strings& written, FrameResult& result, Ran& ran)
         return;
     try {
         for (const std::string& file : written)
-            m_context.written->claim(file, result.frame, result.view);
+            m_context.written->claim(file, result.item());
     } catch (const CommandError& problem) {
         result.status = Status::Error;
         result.message = problem.what();
@@ -359,6 +394,8 @@ void CheckedFrames::take(size_t index, Ran& ran) {
     m_unkept = m_unkept.empty() ? texts[4] : m_unkept;
     FrameResult& result = m_results[index];
     result = sequence::frame_from_json(texts[0]);
+    result.name = m_context.plan.runs[index].frame.name; // to the byte, whatever JSON makes of it
+    result.method = m_context.plan.runs[index].frame.method;
     claim(unpacked(texts[3]), result, ran);
     if (result.status == Status::Crashed) {
         // What the process had begun to write.

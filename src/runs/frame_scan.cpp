@@ -51,6 +51,10 @@ bool take_setting(Scan& scan, const Word& word) {
     return true;
 }
 
+bool is_wildcard(const Scan& scan, const std::string& text) {
+    return sequence::is_pattern(text) || (scan.options.names && sequence::has_names(text));
+}
+
 // -o:all=1 has wildcards of its own.
 void take_patterns(Scan& scan, const Word& word) {
     const auto& modifiers = word.token.modifiers;
@@ -61,7 +65,7 @@ void take_patterns(Scan& scan, const Word& word) {
         const bool written = output && at == word.at + 1;
         if (!word.wildcards)
             scan.same.push_back(at);
-        else if (!(written && all) && sequence::is_pattern(scan.texts()[at]))
+        else if (!(written && all) && is_wildcard(scan, scan.texts()[at]))
             scan.patterns.push_back({at, written});
     }
 }
@@ -119,9 +123,11 @@ void check_range_is_used(const Scan& scan, const std::vector<sequence::Side>& si
     }
 }
 
-Scan scan_line(chain::ParsedLine line) {
+Scan scan_line(chain::ParsedLine line, bool for_images) {
     Scan scan;
     scan.plan.line = std::move(line);
+    scan.for_images = for_images;
+    scan.options.names = !scan.plan.line.compat && !for_images;
     for (const Word& word : scan.plan.line.words)
         if (!take_setting(scan, word))
             take_patterns(scan, word);

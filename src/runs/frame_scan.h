@@ -25,6 +25,7 @@ struct Scan {
     std::optional<std::string> views; ///< of --views, as it was given
     std::vector<Pattern> patterns;
     bool for_images = false;
+    Strings absent; ///< what is said of named cases that are missing, one for each; else empty
     std::vector<sequence::Item> tests; ///< of the second sequence, where they are others
     std::vector<size_t> same; ///< words that --wildcardoff says to be the same in all frames
 
@@ -32,7 +33,12 @@ struct Scan {
 };
 
 /// Reads the settings and the wildcards of the whole line.
-Scan scan_line(chain::ParsedLine line);
+Scan scan_line(chain::ParsedLine line, bool for_images = false);
+
+/// The frames of cases with names: what their files are, and what the outputs are called.
+void pair_named_cases(Scan& scan, std::vector<sequence::Files>& listings);
+/// Whether an image that is read has %N or %M in its name; else they are plain text everywhere.
+bool settle_names(Scan& scan);
 
 /// The frames of --frames, without views.
 std::vector<sequence::Item> frames_given(const Scan& scan);

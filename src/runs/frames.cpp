@@ -5,6 +5,7 @@
 #include <map>
 
 #include "runs/frame_scan.h"
+#include "runs/uncompared.h"
 #include "text/error.h"
 #include "text/token.h"
 
@@ -127,9 +128,13 @@ void make_runs(Scan& scan, const Files& first, const std::vector<Files>& listing
             run.frame = frame;
             run.frame.number = first.items[i].frame;
             run.frame.view = first.items[i].view;
+            run.frame.name = first.items[i].name;
+            run.frame.method = first.items[i].method;
         }
         if (!scan.tests.empty())
             run.test_frame = scan.tests[i].frame;
+        if (!scan.absent.empty())
+            run.absent = scan.absent[i];
     }
 }
 
@@ -167,6 +172,13 @@ void count_families(FramePlan& plan) {
     }
 }
 
+// What a name needs so that two frames differ in it.
+std::string wildcards_that_tell(const sequence::Item& a, const sequence::Item& b) {
+    if (!a.named())
+        return "# or {FRAME_NUMBER}";
+    return a.name != b.name ? "%N" : a.method != b.method ? "%M" : a.view != b.view ? "%V" : "#";
+}
+
 // Each frame would be written over the one before. What an expression or an --if makes of it is
 // seen when it is written.
 void check_outputs_differ(const FramePlan& plan) {
@@ -175,11 +187,12 @@ void check_outputs_differ(const FramePlan& plan) {
         for (const FrameRun& run : plan.runs) {
             const std::string& name = run.words[at];
             const Frame& first = frames.emplace(name, run.frame).first->second;
-            const bool same = first.number == run.frame.number && first.view == run.frame.view;
+            const bool same = first.item() == run.frame.item();
             if (!same && name.find('{') == std::string::npos) {
-                throw CommandError("\"" + name +
-                                   "\" would be written by every frame over the one "
-                                   "before (valid: # or {FRAME_NUMBER} in the name)");
+                throw CommandError(
+                    "\"" + name + "\" would be written by every " +
+                    (first.item().named() ? "case" : "frame") + " over the one before (valid: " +
+                    wildcards_that_tell(first.item(), run.frame.item()) + " in the name)");
             }
         }
     }
@@ -195,18 +208,23 @@ void set_for_line(chain::Session& session, const FramePlan& plan) {
 }
 
 FramePlan plan_frames(chain::ParsedLine line, const std::string& directory, bool for_images) {
-    Scan scan = scan_line(std::move(line));
+    Scan scan = scan_line(std::move(line), for_images);
     scan.directory = directory;
-    scan.for_images = for_images;
     scan.plan.check = plan_check(scan.plan.line);
     scan.options.lenient = scan.plan.line.compat && !scan.plan.check.judges();
     if (scan.plan.check.has("merge"))
         return scan.plan;
+    if (!for_images)
+        refuse_uncompared(scan.plan.line, scan.plan.check);
     Files first;
     if (!scan.options.frames.empty() && scan.patterns.empty())
         first.items = frames_given(scan);
     std::vector<Files> listings;
-    if (scan.plan.check.pairs_frames() && !for_images) {
+    if (settle_names(scan)) {
+        scan.plan.named = true;
+        pair_named_cases(scan, listings);
+        first = listings.front();
+    } else if (scan.plan.check.pairs_frames() && !for_images) {
         pair_frames(scan, first, listings);
         first = listings.empty() ? first : listings.front();
     } else {

@@ -22,6 +22,8 @@ struct FrameRun {
     Frame frame;
     /// The number of its second sequence where that is paired by position and has another.
     std::optional<int> test_frame{};
+    /// Of a named case that a side lacks: what is said of it.
+    std::string absent{};
 };
 
 /// What the whole command line says about its frames.
@@ -29,6 +31,7 @@ struct FramePlan {
     chain::ParsedLine line;
     std::vector<FrameRun> runs; ///< one, where there is nothing to loop over
     bool loops = false;
+    bool named = false; ///< its runs are cases with names
     bool skip_bad = false, verbose = false, quiet = false, warnings_exit = false;
     int parallel = 1;
     std::string progress; ///< "json", or "" for a terminal

@@ -36,7 +36,8 @@ std::string error_in(const std::string& err) {
     const std::string begin = "tonetool ERROR";
     if (err.compare(0, begin.size(), begin) != 0 || err.find(begin, 1) != std::string::npos)
         return "";
-    const size_t number = err.find(" (frame "), line = err.find("\nFull command line was:\n");
+    const size_t number = std::min(err.find(" (frame "), err.find(" (case ")),
+                 line = err.find("\nFull command line was:\n");
     const size_t after =
         line == std::string::npos ? line : err.find('\n', err.find("\n> ", line) + 1);
     const bool more = after != std::string::npos && after + 1 < err.size();
@@ -153,8 +154,8 @@ bool Loop::is_repeated(const std::string& err) {
 
 void Loop::tell_repeated() {
     if (m_repeated > 0) {
-        m_err << "tonetool: the same error in " << m_repeated << " more frame"
-              << (m_repeated == 1 ? "" : "s") << std::endl;
+        m_err << "tonetool: the same error in " << m_repeated << " more "
+              << (m_plan.named ? "case" : "frame") << (m_repeated == 1 ? "" : "s") << std::endl;
     }
     m_repeated = 0;
 }

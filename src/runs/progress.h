@@ -27,7 +27,9 @@ private:
 
     std::ostream& m_stream;
     bool m_json, m_terminal, m_verbose, m_drawn = false;
-    size_t m_total, m_done = 0;
+    size_t m_total;
+    const char* m_noun; ///< "frames" or "cases"
+    size_t m_done = 0;
     OIIO::Timer m_time;
 };
 

@@ -129,7 +129,7 @@ Strings files_at(const FramePlan& plan, size_t at) {
     for (const FrameRun& run : plan.runs)
         files.push_back(run.words.at(at));
     const std::string& pattern = plan.line.texts[at];
-    if (sequence::is_pattern(pattern)) {
+    if (!plan.named && sequence::is_pattern(pattern)) {
         sequence::PatternOptions options = plan.options;
         options.frames.clear();
         const Strings others =
@@ -213,6 +213,21 @@ std::string numbers_text(const std::vector<const FrameRun*>& runs) {
     return text.substr(0, text.find('\n'));
 }
 
+std::string names_text(const std::vector<const FrameRun*>& runs) {
+    Strings names;
+    for (const FrameRun* run : runs)
+        names.push_back(printable(sequence::item_name(run->frame.item())));
+    return join(names, ", ");
+}
+
+// Of a case: as far as the pattern is the same for all, since folders below are made.
+std::string fixed_name(const FramePlan& plan, size_t at, const std::string& file) {
+    const std::string& pattern = plan.line.texts[at];
+    return plan.named && sequence::has_names(pattern)
+               ? sequence::NamePattern(sequence::without_range(pattern), true).fixed_part()
+               : file;
+}
+
 } // namespace
 
 void try_outputs(const FramePlan& plan) {
@@ -225,7 +240,8 @@ void try_outputs(const FramePlan& plan) {
             continue;
         for (const FrameRun& run : plan.runs) {
             const std::string& file = run.words.at(at);
-            const std::string folder = std::filesystem::path(file).parent_path().string();
+            const std::string folder =
+                std::filesystem::path(fixed_name(plan, at, file)).parent_path().string();
             std::error_code none;
             if (file.find('{') != std::string::npos || !folders.insert(folder).second)
                 continue;
@@ -259,9 +275,11 @@ std::string plan_text(const FramePlan& plan) {
     const size_t asked = plan.runs.size();
     std::string text = "dry run: the command line is right, ";
     if (plan.loops) {
-        text += format("{} frame{} asked for, {} there", asked, asked == 1 ? "" : "s",
-                       asked - missing.size());
-        text += missing.empty() ? "" : ", missing: " + numbers_text(missing);
+        text += format("{} {}{} asked for, {} there", asked, plan.named ? "case" : "frame",
+                       asked == 1 ? "" : "s", asked - missing.size());
+        text += missing.empty()
+                    ? ""
+                    : ", missing: " + (plan.named ? names_text(missing) : numbers_text(missing));
     } else {
         text += missing.empty() ? "its files are there" : "not all of its files are there";
     }

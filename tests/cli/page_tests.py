@@ -36,7 +36,7 @@ def outputs(block):
         words = shlex.split(command)
         for flag, name in zip(words, words[1:]):
             if flag == "-o":
-                yield name.replace("#", "*")
+                yield name.replace("#", "*").replace("%N", "*")
 
 
 def check(block, program, folder):

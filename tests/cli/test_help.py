@@ -12,7 +12,7 @@ from pathlib import Path
 import pytest
 
 ROOT = Path(__file__).resolve().parents[2]
-TOPICS = ("compare", "check", "threshold", "tonemap", "hdr", "ocio", "recipes", "exit")
+TOPICS = ("compare", "check", "cases", "threshold", "tonemap", "hdr", "ocio", "recipes", "exit")
 
 
 @pytest.fixture
@@ -32,6 +32,9 @@ def shop(make_image, tmp_path, testimages):
     for frame in (1, 2, 3):
         for side in ("ref", "test", "shot"):
             make_image(f"{side}.{frame:04d}.exr", width=32, height=32, seed=frame)
+    for folder in ("refs", "renders", "out/bdpt", "out/pt"):
+        (tmp_path / folder).mkdir(parents=True)
+        make_image(f"{folder}/lamp.exr", width=32, height=32)
     (tmp_path / "ocio").symlink_to(ROOT / "ocio")
     for shot in ("gallery", "cornell"):
         for side in ("ref", "test"):

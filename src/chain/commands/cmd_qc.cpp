@@ -69,7 +69,7 @@ void run_qc(Session& session, const Call& call) {
     take_types(image, record.facts.channels);
     if (has_picture(record.facts) && !session.check.painter) // which reads the image itself
         tell_encoding(session, call, image, image.part().header(), options.pixels);
-    if (session.frame.loops)
+    if (session.frame.loops && (!session.frame.item().named() || session.frame.number != 0))
         record.strays = sequence::stray_files(image.name(), session.frame.number);
     session.check.result->qc = sequence::to_json(record);
     show_faults(session, call, record);

@@ -67,6 +67,25 @@ exposures=shot compares all frames at one range of exposures, so that their erro
 odd noise, missing layers; see --help against, --help qc and --help exit.
 )";
 
+const char* const kCases = R"(Checking many images by their names
+
+  tonetool refs/%N.exr renders/%N.exr --hdrflip:fail=mean=0.5 --report page.html --junit junit.xml
+  tonetool refs/%N.exr out/%M/%N.exr --hdrflip --csv methods.csv
+  tonetool renders/%N.exr --qc
+
+%N stands for the name of a case, folders included (hair/long), and %M for a method, without /. Cases
+are the union of what both sides have: what one lacks is missing, and does not pass. A name that
+stands twice is the same text; # and %V may stand beside it (%N.#.exr). What begins with a dot is left
+out, links to folders are followed.
+
+  refs/plain.exr renders/%N.exr   one reference for all; one test for many references is an error
+  -o errors/%N.png                an output has each wildcard that differs; its folders are made
+  --wildcardoff                   the words after it are plain text, as all are with --compat
+
+In a crontab % is written \\%, in a .bat file %%N. What holds over time (--qc, fail=auto) holds over the
+frames of one name and method; exposures=shot and --bad-frames are of shots alone. See --help check.
+)";
+
 const char* const kThreshold = R"(Thresholds: when a comparison fails
 
   --hdrflip:fail=0.3                       the mean must be at most 0.3
@@ -199,6 +218,7 @@ const std::vector<Topic>& topics() {
     static const std::vector<Topic> all = {
         {"compare", "a test image with a reference", kCompare},
         {"check", "a sequence of frames, with or without a reference", kCheck},
+        {"cases", "many images by their names", kCases},
         {"threshold", "limits: what fails, and how to find a number", kThreshold},
         {"biascheck", "noise or change: what HDR-FLIP cannot see", kBiascheck},
         {"tonemap", "show an HDR picture on a display", kTonemap},

@@ -20,9 +20,13 @@ std::string Session::message(const char* kind, const std::string& where,
     if (compat)
         return begin + what;
     const std::string view = frame.view.empty() ? "" : ", view " + frame.view;
+    const sequence::Item item = frame.item();
+    const std::string where_it_was =
+        item.named() ? sequence::item_title(item) : "frame " + std::to_string(frame.number) + view;
     // A line break in a name must not begin a line that looks like one of this program.
     return begin + OIIO::Strutil::replace(what, "\n", "\n  ", true) +
-           (frame.loops ? " (frame " + std::to_string(frame.number) + view + ")" : "");
+           (frame.loops ? " (" + OIIO::Strutil::replace(where_it_was, "\n", "\n  ", true) + ")"
+                        : "");
 }
 
 void Session::error(const std::string& where, const std::string& what, bool ends) {
@@ -97,15 +101,17 @@ void Stack::keep_pixels_of(const std::string& filename) const {
         keep(*image);
 }
 
-void WrittenFiles::claim(const std::string& filename, int number, const std::string& view) {
+void WrittenFiles::claim(const std::string& filename, const sequence::Item& frame) {
     std::lock_guard<std::mutex> lock(m_mutex);
-    const std::pair<int, std::string> frame(number, view);
     const auto [first, is_new] =
         m_frame_of.emplace(std::filesystem::path(filename).lexically_normal().string(), frame);
     if (!is_new && first->second != frame) {
-        throw CommandError("\"" + filename + "\" was written by frame " +
-                           std::to_string(first->second.first) +
-                           " (valid: a name with # or {FRAME_NUMBER}, another for each frame)");
+        throw CommandError(
+            "\"" + filename + "\" was written by " +
+            (frame.named() ? sequence::item_title(first->second) + " (valid: a name with %N or %M"
+                           : "frame " + std::to_string(first->second.frame) +
+                                 " (valid: a name with # or {FRAME_NUMBER}") +
+            ", another for each " + (frame.named() ? "case)" : "frame)"));
     }
 }
 
@@ -113,7 +119,7 @@ void Session::claim(const std::string& filename) {
     if (settings.dry_run)
         return;
     if (written && !settings.compat)
-        written->claim(filename, frame.number, frame.view);
+        written->claim(filename, frame.item());
     outcome.claimed.push_back(filename);
 }
 

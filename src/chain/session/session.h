@@ -16,6 +16,7 @@
 #include "chain/session/settings.h"
 #include "chain/session/stack.h"
 #include "sequence/frames/file_stamp.h"
+#include "sequence/frames/item.h"
 
 namespace tonetool::sequence {
 struct ExposureSample;
@@ -34,17 +35,20 @@ struct Frame {
     std::vector<size_t> stills{};  ///< places of words that --wildcardoff says to be the same
     std::vector<size_t> varying{}; ///< of those that are others in other frames
     std::vector<size_t> found{};   ///< of names found on the disk, in which nothing is evaluated
+    std::string name{}, method{};  ///< of a named case
+
+    sequence::Item item() const { return {number, view, name, method}; }
 };
 
 /// The frames of a command line, which may run at the same time, must not write one file.
 class WrittenFiles {
 public:
-    /// A CommandError if a frame of another number or view has written the file.
-    void claim(const std::string& filename, int number, const std::string& view);
+    /// A CommandError if another frame has written the file.
+    void claim(const std::string& filename, const sequence::Item& frame);
 
 private:
     std::mutex m_mutex;
-    std::map<std::string, std::pair<int, std::string>> m_frame_of; ///< number and view
+    std::map<std::string, sequence::Item> m_frame_of;
 };
 
 /// An --if, --while or --for that is not ended yet.

@@ -291,21 +291,8 @@ void find_swapped(const ComparedFrames& frames, const ComparedFrames& others,
     }
 }
 
-} // namespace
-
-std::vector<Fault> against_faults(const AgainstRecord& record) {
-    return faults_of(record, false);
-}
-
-void judge_against(std::vector<FrameResult>& frames) {
-    std::map<std::string, ComparedFrames> views;
-    for (FrameResult& frame : frames) {
-        if (frame.against.empty())
-            continue;
-        frame.faults.erase(std::remove_if(frame.faults.begin(), frame.faults.end(), is_of_against),
-                           frame.faults.end());
-        views[frame.view].push_back({&frame, against_from_json(frame.against)});
-    }
+// Of one shot, or of one case.
+void judge_views_against(std::map<std::string, ComparedFrames>& views) {
     for (auto& [view, of_view] : views) {
         judge_frames(of_view);
         refuse_without_any(of_view);
@@ -314,6 +301,26 @@ void judge_against(std::vector<FrameResult>& frames) {
         for (const auto& [other, of_other] : views)
             if (view != other)
                 find_swapped(of_view, of_other, other);
+}
+
+} // namespace
+
+std::vector<Fault> against_faults(const AgainstRecord& record) {
+    return faults_of(record, false);
+}
+
+void judge_against(std::vector<FrameResult>& frames) {
+    std::map<std::pair<std::string, std::string>, std::map<std::string, ComparedFrames>> shots;
+    for (FrameResult& frame : frames) {
+        if (frame.against.empty())
+            continue;
+        frame.faults.erase(std::remove_if(frame.faults.begin(), frame.faults.end(), is_of_against),
+                           frame.faults.end());
+        shots[{frame.name, frame.method}][frame.view].push_back(
+            {&frame, against_from_json(frame.against)});
+    }
+    for (auto& [of, views] : shots)
+        judge_views_against(views);
 }
 
 } // namespace tonetool::sequence

@@ -21,6 +21,8 @@ struct Parsed {
 
 Parsed parse(const std::string& pattern, int padding) {
     Parsed result{pattern, ""};
+    if (has_names(pattern) && !is_pattern(pattern))
+        return result;
     while (result.printf_style.find_first_of("#@") != std::string::npos || result.frames.empty()) {
         std::string before = result.printf_style, frames;
         if (!OIIO::Filesystem::parse_pattern(before.c_str(), padding, result.printf_style, frames))
@@ -135,12 +137,24 @@ bool is_pattern(const std::string& word) {
     return std::regex_search(word, wildcard);
 }
 
+bool has_names(const std::string& word) {
+    return word.find("%N") != std::string::npos || word.find("%M") != std::string::npos;
+}
+
 std::string without_range(const std::string& word) {
     return is_pattern(word) ? parse(word, 0).printf_style : word;
 }
 
 bool has_range(const std::string& word) {
-    return is_pattern(word) && !parse(word, 0).frames.empty();
+    return !own_range(word).empty();
+}
+
+std::string printf_style(const std::string& pattern, int padding) {
+    return is_pattern(pattern) ? parse(pattern, padding).printf_style : pattern;
+}
+
+std::string own_range(const std::string& word) {
+    return is_pattern(word) ? parse(word, 0).frames : "";
 }
 
 Files list_files(const std::string& pattern, const PatternOptions& options) {
@@ -178,7 +192,7 @@ void check_numbers(const std::string& pattern, const Files& files, const Pattern
 
 std::vector<std::string> file_names(const std::string& pattern, const PatternOptions& options,
                                     const std::vector<Item>& items) {
-    const NamePattern name(parse(pattern, options.padding).printf_style);
+    const NamePattern name(parse(pattern, options.padding).printf_style, options.names);
     std::vector<std::string> names;
     for (const Item& item : items)
         names.push_back(name.filled(item));
@@ -187,7 +201,7 @@ std::vector<std::string> file_names(const std::string& pattern, const PatternOpt
 
 std::vector<std::string> input_names(const std::string& pattern, const PatternOptions& options,
                                      const std::vector<Item>& items) {
-    const NamePattern name(parse(pattern, options.padding).printf_style);
+    const NamePattern name(parse(pattern, options.padding).printf_style, options.names);
     std::vector<std::string> names = file_names(pattern, options, items);
     for (size_t i = 0; i < items.size(); ++i) {
         const std::string other = items[i].frame < 0 ? name.filled(items[i], true) : "";

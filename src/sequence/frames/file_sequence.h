@@ -17,10 +17,15 @@ struct PatternOptions {
     std::vector<std::string> views{"left", "right"};
     /// As oiiotool: tolerant of malformed ranges, and without negative numbers on the disk.
     bool lenient = false;
+    /// %N and %M are wildcards, for the names and methods of cases.
+    bool names = false;
 };
 
 /// Whether the word has #, @, %d, %04d, %V or %v.
 bool is_pattern(const std::string& word);
+
+/// Whether it has %N or %M.
+bool has_names(const std::string& word);
 
 /// A pattern in printf's style without its own frame range: "a.1-20#.exr" is "a.%04d.exr". Any
 /// other word stays as it is.
@@ -28,6 +33,11 @@ std::string without_range(const std::string& word);
 
 /// Whether the word has a frame range of its own: "a.1-20#.exr".
 bool has_range(const std::string& word);
+/// The pattern in printf's style, its numbers of so many digits (0: as it says), without a range.
+std::string printf_style(const std::string& pattern, int padding);
+
+/// The range; empty where it has none.
+std::string own_range(const std::string& word);
 
 struct Files {
     std::vector<Item> items{};

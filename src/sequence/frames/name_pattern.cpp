@@ -26,7 +26,7 @@ size_t end_of_number(const std::string& name, size_t at) {
 
 } // namespace
 
-NamePattern::NamePattern(const std::string& printf_style) {
+NamePattern::NamePattern(const std::string& printf_style, bool names) {
     m_pieces.push_back({Kind::Text});
     for (size_t at = 0; at < printf_style.size(); ++at) {
         size_t end = at + 1;
@@ -39,6 +39,8 @@ NamePattern::NamePattern(const std::string& printf_style) {
             m_pieces.push_back({Kind::Number, "", size_t(std::clamp(width, 0, 255))});
         } else if ((kind == 'V' || kind == 'v') && end == at + 1) {
             m_pieces.push_back({kind == 'V' ? Kind::View : Kind::Initial});
+        } else if (names && (kind == 'N' || kind == 'M') && end == at + 1) {
+            m_pieces.push_back({kind == 'N' ? Kind::Name : Kind::Method});
         } else {
             if (m_pieces.back().kind != Kind::Text)
                 m_pieces.push_back({Kind::Text});
@@ -61,44 +63,75 @@ std::string NamePattern::filled(const Item& item, bool more_digits) const {
         name += piece.kind == Kind::Text ? piece.text
                 : piece.kind == Kind::Number
                     ? OIIO::Strutil::fmt::format("{:0{}d}", item.frame, width)
-                : item.view.empty()        ? (piece.kind == Kind::View ? "%V" : "%v")
-                : piece.kind == Kind::View ? item.view
-                                           : item.view.substr(0, 1);
+                : piece.kind == Kind::Name   ? item.name
+                : piece.kind == Kind::Method ? item.method
+                : item.view.empty()          ? (piece.kind == Kind::View ? "%V" : "%v")
+                : piece.kind == Kind::View   ? item.view
+                                             : item.view.substr(0, 1);
     }
     return name;
 }
 
-// `digits` are those of the first number: all other placeholders repeat it.
+// A placeholder that stands there again repeats what the first one is.
 bool NamePattern::fits(const std::string& name, const std::string& view, size_t piece, size_t at,
-                       std::string& digits) const {
+                       Bound& bound) const {
     if (piece == m_pieces.size())
         return at == name.size();
     const Piece& one = m_pieces[piece];
-    if (one.kind != Kind::Number) {
-        const std::string text = one.kind == Kind::Text   ? one.text
-                                 : one.kind == Kind::View ? view
-                                                          : view.substr(0, 1);
-        return name.compare(at, text.size(), text) == 0 &&
-               fits(name, view, piece + 1, at + text.size(), digits);
+    if (one.kind == Kind::Number || one.kind == Kind::Name || one.kind == Kind::Method)
+        return fits_free(name, view, piece, at, bound);
+    const std::string text = one.kind == Kind::Text   ? one.text
+                             : one.kind == Kind::View ? view
+                                                      : view.substr(0, 1);
+    return name.compare(at, text.size(), text) == 0 &&
+           fits(name, view, piece + 1, at + text.size(), bound);
+}
+
+bool NamePattern::fits_free(const std::string& name, const std::string& view, size_t piece,
+                            size_t at, Bound& bound) const {
+    const Piece& one = m_pieces[piece];
+    const bool number = one.kind == Kind::Number;
+    std::string& value = number ? bound.digits : one.kind == Kind::Name ? bound.name : bound.method;
+    if (!value.empty()) {
+        return name.compare(at, value.size(), value) == 0 &&
+               fits(name, view, piece + 1, at + value.size(), bound);
     }
+    const size_t least = number && !bound.any_width ? std::max<size_t>(one.width, 1) : 1;
+    const size_t slash = one.kind == Kind::Method ? name.find('/', at) : std::string::npos;
     // The text behind the number may begin with digits, too.
-    for (size_t end = end_of_number(name, at); end > at && is_digit(name[end - 1]); --end) {
-        const std::string here = name.substr(at, end - at), before = digits;
-        if (before.empty() || before == here) {
-            digits = here;
-            if (fits(name, view, piece + 1, end, digits))
-                return true;
-            digits = before;
-        }
+    size_t end = number ? end_of_number(name, at) : std::min(slash, name.size());
+    for (; end >= at + least && (!number || is_digit(name[end - 1])); --end) {
+        value = name.substr(at, end - at);
+        if (fits(name, view, piece + 1, end, bound))
+            return true;
+        value.clear();
     }
     return false;
 }
 
 std::optional<NamePattern::Number> NamePattern::number_of(const std::string& name,
                                                           const std::string& view) const {
-    std::string digits;
-    if (!fits(name, view, 0, 0, digits))
-        return std::nullopt;
+    Bound bound;
+    return fits(name, view, 0, 0, bound) ? std::optional(number_from(bound.digits)) : std::nullopt;
+}
+
+std::optional<NamePattern::Match> NamePattern::match(const std::string& file,
+                                                     const std::string& view) const {
+    // Else a name would take the first digits of a number.
+    for (const bool any_width : {false, true}) {
+        Bound bound;
+        bound.any_width = any_width;
+        if (fits(file, view, 0, 0, bound))
+            return Match{bound.name, bound.method, number_from(bound.digits)};
+    }
+    return std::nullopt;
+}
+
+std::string NamePattern::fixed_part() const {
+    return m_pieces.front().text; // the first piece is a text, which may be empty
+}
+
+NamePattern::Number NamePattern::number_from(const std::string& digits) const {
     Number number;
     if (digits.empty())
         return number;

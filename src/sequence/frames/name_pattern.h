@@ -5,27 +5,22 @@
 
 #include <optional>
 #include <string>
-#include <tuple>
 #include <vector>
 
-namespace tonetool::sequence {
+#include "sequence/frames/item.h"
 
-struct Item {
-    int frame = 0;
-    std::string view; ///< empty where the pattern has no %V or %v
-    bool operator==(const Item& o) const { return frame == o.frame && view == o.view; }
-    bool operator<(const Item& o) const {
-        return std::tie(frame, view) < std::tie(o.frame, o.view);
-    }
-};
+namespace tonetool::sequence {
 
 class NamePattern {
 public:
     /// In printf's style: "a.%04d.exr", "stereo_%V.exr".
-    explicit NamePattern(const std::string& printf_style);
+    /// `names`: %N and %M stand for the name and the method of a case, else for themselves.
+    explicit NamePattern(const std::string& printf_style, bool names = false);
 
     bool has_number() const { return has(Kind::Number); }
     bool has_view() const { return has(Kind::View) || has(Kind::Initial); }
+    bool has_name() const { return has(Kind::Name); }
+    bool has_method() const { return has(Kind::Method); }
 
     /// The name of one file. A negative number has the width of printf, its sign counted, or with
     /// `more_digits` one more.
@@ -41,8 +36,23 @@ public:
     /// number.
     std::optional<Number> number_of(const std::string& name, const std::string& view) const;
 
+    /// The text before the first placeholder.
+    std::string fixed_part() const;
+
+    /// What the placeholders stand for in a name that matches the pattern with this view. A name is
+    /// one or more bytes, a method one or more without /; the first placeholder takes what it can.
+    struct Match {
+        std::string name, method;
+        Number number;
+    };
+    std::optional<Match> match(const std::string& file, const std::string& view) const;
+
 private:
-    enum class Kind { Text, Number, View, Initial };
+    enum class Kind { Text, Number, View, Initial, Name, Method };
+    struct Bound {
+        std::string name, method, digits;
+        bool any_width = true; ///< of numbers
+    };
     struct Piece {
         Kind kind;
         std::string text{};
@@ -50,7 +60,10 @@ private:
     };
     bool has(Kind kind) const;
     bool fits(const std::string& name, const std::string& view, size_t piece, size_t at,
-              std::string& digits) const;
+              Bound& bound) const;
+    bool fits_free(const std::string& name, const std::string& view, size_t piece, size_t at,
+                   Bound& bound) const;
+    Number number_from(const std::string& digits) const;
 
     std::vector<Piece> m_pieces;
 };

@@ -14,29 +14,6 @@ namespace tonetool::sequence {
 
 namespace {
 
-void fill_holes(std::set<Item>& keys) {
-    std::set<std::string> views;
-    std::set<int> numbers;
-    for (const auto& [number, view] : keys) {
-        numbers.insert(number);
-        views.insert(view);
-    }
-    long long step = 0, before = *numbers.begin();
-    for (long long number : numbers) {
-        step = std::gcd(step, number - before);
-        before = number;
-    }
-    step = numbers.size() == 2 ? 1 : step; // two numbers alone do not tell a step
-    const long long first = *numbers.begin(), last = *numbers.rbegin();
-    if (step > 0 && (last - first) / step >= kMostFrames) {
-        throw std::runtime_error("frames " + std::to_string(first) + " to " + std::to_string(last) +
-                                 " are too many to look for missing ones (valid: --frames)");
-    }
-    for (long long number = first; step > 0 && number <= last; number += step)
-        for (const std::string& view : views)
-            keys.insert({int(number), view});
-}
-
 std::vector<int> numbers_of(const std::vector<Item>& items) {
     std::set<int> numbers;
     for (const Item& item : items)
@@ -127,6 +104,30 @@ void check_common_number(const std::vector<Side>& sides) {
 }
 
 } // namespace
+
+void fill_holes(std::set<Item>& keys) {
+    std::set<std::string> views;
+    std::set<int> numbers;
+    for (const Item& item : keys) {
+        numbers.insert(item.frame);
+        views.insert(item.view);
+    }
+    const Item any = *keys.begin();
+    long long step = 0, before = *numbers.begin();
+    for (long long number : numbers) {
+        step = std::gcd(step, number - before);
+        before = number;
+    }
+    step = numbers.size() == 2 ? 1 : step; // two numbers alone do not tell a step
+    const long long first = *numbers.begin(), last = *numbers.rbegin();
+    if (step > 0 && (last - first) / step >= kMostFrames) {
+        throw std::runtime_error("frames " + std::to_string(first) + " to " + std::to_string(last) +
+                                 " are too many to look for missing ones (valid: --frames)");
+    }
+    for (long long number = first; step > 0 && number <= last; number += step)
+        for (const std::string& view : views)
+            keys.insert({int(number), view, any.name, any.method});
+}
 
 std::vector<Item> paired(const std::vector<Side>& sides) {
     std::set<Item> keys;

@@ -2,6 +2,7 @@
 // Pairs the frames of several sequences: by number, or by position where explicit ranges say so.
 #pragma once
 
+#include <set>
 #include <string>
 #include <vector>
 
@@ -21,6 +22,8 @@ struct Pairing {
     std::vector<std::vector<std::string>> names; ///< names of each side, one for each item
     /// The numbers of a side that is paired by position and has other numbers; else empty.
     std::vector<std::vector<Item>> own;
+    /// Of named cases: what is said of one that a side lacks, else empty; one for each item.
+    std::vector<std::string> absent{};
 };
 
 /// The union of the sides' numbers and views. Where all files come from the disk, numbers in
@@ -28,6 +31,8 @@ struct Pairing {
 /// if there are only two numbers): a frame that both sides lack is missing as well. Throws a
 /// runtime_error beyond a million frames.
 std::vector<Item> paired(const std::vector<Side>& sides);
+/// The numbers in between, of all views that are there.
+void fill_holes(std::set<Item>& keys);
 
 /// The frames of a check. Sides with ranges of their own that are of equal length are paired by
 /// position; a range holds for sides without one; all else is paired by number. Throws a

@@ -55,11 +55,11 @@ function curveOptions() {
   return {
     responsive: true, maintainAspectRatio: false, animation: false, layout: { padding: { right: 10 } },
     interaction: { mode: "index", intersect: false },
-    scales: { x: axis("frame"), y: { ...axis(curve.place < 0 ? "faults" : curve.quantity),
+    scales: { x: axis(NOUN), y: { ...axis(curve.place < 0 ? "faults" : curve.quantity),
       beginAtZero: true, grace: "5%" } },
     plugins: {
       legend: { align: "end", labels: { color: color("ink"), usePointStyle: true, boxWidth: 30 } },
-      tooltip: { callbacks: { title: (items) => `Frame ${items[0].label}`, label: curveTip } },
+      tooltip: { callbacks: { title: (items) => `${NOUN === "case" ? "Case" : "Frame"} ${items[0].label}`, label: curveTip } },
     },
     onClick: (event, active, chart) => {
       const near = chart.getElementsAtEventForMode(event, "index", { intersect: false }, false);
@@ -77,9 +77,9 @@ function curveWords() {
   const lost = values.filter((value) => value === null).length;
   const what = curve.place < 0 ? "faults" : curve.quantity;
   const parts = [high < 0 ? "No frame has a value." :
-    `The largest ${what} is ${number(values[high])}, at frame ${frameName(frames[high])}.`];
+    `The largest ${what} is ${number(values[high])}, at ${NOUN} ${frameName(frames[high])}.`];
   curveLimits().forEach(({ kind, value }) => parts.push(`Frames ${kind} at ${number(value)}.`));
-  if (lost) parts.push(`${plural(lost, "frame")} without a result.`);
+  if (lost) parts.push(`${plural(lost, NOUN)} without a result.`);
   return parts.join(" ");
 }
 
@@ -88,7 +88,7 @@ function drawCurve() {
     options: curveOptions() };
   if (curve.chart) curve.chart.destroy();
   curve.chart = new Chart(byId("curve"), made);
-  byId("curve").setAttribute("aria-label", `Curve over ${plural(frames.length, "frame")}. ${curveWords()}`);
+  byId("curve").setAttribute("aria-label", `Curve over ${plural(frames.length, NOUN)}. ${curveWords()}`);
   byId("curve-hint").textContent = `${meaningOf(curve.quantity)} ${curveWords()} A click on the curve shows the frame.`.trim();
 }
 

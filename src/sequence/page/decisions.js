@@ -16,7 +16,8 @@ function keepDecisions() {
   } catch { /* the same */ }
 }
 
-const decisionKey = (frame, fault) => JSON.stringify([frame.frame, frame.view, fault.code, fault.layer || ""]);
+const decisionKey = (frame, fault) => JSON.stringify([frame.frame, frame.view, fault.code, fault.layer || "",
+  ...(isCase(frame) ? [frame.name, frame.method] : [])]);
 const decisionOf = (frame, fault) => decisions.of[decisionKey(frame, fault)] || null;
 
 /** The chosen fault of the frame, else all of them. */
@@ -81,14 +82,15 @@ function drawDecision() {
   byId("note").value = first ? first.why : "";
   byId("note").disabled = faults.length === 0;
   byId("decided").textContent = faults.length ? `For ${viewer.fault ? `fault ${viewer.fault}` : plural(faults.length, "fault")}`
-    + ` of frame ${frameName(frame)}` : "";
+    + ` of ${NOUN} ${frameName(frame)}` : "";
 }
 
 /** As --accept reads it. */
 function acceptedText() {
   const accepted = frames.flatMap((frame) => frame.faults.map((fault) => ({ frame, fault, decision: decisionOf(frame, fault) })))
     .filter(({ decision }) => decision && decision.what === "accepted")
-    .map(({ frame, fault, decision }) => ({ frame: frame.frame, ...(frame.view ? { view: frame.view } : {}), code: fault.code,
+    .map(({ frame, fault, decision }) => ({ frame: frame.frame, ...(frame.name ? { name: frame.name } : {}),
+      ...(frame.method ? { method: frame.method } : {}), ...(frame.view ? { view: frame.view } : {}), code: fault.code,
       ...(fault.layer ? { layer: fault.layer } : {}), by: decisions.by, why: decision.why }));
   const once = [...new Map(accepted.map((one) => [JSON.stringify(one), one])).values()];
   return `${JSON.stringify({ check: data.shot.id, accepted: [...(data.shot.accepted || []), ...once] }, null, 1)}\n`;

@@ -12,12 +12,12 @@ function drawWorst() {
     const frame = frames[index];
     return make("li", {}, make("button", { type: "button", className: "pick", "data-index": index,
       onclick: () => { select(index); } },
-      thumbnail(index), make("strong", {}, `Frame ${frameName(frame)}`), badge(frame.status),
+      thumbnail(index), make("strong", {}, frameTitle(frame)), badge(frame.status),
       make("span", { className: "what" }, `${isRejected(frame) ? "rejected. " : isAccepted(frame) ? "accepted. " : ""}`
         + whyOf(frame))));
   }));
   const more = data.shot.worst.length - shown.length;
-  const note = more > 0 ? `and ${plural(more, "more frame")}, see below`
+  const note = more > 0 ? `and ${plural(more, `more ${NOUN}`)}, see below`
     : shown.length === 0 ? "There is none." : "";
   byId("worst-note").textContent = note;
 }
@@ -51,7 +51,7 @@ function badFrames() {
 
 function drawBadFrames() {
   const text = badFrames();
-  byId("bad").hidden = !text || (frames.length === 1 && frames[0].frame === 0);
+  byId("bad").hidden = !text || frames.some(isCase) || (frames.length === 1 && frames[0].frame === 0);
   byId("bad-frames").textContent = text;
   byId("copy").onclick = async () => {
     getSelection().selectAllChildren(byId("bad-frames"));
@@ -120,7 +120,7 @@ function faultRow(frame, index, fault, spots) {
       select(index, frame.faults.indexOf(fault) + 1);
       byId("viewer").focus();
     } },
-      `Frame ${frameName(frame)}`), " ", badge(fault.severity), " ", make("strong", {}, fault.code),
+      frameTitle(frame)), " ", badge(fault.severity), " ", make("strong", {}, fault.code),
     fault.layer ? " in " : "", fault.layer ? name(fault.layer) : ""),
     make("p", {}, fault.sentence),
     numbers.length ? make("p", { className: "hint" }, numbers.join(", ")) : null,
@@ -210,13 +210,13 @@ function addRows(most) {
 }
 
 function drawAll() {
-  const heads = ["", "Frame", "Status", mainQuantity, "What", "File"];
+  const heads = ["", NOUN === "case" ? "Case" : "Frame", "Status", mainQuantity, "What", "File"];
   all.order = sorted(frames.map((_, i) => i).filter((i) => wanted(frames[i])));
   byId("all").replaceChildren(make("table", {}, make("thead", {}, make("tr", {},
     ...heads.map((text, i) => make("th", { scope: "col", className: i === 3 ? "value" : "" }, text)))),
   make("tbody")));
-  byId("all-count").textContent = all.order.length === frames.length ? plural(frames.length, "frame")
-    : `${all.order.length} of ${plural(frames.length, "frame")}`;
+  byId("all-count").textContent = all.order.length === frames.length ? plural(frames.length, NOUN)
+    : `${all.order.length} of ${plural(frames.length, NOUN)}`;
   addRows(50);
 }
 

@@ -14,7 +14,7 @@ function withPosition(fault) {
 
 const data = read("result");
 // Empty values are left out of the data.
-const frames = data.shot.frames.map((frame) => ({ ...frame, view: frame.view || "",
+const frames = data.shot.frames.map((frame) => ({ ...frame, view: frame.view || "", name: frame.name || "", method: frame.method || "",
   message: frame.message || "", reference: frame.reference || "", test: frame.test || "",
   faults: (frame.faults || []).map(withPosition),
   measurements: (frame.measurements || []).map((one) => ({ ...one, warnings: one.warnings || [],
@@ -82,8 +82,14 @@ function stops(value) {
   return (tenths > 0 ? "+" : tenths < 0 ? "\u2212" : "") + (Math.abs(tenths) / 10).toFixed(1);
 }
 
-const frameName = (frame) => String(frame.frame) + (frame.view ? ` ${frame.view}` : "")
-  + (frame.test_frame === undefined ? "" : ` (test ${frame.test_frame})`);
+/** Frames are told apart by number and view, cases by name and method, too. */
+const isCase = (frame) => Boolean(frame.name || frame.method);
+const itemName = (frame) => (isCase(frame)
+  ? [frame.name, frame.method && `[${frame.method}]`, frame.frame ? `frame ${frame.frame}` : "", frame.view].filter(Boolean).join(" ")
+  : String(frame.frame) + (frame.view ? ` ${frame.view}` : ""));
+const frameName = (frame) => itemName(frame) + (frame.test_frame === undefined ? "" : ` (test ${frame.test_frame})`);
+const frameTitle = (frame) => `${isCase(frame) ? "Case" : "Frame"} ${frameName(frame)}`;
+const NOUN = frames.some(isCase) ? "case" : "frame";
 const entries = (list) => (Array.isArray(list) ? list : Object.entries(list || {}));
 
 /** Every command that measured, in the order of the command line. */

@@ -120,7 +120,7 @@ function paneFigure(pane) {
   const { what } = pane;
   const { full } = viewer.frame;
   const title = what === "compare" && !isPair() ? "Picture" : NAMES[what];
-  pane.canvas.setAttribute("aria-label", `${title}, frame ${frameName(frames[viewer.index])}`);
+  pane.canvas.setAttribute("aria-label", `${title}, ${NOUN} ${frameName(frames[viewer.index])}`);
   if (pane.large && what === "compare" && isPair()) pane.box.append(...wipeParts());
   else if (pane.large) pane.box.append(make("span", { className: "tag of-left" }, title));
   if (pane.large && viewer.layout === "one") return pane.box;
@@ -218,7 +218,7 @@ function refresh() {
 
 /** "#1009", "#1009 left" of a view, "#1009/3" of a fault: what leads there. */
 const linkOf = (frame, fault = 0) =>
-  `#${encodeURIComponent(String(frame.frame) + (frame.view ? ` ${frame.view}` : ""))}${fault ? `/${fault}` : ""}`;
+  `#${encodeURIComponent(itemName(frame))}${fault ? `/${fault}` : ""}`;
 
 /** The frame and the fault that the page's address names; the frame is -1 where it names none. */
 function linked() {
@@ -252,7 +252,7 @@ function stepFault(by) {
 }
 
 function drawTitle(frame) {
-  byId("frame-title").replaceChildren(`Frame ${frameName(frame)} `, badge(frame.status));
+  byId("frame-title").replaceChildren(`${frameTitle(frame)} `, badge(frame.status));
   const message = whyOf(frame);
   byId("message").textContent = message;
   byId("message").classList.toggle("empty", !message);

@@ -117,13 +117,11 @@ std::vector<Fault> picture_faults(const QcRecord& record) {
     return result.faults;
 }
 
-void judge_qc(std::vector<FrameResult>& frames, bool keep_records) {
-    std::sort(frames.begin(), frames.end(), [](const FrameResult& a, const FrameResult& b) {
-        return std::tie(a.frame, a.view) < std::tie(b.frame, b.view);
-    });
-    std::map<std::string, std::vector<FrameResult*>> views;
-    for (FrameResult& frame : frames)
-        views[frame.view].push_back(&frame);
+namespace {
+
+using Views = std::map<std::string, std::vector<FrameResult*>>;
+
+void judge_views(const Views& views, bool keep_records) {
     std::map<std::string, QcShot> shots;
     for (const auto& [view, of_view] : views)
         shots.emplace(view, searched(of_view, keep_records));
@@ -138,6 +136,18 @@ void judge_qc(std::vector<FrameResult>& frames, bool keep_records) {
             }
         }
     }
+}
+
+} // namespace
+
+void judge_qc(std::vector<FrameResult>& frames, bool keep_records) {
+    std::sort(frames.begin(), frames.end(),
+              [](const FrameResult& a, const FrameResult& b) { return a.item() < b.item(); });
+    std::map<std::pair<std::string, std::string>, Views> shots; // of a name and method
+    for (FrameResult& frame : frames)
+        shots[{frame.name, frame.method}][frame.view].push_back(&frame);
+    for (const auto& [of, views] : shots)
+        judge_views(views, keep_records);
 }
 
 void QcShot::add(QcFrame& frame, const std::string& code, const std::string& sentence,

@@ -14,7 +14,7 @@ namespace {
 
 using OIIO::Strutil::fmt::format;
 using Frames = std::vector<QcFrame*>;
-using Series = std::vector<double>;
+using Values = std::vector<double>;
 
 // A statistic, how large a lasting step must be in units of its threshold, and its words.
 struct Statistic {
@@ -42,7 +42,7 @@ std::vector<bool> breaks_of(const Frames& frames) {
 
 // How far the frames [k, k + length) are off the straight way from the frame before them to that
 // after: that which is the least off, with its sign; 0 unless all are on one side.
-double least_off(const Series& s, size_t k, size_t length) {
+double least_off(const Values& s, size_t k, size_t length) {
     const double before = s[k - 1], after = s[k + length];
     double least = 0;
     for (size_t i = 0; i < length; ++i) {
@@ -59,7 +59,7 @@ double least_off(const Series& s, size_t k, size_t length) {
 class ScalarSearch {
 public:
     ScalarSearch(QcShot& shot, const Frames& frames, const std::vector<bool>& breaks,
-                 const Statistic& statistic, const Series& series)
+                 const Statistic& statistic, const Values& series)
         : m_shot(shot),
           m_frames(frames),
           m_breaks(breaks),
@@ -84,7 +84,7 @@ private:
     const Frames& m_frames;
     const std::vector<bool>& m_breaks;
     const Statistic& m_statistic;
-    const Series& m_series;
+    const Values& m_series;
     std::vector<bool> m_taken; ///< frames that are told
 };
 
@@ -204,7 +204,7 @@ double mean_over(const std::vector<Color>& colors, const std::function<double(co
 }
 
 // Frames that are nearly black have the value of the frame before.
-void hold(Series& series, const std::vector<bool>& is_enough) {
+void hold(Values& series, const std::vector<bool>& is_enough) {
     const auto first = std::find(is_enough.begin(), is_enough.end(), true);
     if (first == is_enough.end())
         return;
@@ -218,12 +218,12 @@ void hold(Series& series, const std::vector<bool>& is_enough) {
 
 // Of each frame, means over its cells.
 struct ColorSeries {
-    Series light, red, blue, saturation;
+    Values light, red, blue, saturation;
 };
 
 ColorSeries series_of(const Frames& frames) {
     constexpr double relative_floor = 0.02, dark = 0.05;
-    Series means;
+    Values means;
     for (const QcFrame* frame : frames)
         means.push_back(mean_over(colors_of(frame->facts.picture),
                                   [](const Color& c) { return (c.red + c.green + c.blue) / 3; }));
@@ -249,12 +249,12 @@ ColorSeries series_of(const Frames& frames) {
     std::vector<bool> is_enough; // the colour of what is nearly black is none
     for (const double mean : means)
         is_enough.push_back(mean > dark * usual);
-    for (Series* one : {&series.red, &series.blue, &series.saturation})
+    for (Values* one : {&series.red, &series.blue, &series.saturation})
         hold(*one, is_enough);
     return series;
 }
 
-using Find = std::function<void(const Statistic& statistic, const Series& series)>;
+using Find = std::function<void(const Statistic& statistic, const Values& series)>;
 
 // Where the light changes, the rest of the colours does not matter.
 void find_colors(const Frames& frames, std::vector<bool>& breaks, const Find& find) {
@@ -268,7 +268,7 @@ void find_colors(const Frames& frames, std::vector<bool>& breaks, const Find& fi
 }
 
 void find_detail(const Frames& frames, const Find& find) {
-    Series noise, sharpness, blur;
+    Values noise, sharpness, blur;
     for (const QcFrame* frame : frames) {
         const QcPicture& picture = frame->facts.picture;
         if (std::min({picture.fine, picture.coarse, picture.across, picture.down}) <= 0)
@@ -283,7 +283,7 @@ void find_detail(const Frames& frames, const Find& find) {
 }
 
 void find_alpha_levels(const Frames& frames, const Find& find) {
-    Series alpha;
+    Values alpha;
     for (const QcFrame* frame : frames) {
         const QcPicture& picture = frame->facts.picture;
         if (!has_alpha(picture))
@@ -299,7 +299,7 @@ void find_layer_lights(const Frames& frames, const Find& find) {
     for (const QcLayer& like : frames.front()->facts.layers) {
         if (like.kind != "light" && like.kind != "color")
             continue;
-        Series light;
+        Values light;
         for (const QcFrame* frame : frames) {
             const QcLayer* layer = find_layer(frame->facts, like.name);
             const double mean = layer ? std::abs(layer->mean) : 0;
@@ -318,7 +318,7 @@ void find_odd_statistics(QcShot& shot) {
     if (frames.size() < kEnoughFrames)
         return;
     std::vector<bool> breaks = breaks_of(frames);
-    const Find find = [&](const Statistic& statistic, const Series& series) {
+    const Find find = [&](const Statistic& statistic, const Values& series) {
         ScalarSearch(shot, frames, breaks, statistic, series).find();
     };
     find_colors(frames, breaks, find);

@@ -50,7 +50,7 @@ struct Run {
 };
 
 std::string name_of(const FrameResult& frame) {
-    return std::to_string(frame.frame) + (frame.view.empty() ? "" : " " + frame.view);
+    return item_name(frame.item());
 }
 
 std::string text_of(const Run& run) {
@@ -67,7 +67,8 @@ std::vector<Run> runs_of(const ShotResult& shot, const ordered_json& result) {
         const std::string reason = reason_of(frame, result.at("frames").at(i));
         const bool next = !runs.empty() && runs.back().reason == reason &&
                           runs.back().last + 1 == &frame &&
-                          runs.back().last->frame + 1 == frame.frame && frame.view.empty();
+                          runs.back().last->frame + 1 == frame.frame && frame.view.empty() &&
+                          series_of(runs.back().last->item()) == series_of(frame.item());
         if (next)
             runs.back().last = &frame;
         else
@@ -82,7 +83,7 @@ std::string accepted_text(const ShotResult& shot) {
     std::set<size_t> frames;
     for (const Acceptance& accepted : shot.accepted)
         for (size_t i = 0; i < shot.frames.size(); ++i)
-            if (shot.frames[i].frame == accepted.frame && shot.frames[i].view == accepted.view)
+            if (shot.frames[i].item() == accepted.item())
                 frames.insert(i);
     return frames.empty() ? ""
                           : format("; faults of {} {} accepted", frames.size(),
@@ -103,7 +104,8 @@ std::string look_sentence(const ShotResult& shot, const ordered_json& result) {
     const auto bad = std::count_if(shot.frames.begin(), shot.frames.end(), [](const auto& frame) {
         return frame.status > Status::Measured;
     });
-    if (all == 1 && shot.frames.front().frame == 0)
+    const bool named = is_named(shot);
+    if (all == 1 && shot.frames.front().frame == 0 && !named)
         return "The image needs a look: " + runs.front().reason + accepted_text(shot);
     std::vector<std::string> texts;
     size_t told = 0;
@@ -113,8 +115,9 @@ std::string look_sentence(const ShotResult& shot, const ordered_json& result) {
     }
     if (told < size_t(bad))
         texts.push_back(format("... {} more", size_t(bad) - told));
-    return format("{} of {} frames {} a look: {}{}", bad, all, bad == 1 ? "needs" : "need",
-                  OIIO::Strutil::join(texts, ", "), accepted_text(shot));
+    return format("{} of {} {} {} a look: {}{}", bad, all, named ? "cases" : "frames",
+                  bad == 1 ? "needs" : "need", OIIO::Strutil::join(texts, ", "),
+                  accepted_text(shot));
 }
 
 } // namespace tonetool::sequence

@@ -26,7 +26,7 @@ using nlohmann::ordered_json;
 using OIIO::Strutil::fmt::format;
 
 std::string name_of(const FrameResult& frame) {
-    return std::to_string(frame.frame) + (frame.view.empty() ? "" : " " + frame.view);
+    return item_name(frame.item());
 }
 
 // ---- pictures
@@ -311,7 +311,8 @@ std::string counts_html(const ShotResult& shot) {
     std::map<Status, size_t> counts;
     for (const FrameResult& frame : shot.frames)
         ++counts[frame.status];
-    std::string html = format("<div><dt>frames</dt><dd>{}</dd></div>", shot.frames.size());
+    std::string html = format("<div><dt>{}</dt><dd>{}</dd></div>",
+                              is_named(shot) ? "cases" : "frames", shot.frames.size());
     for (auto item = counts.rbegin(); item != counts.rend(); ++item) {
         html += format("<div class=\"{}\"><dt>{}</dt><dd>{}</dd></div>", page_class(item->first),
                        status_name(item->first), item->second);
@@ -320,7 +321,8 @@ std::string counts_html(const ShotResult& shot) {
 }
 
 std::string list_html(const ShotResult& shot) {
-    std::string html = "<table><tr><th>Frame</th><th>Status</th><th>What</th></tr>\n";
+    std::string html = format("<table><tr><th>{}</th>", is_named(shot) ? "Case" : "Frame") +
+                       "<th>Status</th><th>What</th></tr>\n";
     for (const FrameResult& frame : shot.frames) {
         html += format("<tr><td>{}</td><td>{}</td><td>{}</td></tr>\n", escaped(name_of(frame)),
                        status_name(frame.status), escaped(frame.message));
@@ -336,6 +338,9 @@ std::string shot_name(const ShotResult& shot) {
             name = frame.test + (frame.reference.empty() ? "" : " against " + frame.reference);
     if (shot.frames.empty())
         return name;
+    if (is_named(shot))
+        return format("{} case{}{}", shot.frames.size(), shot.frames.size() == 1 ? "" : "s",
+                      name.empty() ? "" : ", from " + name);
     return format("frames {} to {}{}", name_of(shot.frames.front()), name_of(shot.frames.back()),
                   name.empty() ? "" : ", from " + name);
 }

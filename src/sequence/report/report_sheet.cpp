@@ -73,6 +73,13 @@ std::string font_of_labels() {
     return file.empty() ? kLabelFont : file;
 }
 
+std::string label_of(const FrameResult& frame) {
+    const std::string test = frame.test_frame ? "/" + std::to_string(*frame.test_frame) : "";
+    return frame.item().named()
+               ? item_name(frame.item())
+               : std::to_string(frame.frame) + test + (frame.view.empty() ? "" : " " + frame.view);
+}
+
 class Sheet {
 public:
     Sheet(size_t count, int height) : m_cell_height(height + kLabel + 2 * kEdge + kMargin) {
@@ -96,11 +103,8 @@ public:
             check(IBA::paste(m_image, x + kEdge + (kThumbnailSide - roi.width()) / 2,
                              y + kEdge + (height - roi.height()) / 2, 0, 0, *picture));
         }
-        const std::string view = frame.view.empty() ? "" : " " + frame.view;
         write(x, y + height + 2 * kEdge + 4,
-              format("{}{}{}  {}", frame.frame,
-                     frame.test_frame ? "/" + std::to_string(*frame.test_frame) : "", view,
-                     status_name(frame.status)));
+              format("{}  {}", label_of(frame), status_name(frame.status)));
     }
 
     bool labelled() const { return m_labelled; }

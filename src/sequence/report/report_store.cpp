@@ -25,20 +25,33 @@ constexpr PictureSize kOfWorst[]{PictureSize::Full, PictureSize::Large, PictureS
 
 // The name of a view comes from the user: a / in it is written as %2f, so that it cannot lead out
 // of the folder.
-std::string key_of(int frame, const std::string& view) {
-    std::string key = format("{:04}", frame);
-    if (!view.empty())
-        key += ".";
-    for (const char c : view) {
+std::string safe_in_folder(const std::string& text) {
+    std::string safe;
+    for (const char c : text) {
         const auto byte = static_cast<unsigned char>(c);
         const bool plain = std::isalnum(byte) != 0 || c == '_' || c == '-';
-        key += plain ? std::string(1, c) : format("%{:02x}", byte);
+        safe += plain ? std::string(1, c) : format("%{:02x}", byte);
     }
-    return key;
+    return safe;
+}
+
+// Of a case: "@" is in no frame's key. A long name is cut, and told apart by a number.
+std::string case_key(const Item& item) {
+    constexpr size_t most = 180;
+    const std::string whole = safe_in_folder(item.name) + "@" + safe_in_folder(item.method) + "@";
+    return !item.named() ? ""
+           : whole.size() <= most
+               ? whole
+               : whole.substr(0, most) + format("@{:016x}@", OIIO::Strutil::strhash(whole));
+}
+
+std::string key_of(const Item& item) {
+    return case_key(item) + format("{:04}", item.frame) + (item.view.empty() ? "" : ".") +
+           safe_in_folder(item.view);
 }
 
 std::string key_of(const FrameResult& frame) {
-    return key_of(frame.frame, frame.view);
+    return key_of(frame.item());
 }
 
 // The text of a frame's images begins with the frame's measurements, so that images of other files,
@@ -92,7 +105,7 @@ void PictureStore::look_for_former_form() {
 }
 
 PictureStore::Rank PictureStore::rank_of(const FrameResult& frame) {
-    return {-int(frame.status), -badness(frame), frame.frame, frame.view};
+    return {-int(frame.status), -badness(frame), frame.item()};
 }
 
 bool PictureStore::wants(PictureSize size, const FrameResult& frame) const {
@@ -116,7 +129,7 @@ bool PictureStore::insert(PictureSize size, const FrameResult& frame) {
     if (worst.size() > m_counts.of(size)) {
         const Rank best = *worst.rbegin();
         worst.erase(best);
-        drop(key_of(std::get<2>(best), std::get<3>(best)), size);
+        drop(key_of(std::get<2>(best)), size);
         return best != rank;
     }
     return true;
@@ -167,10 +180,10 @@ void PictureStore::forget(const FrameResult& frame) {
         drop(key_of(frame), PictureSize(i));
 }
 
-std::vector<std::string> PictureStore::files(int frame, const std::string& view) const {
+std::vector<std::string> PictureStore::files(const Item& item) const {
     std::vector<std::string> names;
     for (size_t i = 0; i < kPictureSizes && !m_folder.empty(); ++i)
-        names.push_back(file(key_of(frame, view), PictureSize(i)));
+        names.push_back(file(key_of(item), PictureSize(i)));
     return names;
 }
 

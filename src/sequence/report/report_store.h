@@ -72,7 +72,7 @@ public:
     bool restore(const FrameResult& frame);
 
     /// The names of a frame's files; empty if images are kept in memory.
-    std::vector<std::string> files(int frame, const std::string& view) const;
+    std::vector<std::string> files(const Item& item) const;
 
     /// What was kept of a frame; empty where there is nothing.
     std::string text(PictureSize size, const FrameResult& frame) const;
@@ -81,7 +81,7 @@ public:
     const std::string& complaint() const { return m_complaint; }
 
 private:
-    using Rank = std::tuple<int, double, int, std::string>; ///< the worst first
+    using Rank = std::tuple<int, double, Item>; ///< the worst first
     using Ranks = std::array<std::set<Rank>, kPictureSizes>;
     static Rank rank_of(const FrameResult& frame);
     bool insert(PictureSize size, const FrameResult& frame);

@@ -31,8 +31,8 @@ bool is_bounded(const std::string& command) {
     return command == "hdrflip" || command == "ldrflip";
 }
 
-// A view, the place of a measurement in its frame, a quantity, and the command.
-using Key = std::tuple<std::string, size_t, std::string, std::string>;
+// A series, the place of a measurement in its frame, a quantity, and the command.
+using Key = std::tuple<Series, size_t, std::string, std::string>;
 
 template <class Visit>
 void each_automatic(std::vector<FrameResult>& frames, const Visit& visit) {
@@ -41,7 +41,8 @@ void each_automatic(std::vector<FrameResult>& frames, const Visit& visit) {
             for (Threshold& threshold : frame.measurements[i].thresholds)
                 if (threshold.automatic)
                     visit(frame,
-                          Key{frame.view, i, threshold.quantity, frame.measurements[i].command},
+                          Key{series_of(frame.item()), i, threshold.quantity,
+                              frame.measurements[i].command},
                           threshold);
 }
 

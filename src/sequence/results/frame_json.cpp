@@ -235,7 +235,7 @@ Measurement measurement_of(const ordered_json& from) {
 // Without its record.
 ordered_json json_of(const FrameResult& frame) {
     ordered_json to{{"frame", frame.frame}};
-    put(to, "view", frame.view);
+    put_names(to, frame.item());
     if (frame.test_frame)
         to["test_frame"] = *frame.test_frame;
     to["status"] = status_name(frame.status);
@@ -264,6 +264,12 @@ std::string record_of(const ordered_json& from, const std::vector<std::string>& 
 
 } // namespace
 
+void put_names(ordered_json& to, const Item& item) {
+    put(to, "name", item.name);
+    put(to, "method", item.method);
+    put(to, "view", item.view);
+}
+
 std::string frame_text(const FrameResult& frame, bool record, size_t depth) {
     ordered_json json = json_of(frame);
     const bool has_record = record && !frame.qc.empty();
@@ -281,6 +287,8 @@ FrameResult frame_from(const ordered_json& from, const std::vector<std::string>&
     FrameResult frame;
     frame.frame = whole_number<int>(from.at("frame"), "frame");
     frame.view = text(from, "view");
+    frame.name = text(from, "name");
+    frame.method = text(from, "method");
     if (from.contains("test_frame"))
         frame.test_frame = whole_number<int>(from["test_frame"], "test_frame");
     frame.status = status_from(from);

@@ -10,6 +10,9 @@
 
 namespace tonetool::sequence {
 
+/// The name, method and view of a frame, as far as it has them.
+void put_names(nlohmann::ordered_json& to, const Item& item);
+
 /// A frame as it lies in a file, `depth` deep, without a line break at its end; with its record of
 /// --qc or without.
 std::string frame_text(const FrameResult& frame, bool record, size_t depth);

@@ -120,7 +120,7 @@ std::map<Status, size_t> count_of_each(const ShotResult& shot) {
 }
 
 std::string name_of(const FrameResult& frame) {
-    return std::to_string(frame.frame) + (frame.view.empty() ? "" : " " + frame.view) +
+    return item_name(frame.item()) +
            (frame.test_frame ? " (test " + std::to_string(*frame.test_frame) + ")" : "");
 }
 
@@ -172,6 +172,7 @@ std::string counts_text(const ShotResult& shot) {
 // A command line without frames.
 bool is_still(const ShotResult& shot) {
     return shot.frames.size() == 1 && shot.frames.front().frame == 0 &&
+           !shot.frames.front().item().named() &&
            std::none_of(shot.check.begin(), shot.check.end(), is_pattern);
 }
 
@@ -182,25 +183,26 @@ std::string sentence_of(const ShotResult& shot) {
         const bool told = has_problem(shot.verdict) || !worst.message.empty();
         return "1 image: " + counts_text(shot) + (told ? " (" + why + ")" : "");
     }
-    std::string text = format("{} {}: {}", shot.frames.size(),
-                              shot.frames.size() == 1 ? "frame" : "frames", counts_text(shot));
+    const bool named = is_named(shot);
+    std::string text = format("{} {}{}: {}", shot.frames.size(), named ? "case" : "frame",
+                              shot.frames.size() == 1 ? "" : "s", counts_text(shot));
     text += false_alarms_text(shot);
     if (std::any_of(shot.frames.begin(), shot.frames.end(), has_automatic_limit))
         text += "; fail=auto finds frames unlike the others, not what all of them have";
     if (has_problem(shot.verdict) || (shot.frames.size() > 1 && !why.empty()))
-        text += format("; worst: frame {}{}", name_of(worst), why.empty() ? "" : " (" + why + ")");
+        text += format("; worst: {}{}{}", named ? "" : "frame ", name_of(worst),
+                       why.empty() ? "" : " (" + why + ")");
     return text;
 }
 
 void sort_frames(std::vector<FrameResult>& frames) {
-    const auto key = [](const FrameResult& frame) { return std::tie(frame.frame, frame.view); };
     std::sort(frames.begin(), frames.end(),
-              [&](const FrameResult& a, const FrameResult& b) { return key(a) < key(b); });
+              [](const FrameResult& a, const FrameResult& b) { return a.item() < b.item(); });
     const auto twice = std::adjacent_find(
         frames.begin(), frames.end(),
-        [&](const FrameResult& a, const FrameResult& b) { return key(a) == key(b); });
+        [](const FrameResult& a, const FrameResult& b) { return a.item() == b.item(); });
     if (twice != frames.end())
-        throw std::runtime_error("frame " + name_of(*twice) + " is there twice");
+        throw std::runtime_error(item_title(twice->item()) + " is there twice");
 }
 
 std::vector<size_t> by_badness(const std::vector<FrameResult>& frames) {
@@ -240,6 +242,11 @@ std::string severity_name(Severity severity) {
 
 std::optional<Severity> severity_of_name(const std::string& name) {
     return named<Severity>(kSeverityNames, name);
+}
+
+bool is_named(const ShotResult& shot) {
+    return std::any_of(shot.frames.begin(), shot.frames.end(),
+                       [](const FrameResult& frame) { return frame.item().named(); });
 }
 
 bool is_unmeasured(const FrameResult& frame) {

@@ -13,6 +13,8 @@
 #include <utility>
 #include <vector>
 
+#include "sequence/frames/item.h"
+
 namespace tonetool::sequence {
 
 struct QcRecord;
@@ -106,6 +108,7 @@ struct Measurement {
 struct FrameResult {
     int frame = 0;
     std::string view;
+    std::string name{}, method{};  ///< of a named case (%N, %M), which `frame` is 0 of without #
     std::optional<int> test_frame; ///< the test's number, if it is paired by position and differs
     Status status = Status::Error;
     std::string message;         ///< the first problem, for people; empty if the frame passed
@@ -119,6 +122,8 @@ struct FrameResult {
     /// What `qc` says, where conclude() was to keep it: parts are judged twice, alone and joined.
     std::shared_ptr<QcRecord> record;
     double seconds = 0; ///< time of the run; not part of any file
+
+    Item item() const { return {frame, view, name, method}; }
 };
 
 /// The luminances that the exposures of a whole shot follow from.
@@ -141,6 +146,9 @@ struct Acceptance {
     std::string code;  ///< of the faults
     std::string layer; ///< empty: in any
     std::string by, why;
+    std::string name{}, method{}; ///< of a named case
+
+    Item item() const { return {frame, view, name, method}; }
 };
 
 struct ShotResult {
@@ -167,6 +175,9 @@ void judge(FrameResult& frame);
 /// Whether a test of the frame has said neither yes nor no, and nothing is worse: it has not
 /// passed, whatever its status.
 bool is_undecided(const FrameResult& frame);
+
+/// Whether its frames are cases with names.
+bool is_named(const ShotResult& shot);
 
 /// Whether nothing was measured of the frame although nothing is wrong with it.
 bool is_unmeasured(const FrameResult& frame);

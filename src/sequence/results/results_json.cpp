@@ -21,8 +21,7 @@ using nlohmann::ordered_json;
 
 ordered_json json_of(const Acceptance& accepted) {
     ordered_json to{{"frame", accepted.frame}};
-    if (!accepted.view.empty())
-        to["view"] = accepted.view;
+    put_names(to, accepted.item());
     to["code"] = accepted.code;
     if (!accepted.layer.empty())
         to["layer"] = accepted.layer;
@@ -124,9 +123,14 @@ std::vector<Acceptance> acceptances_in(const ordered_json& list) {
         all.push_back({whole_number<int>(one.at("frame"), "frame"),
                        one.value("view", std::string()), one.at("code").get<std::string>(),
                        one.value("layer", std::string()), one.value("by", std::string()),
-                       one.value("why", std::string())});
+                       one.value("why", std::string()), one.value("name", std::string()),
+                       one.value("method", std::string())});
     });
     return all;
+}
+
+std::string json_string(const std::string& text) {
+    return one_line(ordered_json(text));
 }
 
 std::string to_json(const FrameResult& frame) {

@@ -27,6 +27,9 @@ void put_json(const ShotResult& shot, bool records,
 /// sentence are of. The verdict is drawn anew from the frames.
 ShotResult shot_from_json(const std::string& text);
 
+/// The text as a JSON string, with its quotes.
+std::string json_string(const std::string& text);
+
 /// One frame, as --state and --merge keep it.
 std::string to_json(const FrameResult& frame);
 FrameResult frame_from_json(const std::string& text);

@@ -135,6 +135,16 @@ std::string ocio_variable() {
     return std::string(OIIO::Sysutil::getenv("OCIO"));
 }
 
+// Of a case: a name that no frame's file has, and that a folder can hold.
+std::string case_part(const Item& item) {
+    constexpr size_t most = 180;
+    const std::string whole = "@" + safe(item.name) + "@" + safe(item.method);
+    return !item.named() ? ""
+           : whole.size() <= most
+               ? whole
+               : whole.substr(0, most) + format("@{:016x}", OIIO::Strutil::strhash(whole));
+}
+
 std::string key_of(const Origin& origin) {
     return dumped({{"program", TONETOOL_VERSION},
                    {"words", origin.words},
@@ -157,7 +167,7 @@ State::State(std::string folder, std::string kind)
 }
 
 std::string State::file(const Item& item) const {
-    return m_folder + "/" + m_kind + format(".{:04d}", item.frame) +
+    return m_folder + "/" + m_kind + case_part(item) + format(".{:04d}", item.frame) +
            (item.view.empty() ? "" : "." + safe(item.view)) + ".json";
 }
 

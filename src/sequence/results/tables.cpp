@@ -72,11 +72,15 @@ void add_measurements(Columns& columns, Row& row, const FrameResult& frame) {
     }
 }
 
-Row row_of(Columns& columns, const FrameResult& frame) {
+Row row_of(Columns& columns, const FrameResult& frame, bool named) {
     std::vector<std::string> codes;
     for (const Fault& fault : frame.faults)
         codes.push_back(fault.code);
     Row row;
+    if (named) {
+        columns.put(row, "name", cell(frame.name));
+        columns.put(row, "method", cell(frame.method));
+    }
     columns.put(row, "frame", std::to_string(frame.frame));
     columns.put(row, "view", cell(frame.view));
     if (frame.test_frame)
@@ -137,7 +141,28 @@ std::string outcome(const FrameResult& frame) {
     }
 }
 
+// Of a case the message is in the text, too: a person reads one of them.
+std::string outcome_of_case(const FrameResult& frame) {
+    const std::string inside = outcome(frame);
+    const size_t end = frame.status == Status::Failed ? inside.find("\">") : std::string::npos;
+    return end == std::string::npos ? inside
+                                    : inside.substr(0, end + 2) + escaped(frame.message) + "&#10;" +
+                                          inside.substr(end + 2);
+}
+
+std::string named_case(const FrameResult& frame) {
+    const std::string method = frame.method.empty() ? "" : " [" + frame.method + "]";
+    const std::string number = frame.frame == 0 ? "" : format(" frame {:04d}", frame.frame);
+    const std::string view = frame.view.empty() ? "" : " " + frame.view;
+    const std::string inside = outcome_of_case(frame);
+    return format("  <testcase classname=\"check\" name=\"{}\" file=\"{}\"",
+                  escaped(frame.name + method + number + view), escaped(frame.test)) +
+           (inside.empty() ? "/>\n" : ">" + inside + "</testcase>\n");
+}
+
 std::string test_case(const FrameResult& frame) {
+    if (frame.item().named())
+        return named_case(frame);
     const std::string name = format(
         "frame {:04d}{}{}{}", frame.frame, frame.view.empty() ? "" : " ", escaped(frame.view),
         frame.test_frame ? format(" (test {:04d})", *frame.test_frame) : "");
@@ -153,7 +178,7 @@ std::string csv_text(const ShotResult& shot) {
     Columns columns;
     std::vector<Row> rows;
     for (const FrameResult& frame : shot.frames)
-        rows.push_back(row_of(columns, frame));
+        rows.push_back(row_of(columns, frame, is_named(shot)));
     std::string text;
     for (size_t i = 0; i < columns.names().size(); ++i)
         text += (i > 0 ? "," : "") + cell(columns.names()[i]);

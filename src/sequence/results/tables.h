@@ -8,10 +8,11 @@
 
 namespace tonetool::sequence {
 
-/// A line per frame under a line of names: frame, view, status, message, reference, test, faults,
-/// then for each measurement COMMAND.threshold (for further thresholds COMMAND.threshold.QUANTITY)
-/// and COMMAND.QUANTITY ("hdrflip#2.mean" for the second of the same name). RFC 4180; a text that a
-/// spreadsheet would take for a formula gets an apostrophe before it. Numbers come back to the bit.
+/// A line per frame under a line of names: of cases name and method first, then frame, view,
+/// status, message, reference, test, faults, then for each measurement COMMAND.threshold (for
+/// further thresholds COMMAND.threshold.QUANTITY) and COMMAND.QUANTITY ("hdrflip#2.mean" for the
+/// second of the same name). RFC 4180; a text that a spreadsheet would take for a formula gets an
+/// apostrophe before it. Numbers come back to the bit.
 std::string csv_text(const ShotResult& shot);
 
 /// A test case per frame: failed frames are failures, frames that could not be checked errors, and

@@ -29,7 +29,7 @@ Acceptances acceptances_of(const ordered_json& json) {
 }
 
 bool is_of(const Acceptance& accepted, const FrameResult& frame) {
-    return accepted.frame == frame.frame && accepted.view == frame.view;
+    return accepted.item() == frame.item();
 }
 
 bool is_of(const Acceptance& accepted, const Fault& fault) {
@@ -57,8 +57,7 @@ bool accept_in(FrameResult& frame, const std::vector<Acceptance>& all) {
 }
 
 std::string name_of(const Acceptance& accepted) {
-    return format("frame {}{}: {}{}", accepted.frame,
-                  accepted.view.empty() ? "" : " " + accepted.view, accepted.code,
+    return format("{}: {}{}", item_title(accepted.item()), accepted.code,
                   accepted.layer.empty() ? "" : " in " + accepted.layer);
 }
 

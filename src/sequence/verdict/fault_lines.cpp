@@ -31,7 +31,7 @@ const Fault* find_same(const FrameResult& frame, const Fault& fault) {
 }
 
 std::string line(const Fault& fault, const std::string& frames, const std::string& view) {
-    std::string where = frames + (frames.empty() || view.empty() ? "" : " ") + printable(view);
+    std::string where = printable(frames + (frames.empty() || view.empty() ? "" : " ") + view);
     where += where.empty() ? "" : ": ";
     return format("{}: {}{} {}: {}\n", fault.command.empty() ? "qc" : fault.command, where,
                   severity_name(fault.severity), fault.code, printable(fault.sentence));
@@ -65,21 +65,30 @@ public:
         Fault told = *most;
         if (told.value)
             told.sentence = format("{} (frame {})", told.sentence, m_frames[worst]->frame);
-        return line(told, format("frames {} to {}", m_frames[i]->frame, m_frames[last]->frame),
-                    m_frames[i]->view);
+        return line(
+            told, case_of(i) + format("frames {} to {}", m_frames[i]->frame, m_frames[last]->frame),
+            m_frames[i]->view);
     }
 
     /// Of a frame with more of them than a person reads.
     std::string rest_of(size_t i, size_t count) const {
-        const std::string number = number_of(i), &view = m_frames[i]->view;
+        const std::string number = printable(number_of(i)), &view = m_frames[i]->view;
         return format("against: {}{}{}{}and {} more {}, which -v prints\n", number,
                       view.empty() ? "" : " ", printable(view), number.empty() ? "" : ": ", count,
                       count == 1 ? "difference" : "differences");
     }
 
 private:
-    // A still has none.
+    // "case hair/long "; empty for frames without a name.
+    std::string case_of(size_t i) const {
+        const Item& item = m_frames[i]->item();
+        return item.named() ? item_title({0, "", item.name, item.method}) + " " : "";
+    }
+
+    // A still has none. The view is told beside it.
     std::string number_of(size_t i) const {
+        if (m_frames[i]->item().named())
+            return item_title({m_frames[i]->frame, "", m_frames[i]->name, m_frames[i]->method});
         const bool still = m_frames.size() == 1 && m_frames[i]->frame == 0;
         return still ? std::string() : "frame " + std::to_string(m_frames[i]->frame);
     }
@@ -90,17 +99,18 @@ private:
 } // namespace
 
 std::string faults_text(const ShotResult& shot, bool all) {
-    std::map<std::string, std::vector<const FrameResult*>> views;
+    std::map<Series, std::vector<const FrameResult*>> views;
     for (const FrameResult& frame : shot.frames)
-        views[frame.view].push_back(&frame);
-    std::map<std::string, ViewFaults> faults;
+        views[series_of(frame.item())].push_back(&frame);
+    std::map<Series, ViewFaults> faults;
     for (auto& [view, frames] : views)
         faults.emplace(view, ViewFaults(std::move(frames)));
-    std::map<std::string, size_t> place;
+    std::map<Series, size_t> place;
     std::string text;
     for (const FrameResult& frame : shot.frames) {
-        const ViewFaults& of_view = faults.at(frame.view);
-        const size_t i = place[frame.view]++;
+        const Series series = series_of(frame.item());
+        const ViewFaults& of_view = faults.at(series);
+        const size_t i = place[series]++;
         size_t differences = 0;
         for (const Fault& fault : frame.faults) {
             const std::string line = of_view.line_of(i, fault);

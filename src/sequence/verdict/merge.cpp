@@ -35,22 +35,24 @@ void check_same(const ShotResult& whole, const ShotResult& part, const std::stri
     }
 }
 
-// In every view that some part has.
+// In every view, and of every case, that some part has.
 void add_frames_without_result(ShotResult& shot, const std::vector<Item>& expected) {
-    std::set<std::pair<int, std::string>> there;
-    std::set<std::string> views;
+    std::set<Item> there;
+    std::set<Series> series;
     for (const FrameResult& frame : shot.frames) {
-        there.emplace(frame.frame, frame.view);
-        views.insert(frame.view);
+        there.insert(frame.item());
+        series.insert(series_of(frame.item()));
     }
-    if (views.empty())
-        views.insert("");
+    if (series.empty())
+        series.insert({});
     for (const Item& item : expected) {
-        for (const std::string& view : views) {
-            if (there.emplace(item.frame, view).second) {
+        for (const Series& of : series) {
+            if (there.insert({item.frame, of.view, of.name, of.method}).second) {
                 FrameResult frame;
                 frame.frame = item.frame;
-                frame.view = view;
+                frame.view = of.view;
+                frame.name = of.name;
+                frame.method = of.method;
                 frame.message = "no part has a result of this frame";
                 shot.frames.push_back(frame);
             }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "sequence/results/frame_json.h"
 #include "sequence/results/json_text.h"
 
 namespace tonetool::sequence {
@@ -26,8 +27,7 @@ ordered_json worst_of(const ShotResult& shot) {
     for (size_t index : shot.worst) {
         const FrameResult& frame = shot.frames.at(index);
         ordered_json one{{"frame", frame.frame}};
-        if (!frame.view.empty())
-            one["view"] = frame.view;
+        put_names(one, frame.item());
         list.push_back(one);
     }
     return list;

@@ -18,7 +18,7 @@ namespace {
 using OIIO::Strutil::fmt::format;
 
 std::string name_of(const FrameResult& frame) {
-    return "frame " + std::to_string(frame.frame) + (frame.view.empty() ? "" : " " + frame.view);
+    return item_title(frame.item());
 }
 
 // What is wrong with a measurement as one of a word, as the end of a sentence.

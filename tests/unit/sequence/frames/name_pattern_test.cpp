@@ -48,5 +48,41 @@ TEST(NamePattern, NegativeNumbersInBothForms) {
     EXPECT_EQ(NamePattern("a.%04d.exr").filled({-2, ""}, true), "a.-0002.exr");
 }
 
+// "name method number" of what the placeholders stand for; empty where the file does not match.
+std::string matched(const char* pattern, const char* file) {
+    const auto found = NamePattern(pattern, true).match(file, "");
+    return found ? found->name + " " + found->method + " " + std::to_string(found->number.value) +
+                       (found->number.of_width ? "" : " narrow")
+                 : "";
+}
+
+TEST(NamePattern, NamesAndMethods) {
+    EXPECT_EQ(matched("r/%N.exr", "r/hair/long.exr"), "hair/long  0");
+    EXPECT_EQ(matched("r/%N.exr", "r/.exr"), "");
+    EXPECT_EQ(matched("r/%N.exr", "r/a.exr.tmp"), "");
+    EXPECT_EQ(matched("out/%M/%N.exr", "out/pt/x/a.exr"), "x/a pt 0");
+    EXPECT_EQ(matched("%M.exr", "a/b.exr"), "");
+    EXPECT_EQ(matched("%N/%N.exr", "x/y/x/y.exr"), "x/y  0"); // twice the same text
+    EXPECT_EQ(matched("%N/%N.exr", "x/z.exr"), "");
+    EXPECT_EQ(matched("%N_%M.exr", "a_b_c.exr"), "a_b c 0"); // the first takes what it can
+    EXPECT_EQ(matched("%N.%04d.exr", "a.1.0002.exr"), "a.1  2");
+    EXPECT_EQ(matched("%N%04d.exr", "a10012.exr"), "a1  12"); // a number keeps its digits
+    EXPECT_EQ(matched("%N.%04d.exr", "a.1.exr"), "a  1 narrow");
+    EXPECT_EQ(matched("%N.exr", "\xff\n.exr"), "\xff\n  0");
+    EXPECT_EQ(NamePattern("r/%N.exr").filled({}), "r/%N.exr"); // plain text where they are no names
+    EXPECT_EQ(NamePattern("r/%M/%N.%02d.exr", true).filled({7, "", "a/b", "pt"}),
+              "r/pt/a/b.07.exr");
+    EXPECT_EQ(NamePattern("r/x/%N.exr", true).fixed_part(), "r/x/");
+}
+
+TEST(Item, FramesByNumberCasesByName) {
+    EXPECT_LT((Item{1, "right"}), (Item{2, "left"}));
+    EXPECT_LT((Item{2, "left", "a", ""}), (Item{1, "right", "a", ""})); // a case by its view first
+    EXPECT_LT((Item{9, "", "B", "z"}), (Item{0, "", "a", "a"}));        // bytes
+    EXPECT_EQ(item_title({5, "left"}), "frame 5 left");
+    EXPECT_EQ(item_title({5, "left", "hair/long", "pt"}), "case hair/long [pt] frame 5 left");
+    EXPECT_EQ(item_title({0, "", "", "pt"}), "case [pt]");
+}
+
 } // namespace
 } // namespace tonetool::sequence

@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sequence/results/ci_texts.h"
+
+#include <OpenImageIO/strutil.h>
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <fcntl.h>
+#include <map>
+#include <stdexcept>
+#include <unistd.h>
+#include <vector>
+
+#include "imagebuf/pixels/utf8.h"
+#include "text/printable.h"
+
+namespace tonetool::sequence {
+
+namespace {
+
+using OIIO::Strutil::fmt::format;
+
+constexpr char kCheckName[] = "check"; ///< that a check has where nothing names it
+
+std::string replaced(const std::string& text, const std::map<char, std::string>& by) {
+    std::string out;
+    for (const char c : text) {
+        const auto found = by.find(c);
+        out += found == by.end() ? std::string(1, c) : found->second;
+    }
+    return out;
+}
+
+std::string ci_name(const FrameResult& frame) {
+    const Item item = frame.item();
+    return item.named() ? item_name(item) : item_title(item);
+}
+
+// The frames of these statuses, the worst first.
+std::vector<const FrameResult*> bad_frames_of(const ShotResult& shot, Status from, Status to) {
+    std::vector<const FrameResult*> frames;
+    for (const size_t index : shot.worst) {
+        const FrameResult& frame = shot.frames.at(index);
+        if (frame.status >= from && frame.status <= to)
+            frames.push_back(&frame);
+    }
+    return frames;
+}
+
+// What is known beside the message.
+std::vector<std::string> findings_of(const FrameResult& frame) {
+    std::vector<std::string> sentences;
+    for (const Fault& fault : frame.faults)
+        if (fault.severity != Severity::Info && fault.sentence != frame.message)
+            sentences.push_back(fault.sentence);
+    return sentences;
+}
+
+// ---- annotations
+
+std::string data_of_annotation(const std::string& text) {
+    return replaced(printable_lines(valid_utf8(text)),
+                    {{'%', "%25"}, {'\r', "%0D"}, {'\n', "%0A"}});
+}
+
+std::string property_of_annotation(const std::string& text) {
+    return replaced(data_of_annotation(text), {{':', "%3A"}, {',', "%2C"}});
+}
+
+std::string annotation(const char* kind, const std::string& title, const std::string& message) {
+    return format("::{} title={}::{}\n", kind, property_of_annotation(title),
+                  data_of_annotation(message));
+}
+
+std::string annotations(const char* kind, const std::vector<const FrameResult*>& frames) {
+    constexpr size_t most = 10;
+    const size_t told = frames.size() <= most ? frames.size() : most - 1;
+    std::string text;
+    for (size_t i = 0; i < told; ++i) {
+        const FrameResult& frame = *frames[i];
+        std::string message = frame.message;
+        for (const std::string& sentence : findings_of(frame))
+            message += "\n" + sentence;
+        text += annotation(
+            kind, format("{}: {} {}", kCheckName, ci_name(frame), status_name(frame.status)),
+            message);
+    }
+    if (told < frames.size())
+        text += annotation(kind, kCheckName,
+                           format("and {} more: see the summary", frames.size() - told));
+    return text;
+}
+
+// ---- the summary
+
+std::string markdown_cell(const std::string& text) {
+    return replaced(printable_lines(valid_utf8(text)), {{'\\', "\\\\"},
+                                                        {'|', "\\|"},
+                                                        {'*', "\\*"},
+                                                        {'_', "\\_"},
+                                                        {'[', "\\["},
+                                                        {']', "\\]"},
+                                                        {'`', "\\`"},
+                                                        {'<', "&lt;"},
+                                                        {'>', "&gt;"},
+                                                        {'&', "&amp;"},
+                                                        {'\n', " "},
+                                                        {'\r', " "}});
+}
+
+// The limit that is exceeded most.
+const Threshold* exceeded(const Measurement& measured) {
+    const Threshold* most = nullptr;
+    double worst = 0;
+    for (const Threshold& one : measured.thresholds) {
+        const auto limit = one.fail ? one.fail : one.warn;
+        if (!limit)
+            continue;
+        const bool holds = one.higher_is_better ? one.value >= *limit : one.value <= *limit;
+        const double over = one.higher_is_better ? *limit - one.value : one.value - *limit;
+        if (!holds && (!most || over > worst)) {
+            most = &one;
+            worst = over;
+        }
+    }
+    return most;
+}
+
+std::string summary_row(const FrameResult& frame) {
+    std::string quantity, value, limit;
+    std::vector<std::string> why = findings_of(frame);
+    for (const Measurement& measured : frame.measurements) {
+        const Threshold* over = measured.verdict.empty() ? exceeded(measured) : nullptr;
+        if (!over || !quantity.empty())
+            continue;
+        quantity = measured.command + " " + over->quantity;
+        value = format("{:.4f}", over->value);
+        limit = format("{:.6g}", over->fail.value_or(over->warn.value_or(0)));
+    }
+    if (quantity.empty())
+        why.insert(why.begin(), frame.message);
+    const auto cell = [](const std::string& text) {
+        return text.empty() ? " |" : " " + text + " |";
+    };
+    return "|" + cell(markdown_cell(ci_name(frame))) + cell(status_name(frame.status)) +
+           cell(markdown_cell(quantity)) + cell(value) + cell(limit) +
+           cell(markdown_cell(OIIO::Strutil::join(why, "; "))) + "\n";
+}
+
+} // namespace
+
+std::string github_text(const ShotResult& shot) {
+    return annotations("error", bad_frames_of(shot, Status::Failed, Status::Crashed)) +
+           annotations("warning", bad_frames_of(shot, Status::Warning, Status::Warning));
+}
+
+std::string summary_text(const ShotResult& shot) {
+    constexpr size_t most_rows = 200, most_bytes = 900000;
+    std::string text =
+        format("## {}: {}\n\n{}\n", kCheckName, status_name(shot.verdict),
+               markdown_cell(shot.sentence.substr(0, shot.sentence.find("; worst: "))));
+    const auto frames = bad_frames_of(shot, Status::Warning, Status::Crashed);
+    if (frames.empty())
+        return text;
+    text +=
+        format("\n| {} | status | quantity | value | limit | why |\n|---|---|---|--:|--:|---|\n",
+               is_named(shot) ? "case" : "frame");
+    size_t rows = 0;
+    for (; rows < std::min(frames.size(), most_rows); ++rows) {
+        const std::string row = summary_row(*frames[rows]);
+        if (text.size() + row.size() > most_bytes)
+            break;
+        text += row;
+    }
+    if (rows < frames.size())
+        text += format("\nand {} more\n", frames.size() - rows);
+    return text;
+}
+
+void append_text(const std::string& text, const std::string& file) {
+    const int to = ::open(file.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
+    size_t written = 0;
+    while (to >= 0 && written < text.size()) {
+        const ssize_t count = ::write(to, text.data() + written, text.size() - written);
+        if (count < 0 && errno != EINTR)
+            break;
+        written += count > 0 ? size_t(count) : 0;
+    }
+    const int failure = errno;
+    const bool closed = to >= 0 && ::close(to) == 0;
+    if (!closed || written < text.size())
+        throw std::runtime_error(format("cannot write \"{}\": {}", file, std::strerror(failure)));
+}
+
+} // namespace tonetool::sequence

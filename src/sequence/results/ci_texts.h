@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What did not pass, as continuous integration shows it.
+#pragma once
+
+#include <string>
+
+#include "sequence/results/results.h"
+
+namespace tonetool::sequence {
+
+/// --github: a line "::error title=...::message" or "::warning ..." for each frame that did not
+/// pass, the worst first. GitHub shows ten of a kind for a step: of more the tenth counts the rest.
+std::string github_text(const ShotResult& shot);
+
+/// --summary: a heading with the verdict, the sentence, and a table in Markdown of the frames that
+/// did not pass. GitHub refuses a summary of more than 1 MiB as a whole: it is cut at 200 rows or
+/// 900 kB, with a line that counts the rest.
+std::string summary_text(const ShotResult& shot);
+
+/// Adds the text to the end of a file, which may hold others' already. Throws a runtime_error where
+/// it cannot be written.
+void append_text(const std::string& text, const std::string& file);
+
+} // namespace tonetool::sequence
