@@ -111,7 +111,7 @@ void add_picture(Module& module) {
     using P = QcPicture;
     ResultClass<P> picture(module, "QcPicture", "The colour that a viewer looks at.");
     visit_source<P>(visitor(picture));
-    picture
+    picture.field("objects", &P::objects, "Of the first layer of IDs.")
         .field("thumbnail", &P::thumbnail,
                "Mean luminance of 32 x 18 cells of the display window, in 1/1000 stop.")
         .field("red", &P::red, "Red over green of the same cells, in 1/32 stop.")
@@ -122,7 +122,6 @@ void add_picture(Module& module) {
         .field("hash", &P::hash, "Of the values of its pixels.")
         .field("alpha_low", &P::alpha_low, "Alpha below 0, or NaN.")
         .field("alpha_high", &P::alpha_high, "Alpha above 1.")
-        .field("objects", &P::objects, "Of the first layer of IDs.")
         .field("spike_count", &P::spike_count, "Pixels 8 times as large as all 3 pixels away.")
         .field("spikes", &P::spikes, "The largest of them, at most 64.")
         .field("rectangles", &P::rectangles,
