@@ -1,0 +1,244 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sequence/suite/suite_file.h"
+
+#include <algorithm>
+#include <numeric>
+#include <set>
+#include <sstream>
+#include <stdexcept>
+#include <toml.hpp>
+
+namespace tonetool::sequence {
+
+namespace {
+
+using Value = toml::basic_value<toml::discard_comments, std::map, std::vector>;
+
+constexpr char kFormatKey[] = "tonetool-suite";
+
+// As toml11 lays a message out, without the word before it.
+std::string laid_out_error(const std::string& what, const Value& at, const std::string& comment) {
+    const std::string start = "[error] ";
+    std::string text = toml::format_error(what, at, comment);
+    while (!text.empty() && text.back() == '\n')
+        text.pop_back();
+    return text.compare(0, start.size(), start) == 0 ? text.substr(start.size()) : text;
+}
+
+[[noreturn]] void refuse(const std::string& what, const Value& at, const std::string& comment) {
+    throw std::runtime_error(laid_out_error(what, at, comment));
+}
+
+int line_of(const Value& value) {
+    return int(value.location().line());
+}
+
+size_t letters_apart(const std::string& a, const std::string& b) {
+    std::vector<size_t> row(b.size() + 1);
+    std::iota(row.begin(), row.end(), 0);
+    for (size_t i = 0; i < a.size(); ++i) {
+        size_t diagonal = row[0];
+        row[0] = i + 1;
+        for (size_t j = 0; j < b.size(); ++j) {
+            const size_t above = row[j + 1];
+            row[j + 1] = std::min({above + 1, row[j] + 1, diagonal + (a[i] == b[j] ? 0 : 1)});
+            diagonal = above;
+        }
+    }
+    return row.back();
+}
+
+// "did you mean fail?", or the keys that there are.
+std::string meant_key(const std::string& key, const std::vector<std::string>& valid) {
+    std::string all;
+    for (const std::string& one : valid) {
+        if (letters_apart(key, one) <= 2)
+            return "did you mean " + one + "?";
+        all += (all.empty() ? "valid: " : ", ") + one;
+    }
+    return all;
+}
+
+void refuse_unknown_keys(const Value& table, const std::vector<std::string>& valid) {
+    const Value* first = nullptr;
+    std::string unknown;
+    for (const auto& [key, value] : table.as_table())
+        if (std::find(valid.begin(), valid.end(), key) == valid.end() &&
+            (!first || line_of(value) < line_of(*first))) {
+            first = &value;
+            unknown = key;
+        }
+    if (first)
+        refuse("a suite has no key \"" + unknown + "\"", *first, meant_key(unknown, valid));
+}
+
+std::string text_in(const Value& table, const std::string& key) {
+    if (!table.contains(key))
+        return "";
+    const Value& value = table.at(key);
+    if (!value.is_string()) {
+        const bool limits = key == "fail" || key == "warn";
+        refuse(key + " is a text", value,
+               limits ? key + " = \"mean=0.3,p99.9=0.6\"" : key + " = \"...\"");
+    }
+    if (value.as_string().str.empty())
+        refuse(key + " is empty", value, "leave the key out");
+    return value.as_string().str;
+}
+
+SuiteRow row_from(const Value& from) {
+    static const std::vector<std::string> keys{"name",  "method", "check",  "fail", "warn",
+                                               "layer", "mask",   "ignore", "skip", "why"};
+    refuse_unknown_keys(from, keys);
+    SuiteRow row;
+    row.line = line_of(from);
+    row.shown = laid_out_error("this row matches no case", from, "");
+    for (const std::string& key : keys) {
+        const std::string text = text_in(from, key);
+        if (text.empty())
+            continue;
+        if (key == "name")
+            row.name = text;
+        else if (key == "method")
+            row.method = text;
+        else
+            row.settings[key] = {text, row.line};
+    }
+    for (const char* key : {"mask", "ignore"})
+        if (row.settings.count(key) > 0 && row.settings.count("why") == 0)
+            refuse(std::string(key) + " needs why", from.at(key),
+                   "why = \"what is not compared, and why\"");
+    if (row.settings.empty())
+        refuse("this row says nothing of its cases", from, "valid: fail, warn, layer, skip, ...");
+    return row;
+}
+
+void check_format(const Value& from, const std::string& file) {
+    if (!from.contains(kFormatKey))
+        throw std::runtime_error("\"" + file + "\" is no suite: its first line is " + kFormatKey +
+                                 " = 1");
+    const Value& format = from.at(kFormatKey);
+    if (!format.is_integer() || format.as_integer() != 1)
+        refuse("a suite of another format", format, "this program reads 1");
+}
+
+Suite suite_of(const Value& from, const std::string& file) {
+    check_format(from, file);
+    refuse_unknown_keys(from, {kFormatKey, "name", "reference", "test", "check", "case"});
+    Suite suite;
+    suite.file = file;
+    suite.folder = file.substr(0, file.rfind('/') + 1);
+    suite.name = text_in(from, "name");
+    suite.reference = text_in(from, "reference");
+    suite.test = text_in(from, "test");
+    suite.check = text_in(from, "check");
+    for (const char* key : {"test", "check"})
+        if (!from.contains(key))
+            throw std::runtime_error("\"" + file + "\" has no " + key);
+    suite.test_line = line_of(from.at("test"));
+    if (!from.contains("case"))
+        return suite;
+    const Value& rows = from.at("case");
+    const bool tables =
+        rows.is_array() && std::all_of(rows.as_array().begin(), rows.as_array().end(),
+                                       [](const Value& row) { return row.is_table(); });
+    if (!tables)
+        refuse("case is a list of rows", rows, "[[case]]");
+    for (const Value& row : rows.as_array())
+        suite.rows.push_back(row_from(row));
+    return suite;
+}
+
+// Whether `c` is one of the signs of a glob's [...] that begins at `at`, which ends behind it.
+bool in_brackets(const std::string& glob, size_t& at, char c) {
+    size_t i = at + 1;
+    const bool other = i < glob.size() && glob[i] == '!';
+    i += other ? 1 : 0;
+    bool found = false;
+    for (bool first = true; i < glob.size() && (first || glob[i] != ']'); first = false) {
+        const char low = glob[i];
+        const bool range = i + 2 < glob.size() && glob[i + 1] == '-' && glob[i + 2] != ']';
+        const char high = range ? glob[i + 2] : low;
+        const auto byte = [](char sign) { return static_cast<unsigned char>(sign); };
+        found = found || (byte(low) <= byte(c) && byte(c) <= byte(high));
+        i += range ? 3 : 1;
+    }
+    at = i + 1;
+    return found != other;
+}
+
+bool closes_brackets(const std::string& glob, size_t at) {
+    const size_t first = at + 1 + (at + 1 < glob.size() && glob[at + 1] == '!' ? 1 : 0);
+    return glob.find(']', first + 1) != std::string::npos;
+}
+
+} // namespace
+
+bool fits_glob(const std::string& glob, const std::string& text) {
+    size_t g = 0, t = 0, star = std::string::npos, behind = 0;
+    while (t < text.size()) {
+        size_t next = g + 1;
+        bool fits = false;
+        if (g < glob.size() && glob[g] == '*') {
+            star = g++;
+            behind = t;
+            continue;
+        }
+        if (g < glob.size() && glob[g] == '[' && closes_brackets(glob, g)) {
+            next = g;
+            fits = in_brackets(glob, next, text[t]);
+        } else if (g < glob.size()) {
+            fits = glob[g] == '?' || glob[g] == text[t];
+        }
+        if (fits) {
+            g = next;
+            ++t;
+        } else if (star != std::string::npos) { // the star takes one more
+            g = star + 1;
+            t = ++behind;
+        } else {
+            return false;
+        }
+    }
+    while (g < glob.size() && glob[g] == '*')
+        ++g;
+    return g == glob.size();
+}
+
+SuiteSettings Suite::settings_of(const std::string& of_name, const std::string& method) const {
+    SuiteSettings settings;
+    for (const SuiteRow& row : rows)
+        if (fits_glob(row.name, of_name) && fits_glob(row.method, method))
+            for (const auto& [key, setting] : row.settings)
+                settings[key] = setting;
+    return settings;
+}
+
+std::string Suite::unmatched(const std::vector<std::pair<std::string, std::string>>& cases) const {
+    for (const SuiteRow& row : rows) {
+        const bool any = std::any_of(cases.begin(), cases.end(), [&](const auto& one) {
+            return fits_glob(row.name, one.first) && fits_glob(row.method, one.second);
+        });
+        if (!any)
+            return row.shown;
+    }
+    return "";
+}
+
+std::string Suite::path(const std::string& of_name) const {
+    return of_name.empty() || of_name.front() == '/' ? of_name : folder + of_name;
+}
+
+Suite suite_from(const std::string& text, const std::string& file) {
+    try {
+        std::istringstream stream(text);
+        return suite_of(toml::parse<toml::discard_comments, std::map, std::vector>(stream, file),
+                        file);
+    } catch (const toml::exception& problem) {
+        throw std::runtime_error(problem.what());
+    } catch (const std::out_of_range& problem) {
+        throw std::runtime_error("\"" + file + "\" is no suite: " + problem.what());
+    }
+}
+
+} // namespace tonetool::sequence
