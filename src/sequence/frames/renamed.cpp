@@ -7,8 +7,9 @@
 #include <cstdint>
 #include <filesystem>
 #include <map>
-#include <numeric>
 #include <set>
+
+#include "imagebuf/pixels/names.h"
 
 namespace tonetool::sequence {
 
@@ -51,22 +52,6 @@ std::set<uintmax_t> sizes_of(const std::vector<std::string>& names, const std::v
             sizes.insert(size);
     }
     return sizes;
-}
-
-// Letters to change, add or leave out.
-size_t edit_distance(const std::string& a, const std::string& b) {
-    std::vector<size_t> row(b.size() + 1);
-    std::iota(row.begin(), row.end(), 0);
-    for (size_t i = 0; i < a.size(); ++i) {
-        size_t diagonal = row[0];
-        row[0] = i + 1;
-        for (size_t j = 0; j < b.size(); ++j) {
-            const size_t above = row[j + 1];
-            row[j + 1] = std::min({above + 1, row[j] + 1, diagonal + (a[i] == b[j] ? 0 : 1)});
-            diagonal = above;
-        }
-    }
-    return row.back();
 }
 
 bool is_near(const std::string& a, const std::string& b) {

@@ -2,11 +2,12 @@
 #include "sequence/suite/suite_file.h"
 
 #include <algorithm>
-#include <numeric>
 #include <set>
 #include <sstream>
 #include <stdexcept>
 #include <toml.hpp>
+
+#include "imagebuf/pixels/names.h"
 
 namespace tonetool::sequence {
 
@@ -33,26 +34,11 @@ int line_of(const Value& value) {
     return int(value.location().line());
 }
 
-size_t letters_apart(const std::string& a, const std::string& b) {
-    std::vector<size_t> row(b.size() + 1);
-    std::iota(row.begin(), row.end(), 0);
-    for (size_t i = 0; i < a.size(); ++i) {
-        size_t diagonal = row[0];
-        row[0] = i + 1;
-        for (size_t j = 0; j < b.size(); ++j) {
-            const size_t above = row[j + 1];
-            row[j + 1] = std::min({above + 1, row[j] + 1, diagonal + (a[i] == b[j] ? 0 : 1)});
-            diagonal = above;
-        }
-    }
-    return row.back();
-}
-
 // "did you mean fail?", or the keys that there are.
 std::string meant_key(const std::string& key, const std::vector<std::string>& valid) {
     std::string all;
     for (const std::string& one : valid) {
-        if (letters_apart(key, one) <= 2)
+        if (edit_distance(key, one) <= 2)
             return "did you mean " + one + "?";
         all += (all.empty() ? "valid: " : ", ") + one;
     }
