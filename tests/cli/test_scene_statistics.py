@@ -215,3 +215,19 @@ def test_nothing_depends_on_threads(tonetool):
                        "--cgtmo:filter=none:preset=default", "-o", f"{n}.png")
         facts.add((ran.fact("adaptation"), ran.fact("maximum"), ran.fact("counted")))
     assert len(facts) == 1
+
+
+def test_an_alpha_that_is_no_number_counts_as_0_and_leaves_the_colour(tonetool, tmp_path):
+    pictures = {}
+    for name, value in (("nan", np.nan), ("zero", 0.0)):
+        pixels = np.random.default_rng(1).random((32, 48, 4), np.float32)
+        pixels[..., 3] = 1
+        pixels[4:8, 4:8, 3] = value
+        image = oiio.ImageBuf(oiio.ImageSpec(48, 32, 4, "float"))
+        image.set_pixels(oiio.ROI(0, 48, 0, 32), pixels)
+        image.write(str(tmp_path / f"{name}.exr"))
+        ran = tonetool(tmp_path / f"{name}.exr", "--cgtmo", "-o", f"{name}.tif", "-q")
+        assert "not finite" not in ran.err
+        pictures[name] = oiio.ImageInput.open(str(tmp_path / f"{name}.tif")).read_image("float")
+    assert np.array_equal(pictures["nan"][..., :3], pictures["zero"][..., :3])
+    assert pictures["nan"][4:8, 4:8, :3].min() > 0

@@ -279,7 +279,7 @@ void ColorReader::clean_pixel(const Row& row, size_t x, const float (&stored)[3]
     double v[3] = {stored[0], stored[1], stored[2]};
     unsigned kinds = kind(v[0]) | kind(v[1]) << 2 | kind(v[2]) << 4;
     if (row.alpha) {
-        kinds |= kind(a) << 6;
+        kinds |= m_any_alpha ? 0 : kind(a) << 6;
         row.alpha[x] = std::isfinite(a) ? a : 0;
     } else if (alpha && m_watch) {
         counts.alpha_digest += alpha_digest(row.place + x, a);

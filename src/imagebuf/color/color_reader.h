@@ -22,6 +22,8 @@ public:
     /// Alpha, where it is not asked for, is told from another by ColorCounts::alpha_digest; before
     /// open().
     void watch_alpha() { m_watch = true; }
+    /// An alpha that is not finite is 0 and leaves the colour what it is; before open().
+    void keep_color_of_any_alpha() { m_any_alpha = true; }
     /// Negative components stay what they are; before open().
     void keep_negative() { m_least = -FLT_MAX; }
     /// Looks at the header only. The image must live as long as this does.
@@ -81,7 +83,7 @@ private:
     ColorChoice m_choice;
     ColorSpace m_space;
     OIIO::ROI m_region, m_window;
-    bool m_alpha = false, m_watch = false, m_saving_memory = false;
+    bool m_alpha = false, m_watch = false, m_any_alpha = false, m_saving_memory = false;
     float m_least = 0; ///< of a component
     int m_nthreads = 0;
     int64_t m_uncovered = 0;

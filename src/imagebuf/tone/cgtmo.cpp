@@ -78,6 +78,7 @@ private:
     }
 
     void read_color() {
+        m_reader.keep_color_of_any_alpha(); // it only tells which pixels count
         m_reader.open(*m_pixels, m_options.pixels, m_region, m_options.count == "lit", m_nthreads);
         m_planes = m_reader.planes();
         m_reader.read(m_region.ybegin, m_region.yend, m_planes);
