@@ -96,12 +96,49 @@ def test_what_one_eye_may_not_see(check):
     def change(name, number, eye):
         if name == "right":
             eye.ids[eye.ids == FAR] = WALL  # beyond the border
-            if number < 6:
-                eye.ids[eye.ids == BALL] = WALL  # behind something, for a while
         else:
             eye.ids[40, 50] = 0x3F111111  # too small to tell
+        if name == "left" or number == 6:
+            eye.ids[35:38, 40:44] = 0x3F222222  # a small one behind something, for a while
 
     assert check(change) == []
+
+
+def test_a_large_object_that_one_eye_lacks_in_one_frame(check, tonetool, tmp_path):
+    def change(name, number, eye):
+        if name == "right" and number == 3:
+            eye.ids[eye.ids == BALL] = WALL
+
+    assert [one[:3] for one in check(change, 2)] == [("left", 3, "oneeye")]
+    tonetool("--merge", "c.json", "--warnings-exit", status=2)
+
+
+def test_objects_are_told_before_materials(check):
+    """Layers come by name, and two objects may share a material."""
+    def change(name, number, eye):
+        if name == "right":
+            eye.ids[eye.ids == BALL] = WALL
+        eye.channels += [f"ViewLayer.CryptoMaterial00.{c}" for c in "rgba"]
+
+    Eye.pixels, before = with_one_material(Eye.pixels), Eye.pixels
+    try:
+        found = check(change, 2)
+    finally:
+        Eye.pixels = before
+    assert found[0][2:] == ("oneeye", f"object <{BALL:08x}> of ViewLayer.CryptoObject00 "
+                            "(120 pixels) is not in view right")
+
+
+def with_one_material(pixels):
+    def all_pixels(eye):
+        eye.channels, channels = eye.channels[:-4], eye.channels
+        flat = pixels(eye)
+        eye.channels = channels
+        material = np.zeros((*eye.ids.shape, 4), np.float32)
+        material[..., :2] = 1
+        return np.concatenate([flat, material], axis=-1)
+
+    return all_pixels
 
 
 def test_parts_of_the_shot_find_the_same(check, tonetool, tmp_path):

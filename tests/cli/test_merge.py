@@ -2,6 +2,7 @@
 """--merge of very many parts: how they are named, what they come to, and files of other versions."""
 
 import json
+import os
 import shutil
 import subprocess
 import sys
@@ -163,3 +164,15 @@ def test_two_thousand_parts(program, parts, plain_memory):
     _, kilobytes = measured("--merge", "many", "--json", "many.json", "--csv", "many.csv")
     assert kilobytes - few_kilobytes < 2000 * 50
     assert len(load(parts / "many.json")["frames"]) == 2000
+
+
+@pytest.mark.parametrize("kind", ["link", "folder", "fifo"])
+def test_what_looks_like_a_part_of_a_folder_is_one(tonetool, make_image, tmp_path, kind):
+    make_image("a.exr")
+    (tmp_path / "parts").mkdir()
+    tonetool("a.exr", "--qc", "--json", "parts/1.json")
+    tonetool("--merge", "parts")
+    part = tmp_path / "parts" / "2.JSON"
+    {"link": lambda: part.symlink_to("/nowhere/2.json"), "folder": part.mkdir,
+     "fifo": lambda: os.mkfifo(part)}[kind]()
+    assert '2.JSON" is no file that can be read' in tonetool("--merge", "parts", status=1).err

@@ -410,3 +410,19 @@ def test_links(tonetool, files):
     tonetool("r/%N.exr", "t/%N.exr", FLIP, "--csv", "t.csv", status=1)
     assert [(row["name"], row["status"]) for row in table(folder / "t.csv")] == [
         ("dead", "missing"), ("x/a", "passed"), ("y/b", "missing")]
+
+
+@pytest.mark.parametrize("words", [
+    ["r/%N.exr", "t/%N.exr", "--hdrflip:fail=0.1", "-o", "r/%N.exr"],
+    ["r/%N.exr", "t/%N.exr", "--hdrflip:fail=0.1", "-o", "t/%N.exr"],
+    ["r/%N.exr", "t/%N.exr", "--hdrflip:fail=0.1", "--pop", "r/%N.exr", "-o", "t/%N2.exr"],
+    ["--dry-run", "r/%N.exr", "t/%N.exr", "--hdrflip:fail=0.1", "-o", "./r/../r/%N.exr"]])
+def test_an_output_over_what_another_case_reads(tonetool, make_image, tmp_path, words):
+    for folder in "rt":
+        (tmp_path / folder).mkdir()
+        for name in ("a", "a2"):
+            make_image(f"{folder}/{name}.exr")
+    before = {file: file.read_bytes() for file in tmp_path.glob("?/*.exr")}
+    ran = tonetool(*words, status=1)
+    assert "is read by this check, and -o would write over it" in ran.err
+    assert {file: file.read_bytes() for file in tmp_path.glob("?/*.exr")} == before

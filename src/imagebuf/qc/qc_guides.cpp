@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What a scan keeps of the layers that are not light: means over cells of those without noise, the
 // magenta of an albedo, the speed of a motion layer.
+#include <OpenImageIO/strutil.h>
 #include <algorithm>
 #include <cmath>
 
@@ -33,7 +34,12 @@ void QcScan::choose_guides() {
     };
     m_albedo = index("albedo");
     m_motion = index("motion");
-    m_object_layer = index("id");
+    // Of a Cryptomatte of materials, too, that of objects: two objects may share a material.
+    const auto of_objects = std::find_if(m_layers.begin(), m_layers.end(), [](const Layer& layer) {
+        return layer.kind == "id" && OIIO::Strutil::icontains(layer.name, "object");
+    });
+    m_object_layer =
+        of_objects == m_layers.end() ? index("id") : int(of_objects - m_layers.begin());
     for (const char* kind : {"depth", "normal", "position", "albedo"}) {
         const int layer = index(kind);
         if (layer < 0 || m_guides.size() == most)

@@ -77,8 +77,8 @@ struct QcObject {
     int64_t pixels = 0;
 };
 
-/// Which objects a frame shows, by the bits of their IDs: the first layer of IDs, of a Cryptomatte
-/// those of the largest coverage. An ID of 0 is nothing.
+/// Which objects a frame shows, by the bits of their IDs: the first layer of IDs with "object" in
+/// its name, else the first; of a Cryptomatte those of the largest coverage. An ID of 0 is nothing.
 struct QcObjects {
     std::string layer; ///< "" if there is none
     /// The largest that take at least kShare of the pixels and are seen away from the left and the

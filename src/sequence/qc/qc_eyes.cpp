@@ -57,20 +57,25 @@ void compare_layers(QcShot& shot, QcShot& others, const std::string& view) {
                      {name, {}, {}, {}, {}});
 }
 
-// The objects that frames of this view show well, and no frame of the other has: an object may be
-// hidden in one eye for a while. Told once.
+// The objects that a frame of this view shows well, and that of the other view not at all. Small
+// ones may be hidden in one eye for a while: only what no frame of the other has counts. Told once.
 void compare_objects(QcShot& shot, QcShot& others, const std::string& view) {
+    constexpr double kLarge = 0.005; // of the picture
     std::set<uint32_t> told;
     for (QcFrame* frame : shot.measured()) {
         const QcObjects& here = frame->facts.picture.objects;
+        const QcFrame* same = find_frame(others, frame->number);
         for (const QcObject& object : here.inside) {
             const auto knows = [&](const QcFrame* other) {
                 const QcObjects& there = other->facts.picture.objects;
                 return there.layer != here.layer || there.knows(object.id);
             };
             const std::vector<QcFrame*> all = others.measured();
-            if (told.count(object.id) > 0 || all.empty() ||
-                std::any_of(all.begin(), all.end(), knows))
+            const bool large = double(object.pixels) >= kLarge * pixels_of(frame->facts);
+            const bool gone = large && same
+                                  ? !knows(same)
+                                  : !all.empty() && std::none_of(all.begin(), all.end(), knows);
+            if (told.count(object.id) > 0 || !gone)
                 continue;
             told.insert(object.id);
             shot.add(*frame, "oneeye",

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sequence/verdict/part_files.h"
 
+#include <OpenImageIO/strutil.h>
 #include <algorithm>
 #include <filesystem>
 #include <glob.h>
@@ -22,9 +23,13 @@ std::vector<std::string> in_folder(const std::string& folder) {
     for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
         const fs::path& path = entry.path();
         std::error_code none;
-        if (path.extension() == ".json" && path.filename().string().front() != '.' &&
-            entry.is_regular_file(none))
-            files.push_back(path.string());
+        if (!OIIO::Strutil::iends_with(path.filename().string(), ".json") ||
+            path.filename().string().front() == '.')
+            continue;
+        // A part that is left out is frames that nobody misses.
+        if (!entry.is_regular_file(none))
+            throw std::runtime_error("\"" + path.string() + "\" is no file that can be read");
+        files.push_back(path.string());
     }
     std::sort(files.begin(), files.end());
     if (files.empty())
