@@ -122,6 +122,7 @@ def test_quiet_and_print(tonetool, pair):
     (":metric=mpsnr:numExposures=0", "numExposures "),
     (":metric=smape:quantity=max", "quantity= needs fail= or warn="),
     (":metric=smape:quantity=psnr:fail=1", 'unknown quantity "psnr"'),
+    (":metric=psnr:fail=mean=30", "mean is of the errors in the map, and the number in dB is psnr"),
     (":metric=smape:fail=-1", "fail "),
     (":metric=smape:print=2", "print "),
     (":metric=smape:ppd=67", '"ppd"'),

@@ -121,11 +121,27 @@ private:
         return std::find(others.begin(), others.end(), key) == others.end();
     }
 
+    // 30 dB as a limit of squared errors would pass everything.
+    void refuse_decibels(const std::string& key, const std::string& text,
+                         const std::string& quantity, double limit) const {
+        const std::string& own = m_measures.names.front();
+        const auto up = [&](const std::string& name) {
+            return sequence::higher_is_better(m_call.row().label(), name);
+        };
+        if (up(own) && !up(quantity) && limit >= 1) {
+            throw CommandError(key + "=" + quantity + "=" + text + ": " + quantity +
+                               " is of the errors in the map, and the number in dB is " + own +
+                               " (valid: " + key + "=" + own + "=" + text + ", or " + quantity +
+                               " below 1)");
+        }
+    }
+
     double number(const std::string& key, const std::string& text,
                   const std::string& quantity) const {
         const Scale scale = scale_of(quantity);
         const double limit = checked_number(key, text, {scale.low, scale.high});
         const bool up = sequence::higher_is_better(m_call.row().label(), quantity);
+        refuse_decibels(key, text, quantity, limit);
         const double idle = up ? scale.low : scale.high;
         if (limit == idle) {
             throw CommandError(
