@@ -191,9 +191,19 @@ struct Python<std::map<std::string, double>> {
 };
 
 /// In the order of the pairs.
+template <class T>
+struct PythonPairs {
+    using Pairs = std::vector<std::pair<std::string, T>>;
+    static py::object to(const Pairs& v) {
+        py::dict dict;
+        for (const auto& [key, value] : v)
+            dict[to_str(key)] = Python<T>::to(value);
+        return py::object(std::move(dict));
+    }
+};
+
 template <>
-struct Python<std::vector<std::pair<std::string, double>>> {
-    using Pairs = std::vector<std::pair<std::string, double>>;
+struct Python<std::vector<std::pair<std::string, double>>> : PythonPairs<double> {
     static std::string given() { return "dict[str, float]"; }
     static Pairs from(py::handle v, const std::string& where) {
         Pairs pairs;
@@ -201,17 +211,10 @@ struct Python<std::vector<std::pair<std::string, double>>> {
             pairs.emplace_back(key, to_double(value, where + "[\"" + key + "\"]"));
         return pairs;
     }
-    static py::object to(const Pairs& v) {
-        py::dict dict;
-        for (const auto& [key, value] : v)
-            dict[to_str(key)] = Python<std::decay_t<decltype(value)>>::to(value);
-        return py::object(std::move(dict));
-    }
 };
 
 template <>
-struct Python<std::vector<std::pair<std::string, std::string>>> {
-    using Pairs = std::vector<std::pair<std::string, std::string>>;
+struct Python<std::vector<std::pair<std::string, std::string>>> : PythonPairs<std::string> {
     static std::string wanted() { return "Mapping[str, str]"; }
     static std::string given() { return "dict[str, str]"; }
     static Pairs from(py::handle v, const std::string& where) {
@@ -219,12 +222,6 @@ struct Python<std::vector<std::pair<std::string, std::string>>> {
         for (const auto& [key, value] : to_pairs(v, where, wanted()))
             pairs.emplace_back(key, to_text(value, where + "[\"" + key + "\"]"));
         return pairs;
-    }
-    static py::object to(const Pairs& v) {
-        py::dict dict;
-        for (const auto& [key, value] : v)
-            dict[to_str(key)] = Python<std::decay_t<decltype(value)>>::to(value);
-        return py::object(std::move(dict));
     }
 };
 

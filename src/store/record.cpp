@@ -6,6 +6,8 @@
 #include <stdexcept>
 #include <tuple>
 
+#include "imagebuf/pixels/json_reading.h"
+
 namespace tonetool::store {
 
 namespace {
@@ -19,12 +21,20 @@ bool is_hash(const std::string& text) {
     return text.size() == 64 && text.find_first_not_of("0123456789abcdef") == std::string::npos;
 }
 
+ordered_json json_of(const std::string& text) {
+    try {
+        return parse_json<ordered_json>(text);
+    } catch (const std::runtime_error& problem) {
+        throw std::runtime_error(std::string("is no record of an approval: ") + problem.what());
+    }
+}
+
 ApprovedImage image_from(const ordered_json& from) {
     ApprovedImage image;
     image.key = from.at("key").get<std::string>();
     image.file = from.at("file").get<std::string>();
     image.sha256 = from.at("sha256").get<std::string>();
-    image.bytes = from.at("bytes").get<uint64_t>();
+    image.bytes = whole_number<uint64_t>(from.at("bytes"), "bytes");
     image.by = from.at("by").get<std::string>();
     image.at = from.at("at").get<std::string>();
     image.reason = from.at("reason").get<std::string>();
@@ -60,17 +70,17 @@ std::string record_text(ApprovedRecord record) {
 
 ApprovedRecord record_from(const std::string& text) {
     try {
-        const ordered_json from = ordered_json::parse(text);
+        const ordered_json from = json_of(text);
         if (from.value("format", std::string()) != kFormat)
             throw std::runtime_error(std::string("has no \"format\": \"") + kFormat + "\"");
-        if (from.at("version").get<int>() != kVersion)
+        if (whole_number<int>(from.at("version"), "version") != kVersion)
             throw std::runtime_error("is of another version than " + std::to_string(kVersion));
         ApprovedRecord record;
         for (const ordered_json& image : from.at("images"))
             record.images.push_back(image_from(image));
         return record;
     } catch (const ordered_json::exception& problem) {
-        throw std::runtime_error(std::string("is no record of an approval: ") + problem.what());
+        throw std::runtime_error(std::string("is no record of an approval: ") + reason_of(problem));
     }
 }
 

@@ -47,9 +47,7 @@ std::vector<std::string> objects_first(const std::map<std::string, CryptomatteTy
     std::vector<std::string> names;
     for (const auto& [name, type] : types)
         names.push_back(name);
-    std::stable_partition(names.begin(), names.end(), [](const std::string& name) {
-        return OIIO::Strutil::lower(name).find("object") != std::string::npos;
-    });
+    std::stable_partition(names.begin(), names.end(), is_of_objects);
     return names;
 }
 

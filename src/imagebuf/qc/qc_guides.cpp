@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What a scan keeps of the layers that are not light: means over cells of those without noise, the
 // magenta of an albedo, the speed of a motion layer.
-#include <OpenImageIO/strutil.h>
 #include <algorithm>
 #include <cmath>
 
+#include "imagebuf/qc/qc_header.h"
 #include "imagebuf/qc/qc_scan.h"
 
 namespace tonetool {
@@ -36,7 +36,7 @@ void QcScan::choose_guides() {
     m_motion = index("motion");
     // Of a Cryptomatte of materials, too, that of objects: two objects may share a material.
     const auto of_objects = std::find_if(m_layers.begin(), m_layers.end(), [](const Layer& layer) {
-        return layer.kind == "id" && OIIO::Strutil::icontains(layer.name, "object");
+        return layer.kind == "id" && is_of_objects(layer.name);
     });
     m_object_layer =
         of_objects == m_layers.end() ? index("id") : int(of_objects - m_layers.begin());

@@ -111,6 +111,10 @@ std::string layer_kind(const AovLayer& layer, const ColorChoice& picture,
     return *kind ? kind : layer.has_rgb() ? "color" : "data";
 }
 
+bool is_of_objects(const std::string& name) {
+    return OIIO::Strutil::icontains(name, "object");
+}
+
 bool is_filtered(const std::string& name) {
     const std::string word = plain_word(name);
     const auto tells = [&](const char* part) { return word.find(part) != std::string::npos; };

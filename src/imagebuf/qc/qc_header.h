@@ -30,6 +30,9 @@ std::string layer_kind(const AovLayer& layer, const ColorChoice& picture,
 /// Whether the name of a layer says that it is a mean of samples, which is noise.
 bool is_filtered(const std::string& name);
 
+/// Of layers of IDs: whether these are of objects, not of materials or assets.
+bool is_of_objects(const std::string& name);
+
 /// Whether the values of a layer, by its kind and name, tell the moment of its frame: those of a
 /// sample in the middle of the pixel do, a mean of samples is noise.
 bool is_exact(const std::string& kind, const std::string& name);

@@ -8,6 +8,7 @@
 #include <fstream>
 #include <functional>
 #include <gmock/gmock.h>
+#include <iostream>
 #include <random>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -185,7 +186,8 @@ pid_t in_process(const std::function<void()>& work) {
     if (child == 0) {
         try {
             work();
-        } catch (...) {
+        } catch (const std::exception& problem) {
+            std::cerr << problem.what() << std::endl;
             ::_exit(1);
         }
         ::_exit(0);
