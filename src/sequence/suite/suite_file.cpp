@@ -5,22 +5,22 @@
 #include <set>
 #include <sstream>
 #include <stdexcept>
-#include <toml.hpp>
 
 #include "imagebuf/pixels/names.h"
+#include "sequence/suite/toml_versions.h"
 
 namespace tonetool::sequence {
 
 namespace {
 
-using Value = toml::basic_value<toml::discard_comments, std::map, std::vector>;
+using Value = TomlValue;
 
 constexpr char kFormatKey[] = "tonetool-suite";
 
 // As toml11 lays a message out, without the word before it.
 std::string laid_out_error(const std::string& what, const Value& at, const std::string& comment) {
     const std::string start = "[error] ";
-    std::string text = toml::format_error(what, at, comment);
+    std::string text = toml_message(what, at, comment);
     while (!text.empty() && text.back() == '\n')
         text.pop_back();
     return text.compare(0, start.size(), start) == 0 ? text.substr(start.size()) : text;
@@ -31,7 +31,7 @@ std::string laid_out_error(const std::string& what, const Value& at, const std::
 }
 
 int line_of(const Value& value) {
-    return int(value.location().line());
+    return int(toml_line(value));
 }
 
 // "did you mean fail?", or the keys that there are.
@@ -67,9 +67,9 @@ std::string text_in(const Value& table, const std::string& key) {
         refuse(key + " is a text", value,
                limits ? key + " = \"mean=0.3,p99.9=0.6\"" : key + " = \"...\"");
     }
-    if (value.as_string().str.empty())
+    if (toml_text(value).empty())
         refuse(key + " is empty", value, "leave the key out");
-    return value.as_string().str;
+    return toml_text(value);
 }
 
 SuiteRow row_from(const Value& from) {
@@ -218,8 +218,7 @@ std::string Suite::path(const std::string& of_name) const {
 Suite suite_from(const std::string& text, const std::string& file) {
     try {
         std::istringstream stream(text);
-        return suite_of(toml::parse<toml::discard_comments, std::map, std::vector>(stream, file),
-                        file);
+        return suite_of(parse_toml(stream, file), file);
     } catch (const toml::exception& problem) {
         throw std::runtime_error(problem.what());
     } catch (const std::out_of_range& problem) {
