@@ -62,12 +62,12 @@ std::vector<EndFile> places_of(const CheckPlan& check) {
 }
 
 // The names of files that a run of the line reads, images and others.
-Strings files_read(const FramePlan& plan, const Strings& texts) {
-    Strings files = words_at(texts, plan.check.inputs);
-    for (const chain::Word& word : plan.line.words) {
+Strings files_read(const chain::ParsedLine& line, const CheckPlan& check, const Strings& texts) {
+    Strings files = words_at(texts, check.inputs);
+    for (const chain::Word& word : line.words) {
         if (!word.row)
             continue;
-        const bool reads = !word.row->writes() || word.is("accept");
+        const bool reads = !word.row->writes() || word.is("accept") || word.is("suite");
         for (size_t i = 0; i < word.arguments.size() && reads; ++i)
             if (chain::names_file(word.argument_name(i)))
                 files.push_back(texts[word.arguments[i]]);
@@ -121,8 +121,9 @@ void write_for_others(const sequence::ShotResult& shot, const CheckPlan& check, 
             summaries.push_back(of_step);
     }
     for (const std::string& file : summaries)
-        sequence::attempt(errors,
-                          [&] { sequence::append_text(sequence::summary_text(shot), file); });
+        sequence::attempt(errors, [&] {
+            sequence::append_text(sequence::summary_text(shot, check.argument("json")), file);
+        });
 }
 
 } // namespace
@@ -134,7 +135,8 @@ void refuse_to_write_over(const FramePlan& plan, const Strings& parts) {
     if (plan.check.has("merge"))
         refuse_in_run(plan, places, plan.line.texts, parts);
     for (const FrameRun& run : plan.runs)
-        refuse_in_run(plan, places, run.words, files_read(plan, run.words));
+        refuse_in_run(plan, places, run.words,
+                      files_read(plan.line_of(run), plan.check_of(run), run.words));
 }
 
 Strings words_at(const Strings& words, const std::vector<size_t>& places) {
@@ -247,6 +249,11 @@ int merge_parts(const FramePlan& plan, std::ostream& out, std::ostream& err) {
     }
     Strings complaints;
     sequence::ShotResult shot = sequence::merged(parts, check.expected, complaints);
+    if (plan.suite && !shot.check.empty() && shot.check != check.expected_check) {
+        throw CommandError("the parts are of another suite than \"" + plan.suite->suite().file +
+                           "\": " + join(shot.check, " ") + " instead of " +
+                           join(check.expected_check, " "));
+    }
     if (const auto accepted = accepted_by(check, shot.check); !accepted.empty()) {
         shot.accepted.insert(shot.accepted.begin(), accepted.begin(), accepted.end());
         conclude(shot);

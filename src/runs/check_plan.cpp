@@ -93,6 +93,8 @@ private:
         }
         if (word.is("merge-list"))
             m_plan.part_lists.push_back(argument);
+        else if (word.is("only"))
+            m_plan.only.push_back(argument);
         else if (!word.is("dry-run") &&
                  !m_plan.words.emplace(word.row->names.front(), argument).second)
             throw CommandError(name + " is given twice");
@@ -270,7 +272,7 @@ private:
 
 std::map<std::string, std::string> CheckPlan::written() const {
     std::map<std::string, std::string> files;
-    for (const auto& [command, file] : words)
+    for (const auto& [command, file] : written_places())
         if (!dry_run || file == "-")
             files.emplace(command, file);
     return files;
@@ -278,7 +280,8 @@ std::map<std::string, std::string> CheckPlan::written() const {
 
 std::map<std::string, std::string> CheckPlan::written_places() const {
     std::map<std::string, std::string> places = words;
-    places.erase("accept");
+    for (const char* read : {"accept", "suite", "key"})
+        places.erase(read);
     return places;
 }
 

@@ -31,13 +31,15 @@ struct CheckPlan {
     sequence::Status bad_from = sequence::Status::Failed; ///< of --bad-frames
     bool json_records = true;                             ///< --json has what --qc measured
     Strings part_lists;                                   ///< files of --merge-list
+    Strings only;                                         ///< globs of --only
+    Strings expected_check;                               ///< of the suite that parts are merged of
     sequence::PictureCounts pictures;                     ///< of --report and --pictures
     sequence::PageLimits page;                            ///< of --report
     sequence::MethodTableOptions table;
     /// The words without those that say which frames, where to and how fast; and where they are.
     Strings essence;
     std::vector<size_t> essence_at;
-    std::vector<sequence::Item> expected; ///< of --frames, for --merge
+    std::vector<sequence::Item> expected; ///< of --frames, or of the suite, for --merge
 
     bool has(const std::string& word) const { return words.count(word) > 0; }
     std::string argument(const std::string& word) const { return has(word) ? words.at(word) : ""; }

@@ -96,6 +96,9 @@ int PlanRun::check() {
     }
     sequence::ShotResult shot{
         m_plan.check.essence, m_context.shot, std::move(frames.results()), {}, {}, {}, m_accepted};
+    if (m_plan.suite)
+        shot.suite = m_plan.suite->origin();
+    shot.cases = m_plan.cases;
     conclude(shot);
     const int concluded = conclude_check(shot, m_plan, *m_pictures, frames.unkept(), m_out, m_err);
     return m_plan.check.has("exit-zero") ? concluded : worse(status, concluded);

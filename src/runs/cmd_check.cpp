@@ -8,6 +8,16 @@ using chain::command;
 
 chain::Rows check_commands() {
     return {
+        command("suite FILE",
+                "Check the named cases that a suite file lists, with its limits; approved images "
+                "are what a folder of them says")
+            .modifier("sha256", "HEX", "only if the file has that hash")
+            .whole_line(),
+        command("only GLOB", "Of named cases (%N) only those, as 'hair/*'; may be there again")
+            .whole_line(),
+        command("key NAME", "Compare with the approved images that have that key, where there are "
+                            "such; else with those without one")
+            .whole_line(),
         command("json FILE", "Write what was found in all frames, at the end, as JSON")
             .modifier("records", "0|1",
                       "with what --qc measured (1), which --merge needs: most of the file")

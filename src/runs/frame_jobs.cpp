@@ -11,8 +11,10 @@
 #include "chain/session/runner.h"
 #include "runs/check_end.h"
 #include "runs/packed.h"
+#include "sequence/frames/file_stamp.h"
 #include "sequence/results/probe.h"
 #include "sequence/results/results_json.h"
+#include "store/sha256.h"
 #include "text/error.h"
 #include "tonetool/write.h"
 
@@ -69,10 +71,8 @@ void make_folders(const FramePlan& plan, const FrameRun& run) {
 }
 
 // Of a case: the reference would pass as its own test.
-bool same_file(const FramePlan& plan, const FrameRun& run) {
-    const CheckPlan& check = plan.check;
-    const Strings files =
-        words_at(run.words, check.inputs.size() == 2 ? check.inputs : plan.sequences);
+bool same_file(const FramePlan& plan, const CheckPlan& check, const Strings& words) {
+    const Strings files = words_at(words, check.inputs.size() == 2 ? check.inputs : plan.sequences);
     std::error_code none;
     return plan.named && check.compares && files.size() > 1 &&
            std::filesystem::equivalent(files[0], files[1], none);
@@ -80,6 +80,15 @@ bool same_file(const FramePlan& plan, const FrameRun& run) {
 
 std::string crashed(const std::string& how) {
     return "the libraries that read or compare its files crashed: " + how;
+}
+
+sequence::SuiteCase said_by_suite(const FrameRun& run) {
+    sequence::SuiteCase said;
+    said.line = run.of_suite.line;
+    said.why = run.of_suite.why;
+    if (run.of_suite.own)
+        said.check = run.of_suite.own->check.essence;
+    return said;
 }
 
 // What is wrong with the folder of the state, or "": what was measured is right all the same.
@@ -116,13 +125,14 @@ sequence::Item FrameContext::item(size_t index) const {
 
 Session FrameContext::session(size_t index, std::ostream& out, std::ostream& err) const {
     const FrameRun& run = plan.runs[index];
-    Session session(out, err, full_command_line(plan.line, run.words, plan.line.compat));
+    Session session(out, err, full_command_line(plan.line_of(run), run.words, plan.line.compat));
     set_for_line(session, plan);
     session.frame = run.frame;
     session.in_all_frames = [this](size_t at) {
         Strings names;
         for (const FrameRun& other : plan.runs)
-            names.push_back(other.words.at(at));
+            if (at < other.words.size())
+                names.push_back(other.words[at]);
         return names;
     };
     session.check.shot = shot ? &*shot : nullptr;
@@ -132,18 +142,18 @@ Session FrameContext::session(size_t index, std::ostream& out, std::ostream& err
     return session;
 }
 
-void FrameContext::run_commands(Session& session, size_t index) const {
+void FrameContext::run_commands(Session& session, size_t index, const Strings& words) const {
     const FrameRun& run = plan.runs[index];
-    const Strings files = words_at(run.words, plan.sequences);
+    const Strings files = words_at(words, plan.sequences);
     const sequence::Probe gone = sequence::missing_of(files);
     if (plan.named && gone.status != Status::Missing)
         make_folders(plan, run);
     if (gone.status == Status::Missing)
         session.check.absent = absent_approved(session, files);
-    if (same_file(plan, run)) {
+    if (same_file(plan, plan.check_of(run), words)) {
         session.error("", "reference and test are the same file");
     } else if (gone.status != Status::Missing || !session.check.absent.empty()) {
-        Runner(session, run.words).run_all();
+        Runner(session, words).run_all();
         if (session.outcome.misused)
             session.out << chain::help_text();
     } else {
@@ -167,7 +177,7 @@ void FrameContext::print_error(size_t index, const std::string& error, std::ostr
 
 Ran PlainFrames::run(size_t index, std::ostream& out, std::ostream& err) {
     Session session = m_context.session(index, out, err);
-    m_context.run_commands(session, index);
+    m_context.run_commands(session, index, m_context.plan.runs[index].words);
     static const char* const words[] = {"done", "error", "warnings", "a threshold was exceeded"};
     const int status = session.exit_status();
     return {status, words[status], session.outcome.aborted};
@@ -198,7 +208,7 @@ ExposureFrames::Measured ExposureFrames::measure(size_t index, std::ostream& err
     Session session = m_context.session(index, nowhere, err);
     session.check.sample = &found;
     session.settings.dry_run = true;
-    m_context.run_commands(session, index);
+    m_context.run_commands(session, index, run.words);
     if (session.outcome.errors > 0 || found.max_luminance < 0)
         return {std::nullopt, session.outcome.first_error};
     Measured measured{found, ""};
@@ -269,9 +279,11 @@ CheckedFrames::CheckedFrames(const FrameContext& context, const std::optional<St
 FrameResult CheckedFrames::unchecked(size_t index) const {
     const FramePlan& plan = m_context.plan;
     const FrameRun& run = plan.runs[index];
-    const Strings names =
-        words_at(run.words, plan.sequences.empty() ? plan.check.inputs : plan.sequences);
+    const auto& inputs = plan.check_of(run).inputs;
+    const bool of_inputs = plan.sequences.empty() || (plan.named && inputs.size() == 2);
+    const Strings names = words_at(run.words, of_inputs ? inputs : plan.sequences);
     FrameResult result;
+    result.of_suite = said_by_suite(run);
     result.frame = run.frame.number;
     result.view = run.frame.view;
     result.name = run.frame.name;
@@ -282,7 +294,78 @@ FrameResult CheckedFrames::unchecked(size_t index) const {
     return result;
 }
 
+CheckedFrames::Checked CheckedFrames::not_checked(size_t index, Status status,
+                                                  const std::string& why) const {
+    Checked checked{unchecked(index), "", ""};
+    checked.result.status = status;
+    checked.result.message = why;
+    if (status == Status::Skipped)
+        return checked;
+    std::ostringstream err;
+    m_context.print_error(index, why, err);
+    checked.err = err.str();
+    checked.status = 1;
+    return checked;
+}
+
+std::string CheckedFrames::approval_problem(const FrameRun& run) const {
+    if (!run.of_suite.problem.empty() || run.of_suite.images.empty())
+        return run.of_suite.problem;
+    const store::Store approved = m_context.plan.suite->store();
+    for (const store::ApprovedImage& image : run.of_suite.images) {
+        const std::string why = approved.problem(run.frame.name, image);
+        if (!why.empty())
+            return why;
+    }
+    return "";
+}
+
 CheckedFrames::Checked CheckedFrames::check(size_t index) const {
+    const FramePlan& plan = m_context.plan;
+    const FrameRun& run = plan.runs[index];
+    if (!run.of_suite.images.empty())
+        return check_approved(index);
+    return check_words(index, run.words);
+}
+
+// With each of the images: the one that fits best is the result.
+CheckedFrames::Checked CheckedFrames::check_approved(size_t index) const {
+    const FrameRun& run = m_context.plan.runs[index];
+    const SuitePlan& suite = *m_context.plan.suite;
+    const store::Store approved = suite.store();
+    const std::string test = run.words.at(suite.reference_at() + 1);
+    const sequence::Stamp before = sequence::stamp_of(test);
+    if (before.inode == 0)
+        return check_words(index, run.words); // which says what is missing
+    const std::string sha256 = store::sha256_of_file(test);
+    std::optional<Checked> best;
+    std::vector<sequence::Tried> tried;
+    const auto rank = [](const Checked& one) {
+        return std::make_pair(one.result.status, badness(one.result));
+    };
+    for (const store::ApprovedImage& image : run.of_suite.images) {
+        Strings words = run.words;
+        words.at(suite.reference_at()) = approved.file(run.frame.name, image);
+        Checked one = check_words(index, words);
+        one.result.reference = words.at(suite.reference_at());
+        one.result.of_suite.key = image.key;
+        const bool better = !best || rank(one) < rank(*best);
+        if (best) {
+            const FrameResult& other = better ? best->result : one.result;
+            tried.push_back({other.reference, status_name(other.status), badness(other)});
+        }
+        if (better)
+            best = std::move(one);
+    }
+    best->result.of_suite.sha256 = sha256;
+    best->result.of_suite.tried = std::move(tried);
+    return sequence::stamp_of(test) == before
+               ? std::move(*best)
+               : not_checked(index, Status::Error,
+                             "\"" + test + "\" has changed while it was checked");
+}
+
+CheckedFrames::Checked CheckedFrames::check_words(size_t index, const Strings& words) const {
     const FramePlan& plan = m_context.plan;
     const FrameRun& run = plan.runs[index];
     Checked checked{unchecked(index), "", ""};
@@ -290,17 +373,17 @@ CheckedFrames::Checked CheckedFrames::check(size_t index) const {
     std::ostringstream out, err;
     Session session = m_context.session(index, out, err);
     sequence::FramePainter painter{m_pictures, {}};
-    painter.pair_comes = draws_pairs(plan.line);
+    painter.pair_comes = draws_pairs(plan.line_of(run));
     session.check.result = &result;
     session.check.painter = draws(plan.check) ? &painter : nullptr;
-    m_context.run_commands(session, index);
+    m_context.run_commands(session, index, words);
     result.warnings = session.outcome.warning_texts;
     if (session.outcome.warnings > int(result.warnings.size()))
         result.warnings.push_back("there were warnings, see what the frame printed");
     const std::string error = session.outcome.errors > 0 && session.outcome.first_error.empty()
                                   ? "the command line cannot be run"
                                   : session.outcome.first_error;
-    sequence::settle(result, error, words_at(run.words, plan.check.inputs));
+    sequence::settle(result, error, words_at(words, plan.check_of(run).inputs));
     if (result.status == Status::Missing && !run.absent.empty())
         result.message = run.absent;
     if (painter.drawn)
@@ -329,6 +412,11 @@ std::optional<CheckedFrames::Checked> CheckedFrames::find(size_t index) const {
 }
 
 CheckedFrames::Checked CheckedFrames::check_or_find(size_t index) const {
+    const FrameRun& run = m_context.plan.runs[index];
+    if (!run.of_suite.skip.empty())
+        return not_checked(index, Status::Skipped, run.of_suite.skip);
+    if (const std::string why = approval_problem(run); !why.empty())
+        return not_checked(index, Status::Error, why);
     if (!m_state)
         return check(index);
     if (auto found = find(index))
@@ -345,9 +433,11 @@ CheckedFrames::Checked CheckedFrames::check_or_find(size_t index) const {
 }
 
 sequence::Origin CheckedFrames::origin(size_t index) const {
-    const FramePlan& plan = m_context.plan;
-    return {words_at(plan.runs[index].words, plan.check.essence_at),
-            m_context.shot ? sequence::exposures_text(*m_context.shot) : ""};
+    const FrameRun& run = m_context.plan.runs[index];
+    Strings words = words_at(run.words, m_context.plan.check_of(run).essence_at);
+    for (const store::ApprovedImage& image : run.of_suite.images)
+        words.push_back(image.sha256);
+    return {words, m_context.shot ? sequence::exposures_text(*m_context.shot) : ""};
 }
 
 std::string CheckedFrames::kept() const {
@@ -396,6 +486,11 @@ void CheckedFrames::take(size_t index, Ran& ran) {
     result = sequence::frame_from_json(texts[0]);
     result.name = m_context.plan.runs[index].frame.name; // to the byte, whatever JSON makes of it
     result.method = m_context.plan.runs[index].frame.method;
+    // As the suite has it now, if the result was found.
+    const sequence::SuiteCase said = said_by_suite(m_context.plan.runs[index]);
+    result.of_suite.check = said.check;
+    result.of_suite.line = said.line;
+    result.of_suite.why = said.why;
     claim(unpacked(texts[3]), result, ran);
     if (result.status == Status::Crashed) {
         // What the process had begun to write.

@@ -24,7 +24,7 @@ struct FrameContext {
     chain::Session session(size_t index, std::ostream& out, std::ostream& err) const;
     sequence::Item item(size_t index) const;
     /// Runs the words of the frame, if its files are there.
-    void run_commands(chain::Session& session, size_t index) const;
+    void run_commands(chain::Session& session, size_t index, const Strings& words) const;
     std::string absent_approved(const chain::Session& session, const Strings& files) const;
     /// Prints what ended the run of a frame, as its commands' errors are printed.
     void print_error(size_t index, const std::string& error, std::ostream& err) const;
@@ -105,6 +105,11 @@ private:
 
     sequence::FrameResult unchecked(size_t index) const;
     Checked check(size_t index) const;
+    Checked check_words(size_t index, const Strings& words) const;
+    Checked check_approved(size_t index) const;
+    Checked not_checked(size_t index, sequence::Status status, const std::string& why) const;
+    // Why it cannot be compared with an image that was approved; empty: it can.
+    std::string approval_problem(const FrameRun& run) const;
     std::optional<Checked> find(size_t index) const;
     Checked check_or_find(size_t index) const;
     sequence::Origin origin(size_t index) const;

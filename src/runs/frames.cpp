@@ -222,6 +222,65 @@ void check_inputs_stay(const FramePlan& plan) {
                                    "\" is read by this check, and -o would write over it");
 }
 
+// Leaves out what --only does not name.
+void choose_cases(FramePlan& plan) {
+    const Strings& only = plan.check.only;
+    if (only.empty())
+        return;
+    if (!plan.named) {
+        throw CommandError("--only " + only.front() +
+                           " chooses named cases, and the line has none (valid: %N in the names "
+                           "of the images, or --frames)");
+    }
+    std::vector<FrameRun> chosen;
+    for (const std::string& glob : only) {
+        const bool any = std::any_of(plan.runs.begin(), plan.runs.end(), [&](const FrameRun& run) {
+            return sequence::fits_glob(glob, run.frame.name);
+        });
+        if (!any)
+            throw CommandError("--only " + glob + " names none of the " +
+                               std::to_string(plan.runs.size()) + " cases");
+    }
+    for (FrameRun& run : plan.runs) {
+        const bool named = std::any_of(only.begin(), only.end(), [&](const std::string& glob) {
+            return sequence::fits_glob(glob, run.frame.name);
+        });
+        if (named)
+            chosen.push_back(std::move(run));
+    }
+    plan.cases = chosen.size() < plan.runs.size() ? plan.runs.size() : 0;
+    plan.runs = std::move(chosen);
+}
+
+// What the rows of the suite say of its cases.
+void plan_suite(FramePlan& plan) {
+    if (!plan.suite)
+        return;
+    std::vector<sequence::Item> cases;
+    for (const FrameRun& run : plan.runs)
+        cases.push_back(run.frame.item());
+    plan.suite->check_rows(cases);
+    for (FrameRun& run : plan.runs)
+        run.of_suite = plan.suite->plan_case(run.frame.item(), run.words, plan.options);
+    const Strings title = plan.suite->title();
+    plan.check.essence.insert(plan.check.essence.begin(), title.begin(), title.end());
+}
+
+// --suite beside --merge: all cases must be in some part.
+void expect_cases(FramePlan& plan) {
+    Strings words;
+    for (const chain::Word& word : plan.line.words)
+        if (word.is("suite") || word.is("key") || word.is("only"))
+            for (size_t at = word.at; at < word.end(); ++at)
+                words.push_back(plan.line.texts[at]);
+    const FramePlan all = plan_frames(chain::parse_line(words));
+    for (const FrameRun& run : all.runs)
+        plan.check.expected.push_back(run.frame.item());
+    plan.check.expected_check = all.check.essence;
+    plan.suite = all.suite;
+    plan.cases = all.cases;
+}
+
 } // namespace
 
 void set_for_line(chain::Session& session, const FramePlan& plan) {
@@ -232,12 +291,20 @@ void set_for_line(chain::Session& session, const FramePlan& plan) {
 }
 
 FramePlan plan_frames(chain::ParsedLine line, const std::string& directory, bool for_images) {
-    Scan scan = scan_line(std::move(line), for_images);
+    const bool merges = std::any_of(line.words.begin(), line.words.end(), [](const auto& word) {
+        return word.is("merge") || word.is("merge-list");
+    });
+    const auto suite = merges ? nullptr : suite_of(line);
+    Scan scan = scan_line(suite ? suite->line() : std::move(line), for_images);
     scan.directory = directory;
     scan.plan.check = plan_check(scan.plan.line);
+    scan.plan.suite = suite;
     scan.options.lenient = scan.plan.line.compat && !scan.plan.check.judges();
-    if (scan.plan.check.has("merge"))
+    if (scan.plan.check.has("merge")) {
+        if (scan.plan.check.has("suite"))
+            expect_cases(scan.plan);
         return scan.plan;
+    }
     if (!for_images)
         refuse_uncompared(scan.plan.line, scan.plan.check);
     Files first;
@@ -259,6 +326,8 @@ FramePlan plan_frames(chain::ParsedLine line, const std::string& directory, bool
     check_outputs_differ(scan.plan);
     check_inputs_stay(scan.plan);
     scan.plan.options = scan.options;
+    plan_suite(scan.plan);
+    choose_cases(scan.plan);
     return scan.plan;
 }
 

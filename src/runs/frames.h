@@ -9,6 +9,7 @@
 #include "chain/language/line.h"
 #include "chain/session/session.h"
 #include "runs/check_plan.h"
+#include "runs/suite_plan.h"
 #include "sequence/frames/file_sequence.h"
 #include "text/text.h"
 
@@ -24,6 +25,7 @@ struct FrameRun {
     std::optional<int> test_frame{};
     /// Of a named case that a side lacks: what is said of it.
     std::string absent{};
+    SuiteCasePlan of_suite{};
 };
 
 /// What the whole command line says about its frames.
@@ -38,6 +40,16 @@ struct FramePlan {
     CheckPlan check;
     std::vector<size_t> sequences;    ///< of a check: indices of the input words with wildcards
     sequence::PatternOptions options; ///< how names are taken apart
+    std::shared_ptr<SuitePlan> suite; ///< of --suite
+    size_t cases = 0;                 ///< that there are, where --only chose some of them
+
+    /// Those of a run: a suite has cases whose check is another.
+    const chain::ParsedLine& line_of(const FrameRun& run) const {
+        return run.of_suite.own ? run.of_suite.own->line : line;
+    }
+    const CheckPlan& check_of(const FrameRun& run) const {
+        return run.of_suite.own ? run.of_suite.own->check : check;
+    }
 };
 
 /// What holds for the whole line, also before its word is reached.

@@ -16,6 +16,8 @@ namespace {
 using sequence::Files;
 using sequence::Item;
 
+constexpr char kNothingApproved[] = "no approved image";
+
 bool has_number(const std::string& word) {
     return sequence::NamePattern(sequence::without_range(word)).has_number();
 }
@@ -48,7 +50,11 @@ std::vector<sequence::Side> named_sides(const Scan& scan) {
         const std::string& word = scan.texts()[pattern.at];
         if (!scan.plan.check.is_input(pattern.at))
             continue;
-        sides.push_back({word, sequence::list_named(word, scan.options)});
+        if (scan.plan.suite && scan.plan.suite->has_store() &&
+            pattern.at == scan.plan.suite->reference_at())
+            sides.push_back({word, scan.plan.suite->approved_files(), kNothingApproved});
+        else
+            sides.push_back({word, sequence::list_named(word, scan.options)});
         sequence::check_numbers(word, sides.back().files, scan.options);
     }
     return sides;

@@ -41,12 +41,14 @@ struct LayerAsked {
 // places of their words, nullopt for what a command has made.
 class StackOfFiles {
 public:
-    explicit StackOfFiles(const FramePlan& plan) : m_plan(plan) {}
+    StackOfFiles(const chain::ParsedLine& line, const CheckPlan& check)
+        : m_line(line),
+          m_check(check) {}
 
     /// Up to the first command of which this is not known.
     void follow() {
-        for (const Word& word : m_plan.line.words)
-            if (m_plan.line.texts[word.at].find('{') != std::string::npos || !take(word))
+        for (const Word& word : m_line.words)
+            if (m_line.texts[word.at].find('{') != std::string::npos || !take(word))
                 break;
     }
     const std::vector<LayerAsked>& layers_asked() const { return m_asked; }
@@ -58,7 +60,7 @@ private:
     bool take(const Word& word) {
         if (!word.row) {
             m_files.emplace_back(word.at);
-            return m_plan.check.is_input(word.at);
+            return m_check.is_input(word.at);
         }
         if (word.is("qc"))
             return !m_files.empty() && ask(word, "layer", m_files.size() - 1, m_files.size());
@@ -97,7 +99,8 @@ private:
         return true;
     }
 
-    const FramePlan& m_plan;
+    const chain::ParsedLine& m_line;
+    const CheckPlan& m_check;
     std::vector<std::optional<size_t>> m_files;
     std::vector<LayerAsked> m_asked;
     std::pair<std::string, std::string> m_shortage;
@@ -124,11 +127,12 @@ std::optional<std::string> lack_of(const std::string& file, const std::string& l
 
 // The frames of the line first. A layer that another task of a farm finds is no mistake of the
 // line.
-Strings files_at(const FramePlan& plan, size_t at) {
+Strings files_at(const FramePlan& plan, const FrameRun& first, size_t at) {
     Strings files;
     for (const FrameRun& run : plan.runs)
-        files.push_back(run.words.at(at));
-    const std::string& pattern = plan.line.texts[at];
+        if (run.of_suite.own == first.of_suite.own)
+            files.push_back(run.words.at(at));
+    const std::string& pattern = plan.line_of(first).texts[at];
     if (!plan.named && sequence::is_pattern(pattern)) {
         sequence::PatternOptions options = plan.options;
         options.frames.clear();
@@ -140,9 +144,9 @@ Strings files_at(const FramePlan& plan, size_t at) {
 }
 
 // What is wrong with all files of the sequence; empty where nothing is with one of them.
-std::string lack_of_all(const FramePlan& plan, const LayerAsked& asked) {
+std::string lack_of_all(const FramePlan& plan, const FrameRun& run, const LayerAsked& asked) {
     std::string first;
-    for (const std::string& file : files_at(plan, asked.file)) {
+    for (const std::string& file : files_at(plan, run, asked.file)) {
         const bool recipe = OIIO::Strutil::iends_with(file.substr(0, file.find('?')), ".tone");
         std::error_code none;
         if (recipe || !std::filesystem::is_regular_file(file, none))
@@ -158,28 +162,40 @@ std::string lack_of_all(const FramePlan& plan, const LayerAsked& asked) {
 
 // ---- commands
 
-// What the commands of the first frame would print; empty where nothing is wrong.
-std::string mistakes_of(const FramePlan& plan) {
-    const Strings& words = plan.runs.front().words;
+// What the commands of a run would print; empty where nothing is wrong.
+std::string mistakes_of(const FramePlan& plan, const FrameRun& run) {
     std::ostringstream text;
-    chain::Session session(text, text, full_command_line(plan.line, words, false));
+    chain::Session session(text, text, full_command_line(plan.line_of(run), run.words, false));
     set_for_line(session, plan);
-    session.frame = plan.runs.front().frame;
-    chain::Runner(session, words).check_all();
+    session.frame = run.frame;
+    chain::Runner(session, run.words).check_all();
     if (session.outcome.errors > 0)
         return text.str();
-    StackOfFiles stack(plan);
+    StackOfFiles stack(plan.line_of(run), plan.check_of(run));
     stack.follow();
     if (const auto& [command, lack] = stack.shortage(); !lack.empty()) {
         session.error(command, lack);
         return text.str();
     }
     for (const LayerAsked& asked : stack.layers_asked()) {
-        const std::string lack = lack_of_all(plan, asked);
+        const std::string lack = lack_of_all(plan, run, asked);
         if (!lack.empty()) {
             session.error(asked.command, lack);
             return text.str();
         }
+    }
+    return "";
+}
+
+// Of the first run of each line: cases of a suite may have several.
+std::string mistakes_of(const FramePlan& plan) {
+    std::set<const OwnCheck*> known;
+    for (const FrameRun& run : plan.runs) {
+        if (!run.of_suite.skip.empty() || !known.insert(run.of_suite.own.get()).second)
+            continue;
+        const std::string mistakes = mistakes_of(plan, run);
+        if (!mistakes.empty())
+            return mistakes;
     }
     return "";
 }

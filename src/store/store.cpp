@@ -146,21 +146,30 @@ Found Store::look(const std::string& name, const ApprovedImage& image) const {
     return pointed_at(place) == image.sha256 ? Found::NotFetched : Found::Other;
 }
 
+std::string Store::problem(const std::string& name, const ApprovedImage& image) const {
+    const std::string place = "\"" + file(name, image) + "\"";
+    switch (look(name, image)) {
+    case Found::Gone:
+        return place + " is approved and not there";
+    case Found::NotFetched:
+        return place + " is not fetched: git lfs pull";
+    case Found::Other:
+        return place + " is not what was approved";
+    case Found::Approved:
+        break;
+    }
+    return "";
+}
+
 std::vector<std::string> Store::problems() const {
     std::vector<std::string> problems;
     std::set<std::string> named;
     for (const std::string& name : names()) {
         const auto record = find(name);
         for (const ApprovedImage& image : record ? record->images : std::vector<ApprovedImage>()) {
-            const std::string place = file(name, image);
-            named.insert(place);
-            const Found found = look(name, image);
-            if (found == Found::Gone)
-                problems.push_back("\"" + place + "\" is approved and not there");
-            else if (found == Found::NotFetched)
-                problems.push_back("\"" + place + "\" is not fetched: git lfs pull");
-            else if (found == Found::Other)
-                problems.push_back("\"" + place + "\" is not what was approved");
+            named.insert(file(name, image));
+            if (const std::string why = problem(name, image); !why.empty())
+                problems.push_back(why);
         }
     }
     each_file(m_folder, "", [&](const std::string& file) {

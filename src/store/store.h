@@ -41,6 +41,8 @@ public:
     std::vector<ApprovedImage> accepted(const std::string& name, const std::string& key) const;
     std::string file(const std::string& name, const ApprovedImage& image) const;
     Found look(const std::string& name, const ApprovedImage& image) const;
+    /// What is wrong with the image; empty where it is what was approved.
+    std::string problem(const std::string& name, const ApprovedImage& image) const;
     /// What is wrong with the store, a sentence each: images that are not what was approved, and
     /// those without a record.
     std::vector<std::string> problems() const;

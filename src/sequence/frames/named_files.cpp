@@ -213,8 +213,12 @@ private:
             for (size_t i = 0; i < pairs.items.size(); ++i)
                 if (lacks[s][i]) {
                     const bool reference = s == 0 && lacks.size() > 1;
-                    pairs.absent[i] = std::string(reference ? "no reference \"" : "no test \"") +
-                                      pairs.names[s][i] + "\"" + hints[i];
+                    const std::string& said = m_sides[s].side.lacks;
+                    pairs.absent[i] =
+                        (!said.empty() ? said
+                                       : (reference ? "no reference \"" : "no test \"") +
+                                             pairs.names[s][i] + "\"") +
+                        hints[i];
                 }
     }
 

@@ -13,7 +13,8 @@ namespace tonetool::sequence {
 /// One of the sequences that are paired.
 struct Side {
     std::string pattern;
-    Files files; ///< from a range, or what is on the disk
+    Files files;         ///< from a range, or what is on the disk
+    std::string lacks{}; ///< said of a case that it has no file of; empty: the file's name
 };
 
 /// The frames that are compared with each other.

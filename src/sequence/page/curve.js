@@ -1,6 +1,6 @@
 // The plot of the error over the frames.
 
-const POINTS = { passed: "circle", measured: "circle", warning: "triangle", failed: "rectRot" };
+const POINTS = { passed: "circle", measured: "circle", skipped: "circle", warning: "triangle", failed: "rectRot" };
 const curve = { chart: null, place: mainPlace, quantity: null };
 const color = (key) => getComputedStyle(document.documentElement).getPropertyValue(`--${key}`).trim();
 
@@ -15,7 +15,7 @@ function curveSets() {
   const values = frames.map((frame) => valueOf(frame, curve.place, curve.quantity));
   const per = (f) => frames.map(f);
   const plain = frames.length > 200 ? 1 : 3;
-  const loud = (frame) => frame.status !== "passed" && frame.status !== "measured";
+  const loud = (frame) => !["passed", "measured", "skipped"].includes(frame.status);
   const sets = [{
     label: curve.place < 0 ? "faults" : curve.quantity, data: values, borderColor: color("accent"),
     backgroundColor: color("accent"), borderWidth: 2, tension: 0, spanGaps: false,

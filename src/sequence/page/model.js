@@ -45,10 +45,10 @@ function make(tag, properties = {}, ...children) {
   return node;
 }
 
-const SIGNS = { passed: "passed", measured: "measured", warning: "warning", failed: "failed",
+const SIGNS = { passed: "passed", measured: "measured", skipped: "info", warning: "warning", failed: "failed",
   "size mismatch": "error", missing: "missing", unreadable: "error", error: "error",
   crashed: "error", info: "info" };
-const CLASSES = { passed: "passed", measured: "measured", warning: "warning", failed: "failed",
+const CLASSES = { passed: "passed", measured: "measured", skipped: "info", warning: "warning", failed: "failed",
   info: "info" };
 const classOf = (status) => CLASSES[status] || "error";
 

@@ -62,7 +62,7 @@ std::vector<Run> runs_of(const ShotResult& shot, const ordered_json& result) {
     std::vector<Run> runs;
     for (size_t i = 0; i < shot.frames.size(); ++i) {
         const FrameResult& frame = shot.frames[i];
-        if (frame.status <= Status::Measured)
+        if (!has_problem(frame.status))
             continue;
         const std::string reason = reason_of(frame, result.at("frames").at(i));
         const bool next = !runs.empty() && runs.back().reason == reason &&
@@ -101,9 +101,8 @@ std::string look_sentence(const ShotResult& shot, const ordered_json& result) {
                                : "Measured only: no limit says which frames need a look";
         return what + accepted_text(shot) + ".";
     }
-    const auto bad = std::count_if(shot.frames.begin(), shot.frames.end(), [](const auto& frame) {
-        return frame.status > Status::Measured;
-    });
+    const auto bad = std::count_if(shot.frames.begin(), shot.frames.end(),
+                                   [](const auto& frame) { return has_problem(frame.status); });
     const bool named = is_named(shot);
     if (all == 1 && shot.frames.front().frame == 0 && !named)
         return "The image needs a look: " + runs.front().reason + accepted_text(shot);

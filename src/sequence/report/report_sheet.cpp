@@ -31,6 +31,7 @@ std::array<float, 3> color_of(Status status) {
     switch (status) {
     case Status::Passed:
     case Status::Measured:
+    case Status::Skipped:
         return {0.35f, 0.37f, 0.40f};
     case Status::Warning:
         return {0.94f, 0.73f, 0.30f};

@@ -12,15 +12,15 @@
 #include <vector>
 
 #include "imagebuf/pixels/utf8.h"
+#include "sequence/results/attribution.h"
 #include "text/printable.h"
+#include "text/text.h"
 
 namespace tonetool::sequence {
 
 namespace {
 
 using OIIO::Strutil::fmt::format;
-
-constexpr char kCheckName[] = "check"; ///< that a check has where nothing names it
 
 std::string replaced(const std::string& text, const std::map<char, std::string>& by) {
     std::string out;
@@ -53,6 +53,9 @@ std::vector<std::string> findings_of(const FrameResult& frame) {
     for (const Fault& fault : frame.faults)
         if (fault.severity != Severity::Info && fault.sentence != frame.message)
             sentences.push_back(fault.sentence);
+    for (const Measurement& measured : frame.measurements)
+        for (const std::string& finding : attribution_findings(measured.attribution))
+            sentences.push_back(finding);
     return sentences;
 }
 
@@ -67,26 +70,36 @@ std::string property_of_annotation(const std::string& text) {
     return replaced(data_of_annotation(text), {{':', "%3A"}, {',', "%2C"}});
 }
 
-std::string annotation(const char* kind, const std::string& title, const std::string& message) {
-    return format("::{} title={}::{}\n", kind, property_of_annotation(title),
+// `line`: of the suite's file.
+std::string annotation(const char* kind, const ShotResult& shot, int line, const std::string& title,
+                       const std::string& message) {
+    const std::string place =
+        shot.suite ? format("file={},line={},", property_of_annotation(shot.suite->file),
+                            line > 0 ? line : shot.suite->test_line)
+                   : "";
+    return format("::{} {}title={}::{}\n", kind, place, property_of_annotation(title),
                   data_of_annotation(message));
 }
 
-std::string annotations(const char* kind, const std::vector<const FrameResult*>& frames) {
+std::string annotations(const char* kind, const ShotResult& shot,
+                        const std::vector<const FrameResult*>& frames) {
     constexpr size_t most = 10;
     const size_t told = frames.size() <= most ? frames.size() : most - 1;
+    std::vector<const FrameResult*> worst(frames.begin(), frames.begin() + std::ptrdiff_t(told));
+    std::sort(worst.begin(), worst.end()); // as they are in the list of all
     std::string text;
-    for (size_t i = 0; i < told; ++i) {
-        const FrameResult& frame = *frames[i];
+    for (const FrameResult* one : worst) {
+        const FrameResult& frame = *one;
         std::string message = frame.message;
         for (const std::string& sentence : findings_of(frame))
             message += "\n" + sentence;
         text += annotation(
-            kind, format("{}: {} {}", kCheckName, ci_name(frame), status_name(frame.status)),
+            kind, shot, frame.of_suite.line,
+            format("{}: {} {}", check_name(shot), ci_name(frame), status_name(frame.status)),
             message);
     }
     if (told < frames.size())
-        text += annotation(kind, kCheckName,
+        text += annotation(kind, shot, 0, check_name(shot),
                            format("and {} more: see the summary", frames.size() - told));
     return text;
 }
@@ -150,16 +163,39 @@ std::string summary_row(const FrameResult& frame) {
 } // namespace
 
 std::string github_text(const ShotResult& shot) {
-    return annotations("error", bad_frames_of(shot, Status::Failed, Status::Crashed)) +
-           annotations("warning", bad_frames_of(shot, Status::Warning, Status::Warning));
+    return annotations("error", shot, bad_frames_of(shot, Status::Failed, Status::Crashed)) +
+           annotations("warning", shot, bad_frames_of(shot, Status::Warning, Status::Warning));
 }
 
-std::string summary_text(const ShotResult& shot) {
+namespace {
+
+// What is to be approved after a look; empty where nothing can be.
+std::string approve_text(const ShotResult& shot, const std::string& json) {
+    const std::string command = approve_command(shot, json);
+    return command.empty() ? "" : "\nTo approve: `" + printable_lines(valid_utf8(command)) + "`\n";
+}
+
+} // namespace
+
+std::string approve_command(const ShotResult& shot, const std::string& json) {
+    std::string names;
+    for (const FrameResult& frame : shot.frames)
+        if (frame.status == Status::Failed && shot.suite && !shot.suite->store.empty())
+            names += " " + shell_quoted(frame.name);
+    return names.empty() ? ""
+                         : "tonetool --approve " + shell_quoted(json.empty() ? "run.json" : json) +
+                               names + " --reason 'WHY'";
+}
+
+std::string summary_text(const ShotResult& shot, const std::string& json) {
     constexpr size_t most_rows = 200, most_bytes = 900000;
     std::string text =
-        format("## {}: {}\n\n{}\n", kCheckName, status_name(shot.verdict),
+        format("## {}: {}\n\n{}\n", markdown_cell(check_name(shot)), status_name(shot.verdict),
                markdown_cell(shot.sentence.substr(0, shot.sentence.find("; worst: "))));
-    const auto frames = bad_frames_of(shot, Status::Warning, Status::Crashed);
+    auto frames = bad_frames_of(shot, Status::Warning, Status::Crashed);
+    for (const FrameResult& frame : shot.frames)
+        if (frame.status == Status::Skipped)
+            frames.push_back(&frame);
     if (frames.empty())
         return text;
     text +=
@@ -174,7 +210,7 @@ std::string summary_text(const ShotResult& shot) {
     }
     if (rows < frames.size())
         text += format("\nand {} more\n", frames.size() - rows);
-    return text;
+    return text + approve_text(shot, json);
 }
 
 void append_text(const std::string& text, const std::string& file) {

@@ -9,13 +9,19 @@
 namespace tonetool::sequence {
 
 /// --github: a line "::error title=...::message" or "::warning ..." for each frame that did not
-/// pass, the worst first. GitHub shows ten of a kind for a step: of more the tenth counts the rest.
+/// pass, in
+/// their order. GitHub shows ten of a kind for a step: of more the tenth counts the rest, and the
+/// nine are the worst.
 std::string github_text(const ShotResult& shot);
 
 /// --summary: a heading with the verdict, the sentence, and a table in Markdown of the frames that
 /// did not pass. GitHub refuses a summary of more than 1 MiB as a whole: it is cut at 200 rows or
-/// 900 kB, with a line that counts the rest.
-std::string summary_text(const ShotResult& shot);
+/// 900 kB, with a line that counts the rest. `json`: the file that --approve is to read.
+std::string summary_text(const ShotResult& shot, const std::string& json);
+
+/// The command line that approves the cases of a suite that failed; empty where nothing can be
+/// approved.
+std::string approve_command(const ShotResult& shot, const std::string& json);
 
 /// Adds the text to the end of a file, which may hold others' already. Throws a runtime_error where
 /// it cannot be written.

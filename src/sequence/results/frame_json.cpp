@@ -232,6 +232,34 @@ Measurement measurement_of(const ordered_json& from) {
     return measured;
 }
 
+void put_suite(ordered_json& to, const SuiteCase& of_suite) {
+    if (!of_suite.check.empty())
+        to["check"] = of_suite.check;
+    if (of_suite.line > 0)
+        to["line"] = of_suite.line;
+    put(to, "why", of_suite.why);
+    put(to, "sha256", of_suite.sha256);
+    put(to, "key", of_suite.key);
+    for (const Tried& one : of_suite.tried) {
+        to["tried"].push_back(
+            {{"file", one.file}, {"status", one.status}, {"badness", of(one.badness)}});
+    }
+}
+
+SuiteCase suite_case_of(const ordered_json& from) {
+    SuiteCase found;
+    found.check = values<std::string>(from, "check");
+    found.line = from.contains("line") ? whole_number<int>(from["line"], "line") : 0;
+    found.why = text(from, "why");
+    found.sha256 = text(from, "sha256");
+    found.key = text(from, "key");
+    for (const ordered_json& one : from.value("tried", ordered_json::array()))
+        found.tried.push_back({one.at("file").get<std::string>(),
+                               one.at("status").get<std::string>(),
+                               number(one.at("badness"), "badness")});
+    return found;
+}
+
 // Without its record.
 ordered_json json_of(const FrameResult& frame) {
     ordered_json to{{"frame", frame.frame}};
@@ -242,6 +270,7 @@ ordered_json json_of(const FrameResult& frame) {
     put(to, "message", frame.message);
     put(to, "reference", frame.reference);
     put(to, "test", frame.test);
+    put_suite(to, frame.of_suite);
     for (const Measurement& measured : frame.measurements)
         to["measurements"].push_back(json_of(measured));
     for (const Fault& fault : frame.faults)
@@ -295,6 +324,7 @@ FrameResult frame_from(const ordered_json& from, const std::vector<std::string>&
     frame.message = text(from, "message");
     frame.reference = text(from, "reference");
     frame.test = text(from, "test");
+    frame.of_suite = suite_case_of(from);
     const ordered_json none = ordered_json::array();
     each_of(from.contains("measurements") ? from["measurements"] : none, "measurements",
             [&](const ordered_json& one, const std::string&) {
@@ -309,6 +339,21 @@ FrameResult frame_from(const ordered_json& from, const std::vector<std::string>&
     frame.against = from.contains("against") ? one_line(from["against"]) : "";
     judge_from_numbers(frame);
     return frame;
+}
+
+ordered_json suite_json(const SuiteOrigin& suite) {
+    ordered_json to = ordered_json::object();
+    put(to, "name", suite.name);
+    put(to, "file", suite.file);
+    put(to, "sha256", suite.sha256);
+    put(to, "store", suite.store);
+    to["test_line"] = suite.test_line;
+    return to;
+}
+
+SuiteOrigin suite_from_json(const ordered_json& from) {
+    return {text(from, "name"), text(from, "file"), text(from, "sha256"), text(from, "store"),
+            whole_number<int>(from.at("test_line"), "test_line")};
 }
 
 ordered_json exposures_json(const ShotExposures& exposures) {

@@ -25,4 +25,7 @@ Status status_from(const nlohmann::ordered_json& from);
 nlohmann::ordered_json exposures_json(const ShotExposures& exposures);
 ShotExposures exposures_from(const nlohmann::ordered_json& from);
 
+nlohmann::ordered_json suite_json(const SuiteOrigin& suite);
+SuiteOrigin suite_from_json(const nlohmann::ordered_json& from);
+
 } // namespace tonetool::sequence

@@ -74,7 +74,7 @@ KeptLimits limits_of_check(const ShotResult& shot, const std::string& command,
     for (const FrameResult& frame : shot.frames) {
         for (const Measurement& measured : frame.measurements) {
             const auto value = quantity_of(measured, quantity);
-            if (frame.status > Status::Measured || measured.command != command || !value ||
+            if (has_problem(frame.status) || measured.command != command || !value ||
                 !std::isfinite(*value))
                 continue;
             extreme = !extreme ? *value

@@ -23,9 +23,9 @@ namespace {
 
 using OIIO::Strutil::fmt::format;
 
-constexpr std::array<const char*, 9> kStatusNames{"passed",     "measured",      "warning",
-                                                  "failed",     "size mismatch", "missing",
-                                                  "unreadable", "error",         "crashed"};
+constexpr std::array<const char*, 10> kStatusNames{
+    "passed",        "measured", "skipped",    "warning", "failed",
+    "size mismatch", "missing",  "unreadable", "error",   "crashed"};
 constexpr std::array<const char*, 3> kSeverityNames{"info", "warning", "error"};
 
 constexpr char kNothingMeasured[] = "nothing was measured";
@@ -57,6 +57,11 @@ struct Found {
 
 bool undecided(const Measurement& measurement) {
     return measurement.verdict == ToneAlgo::bias_verdict_name(BiasVerdict::NotEnoughSamples);
+}
+
+bool is_unlooked_at(const FrameResult& frame) {
+    return frame.measurements.empty() && frame.faults.empty() && frame.qc.empty() &&
+           frame.against.empty();
 }
 
 // All thresholds must hold; the message names those that do not.
@@ -106,10 +111,6 @@ double excess(const Threshold& threshold) {
         return kWorstBadness;
     // This includes 0 for a limit of 0, which holds.
     return over <= 0 ? 0 : under > 0 ? over / under : kWorstBadness;
-}
-
-bool has_problem(Status status) {
-    return status > Status::Measured;
 }
 
 std::map<Status, size_t> count_of_each(const ShotResult& shot) {
@@ -176,7 +177,16 @@ bool is_still(const ShotResult& shot) {
            std::none_of(shot.check.begin(), shot.check.end(), is_pattern);
 }
 
+// "12 of 40", where not all were asked for.
+std::string of_text(const ShotResult& shot) {
+    const size_t count = shot.frames.size();
+    return shot.cases > count ? format("{} of {}", count, shot.cases) : format("{}", count);
+}
+
 std::string sentence_of(const ShotResult& shot) {
+    if (std::all_of(shot.frames.begin(), shot.frames.end(),
+                    [](const FrameResult& frame) { return frame.status == Status::Skipped; }))
+        return "all of " + of_text(shot) + " cases are skipped: nothing was checked";
     const FrameResult& worst = shot.frames[shot.worst.front()];
     const std::string why = measured_text(worst);
     if (is_still(shot)) {
@@ -184,8 +194,9 @@ std::string sentence_of(const ShotResult& shot) {
         return "1 image: " + counts_text(shot) + (told ? " (" + why + ")" : "");
     }
     const bool named = is_named(shot);
-    std::string text = format("{} {}{}: {}", shot.frames.size(), named ? "case" : "frame",
-                              shot.frames.size() == 1 ? "" : "s", counts_text(shot));
+    const size_t all = std::max(shot.cases, shot.frames.size());
+    std::string text = format("{} {}{}: {}", of_text(shot), named ? "case" : "frame",
+                              all == 1 ? "" : "s", counts_text(shot));
     text += false_alarms_text(shot);
     if (std::any_of(shot.frames.begin(), shot.frames.end(), has_automatic_limit))
         text += "; fail=auto finds frames unlike the others, not what all of them have";
@@ -210,7 +221,9 @@ std::vector<size_t> by_badness(const std::vector<FrameResult>& frames) {
     for (size_t i = 0; i < order.size(); ++i)
         order[i] = i;
     const auto key = [&](size_t i) {
-        return std::make_tuple(-int(frames[i].status), -badness(frames[i]), i);
+        const Status status = frames[i].status;
+        return std::make_tuple(status == Status::Skipped ? 1 : -int(status), -badness(frames[i]),
+                               i);
     };
     std::sort(order.begin(), order.end(), [&](size_t a, size_t b) { return key(a) < key(b); });
     return order;
@@ -220,6 +233,18 @@ std::vector<size_t> by_badness(const std::vector<FrameResult>& frames) {
 
 std::string status_name(Status status) {
     return kStatusNames.at(size_t(status));
+}
+
+bool has_problem(Status status) {
+    return status > Status::Skipped;
+}
+
+Status verdict_of(const std::vector<Status>& frames) {
+    std::optional<Status> worst;
+    for (const Status one : frames)
+        if (one != Status::Skipped)
+            worst = std::max(worst.value_or(one), one);
+    return worst.value_or(Status::Error);
 }
 
 std::optional<Status> status_of_name(const std::string& name) {
@@ -249,11 +274,24 @@ bool is_named(const ShotResult& shot) {
                        [](const FrameResult& frame) { return frame.item().named(); });
 }
 
+std::string check_name(const ShotResult& shot) {
+    return shot.suite && !shot.suite->name.empty() ? shot.suite->name : "check";
+}
+
+std::vector<Status> statuses_of(const ShotResult& shot) {
+    std::vector<Status> frames;
+    for (const FrameResult& frame : shot.frames)
+        frames.push_back(frame.status);
+    return frames;
+}
+
 bool is_unmeasured(const FrameResult& frame) {
     return frame.status == Status::Error && frame.message == kNothingMeasured;
 }
 
 void judge(FrameResult& frame) {
+    if (frame.status == Status::Skipped && is_unlooked_at(frame))
+        return;
     std::vector<Found> found;
     for (Measurement& measurement : frame.measurements) {
         found.push_back(of_thresholds(measurement));
@@ -336,7 +374,7 @@ void conclude(ShotResult& shot, bool keep_records) {
         shot.sentence = "no frame was checked";
         return;
     }
-    shot.verdict = shot.frames[shot.worst.front()].status;
+    shot.verdict = verdict_of(statuses_of(shot));
     const auto good = [&](size_t i) { return !has_problem(shot.frames[i].status); };
     const auto end = std::find_if(shot.worst.begin(), shot.worst.end(), good);
     shot.worst.erase(end == shot.worst.begin() ? end + 1 : end, shot.worst.end());

@@ -24,6 +24,7 @@ struct QcRecord;
 enum class Status {
     Passed,
     Measured,     ///< no threshold was asked for
+    Skipped,      ///< of a suite, which says why: never looked at, and never passed
     Warning,      ///< a fault or threshold that does not fail
     Failed,       ///< a threshold was exceeded, or a fault found
     SizeMismatch, ///< reference and test differ in size
@@ -32,10 +33,14 @@ enum class Status {
     Error,        ///< anything else that kept the frame from being checked
     Crashed       ///< the process that checked it was ended by a signal
 };
-/// "passed", "measured", "warning", "failed", "size mismatch", "missing", "unreadable", "error",
-/// "crashed".
+/// "passed", "measured", "skipped", "warning", "failed", "size mismatch", "missing", "unreadable",
+/// "error", "crashed".
 std::string status_name(Status status);
 std::optional<Status> status_of_name(const std::string& name);
+/// Of all frames: the worst that is not skipped; an Error where nothing else is there.
+Status verdict_of(const std::vector<Status>& frames);
+/// A frame that did not pass, and that nothing says to leave out.
+bool has_problem(Status status);
 /// The exit status of the program: 0, 2 for a warning if `warnings_exit`, 3 for a failure, 1 for
 /// everything worse.
 int exit_status(Status status, bool warnings_exit);
@@ -104,6 +109,33 @@ struct Measurement {
     std::string attribution; ///< whose error it is, as JSON (attribution.h); empty: not asked for
 };
 
+/// An approved image that a case was compared with, though another fits better.
+struct Tried {
+    std::string file;
+    std::string status; ///< that the case would have
+    double badness = 0; ///< badness() of it
+};
+
+/// What a suite says of one of its cases.
+struct SuiteCase {
+    /// The words of its check, where its rows change those of the suite.
+    std::vector<std::string> check;
+    int line = 0;             ///< of the row that set its limit; 0: of no row
+    std::string why;          ///< of its rows
+    std::string sha256;       ///< of the test's file, where images are approved
+    std::string key;          ///< of the approved image, where it has one
+    std::vector<Tried> tried; ///< beside the approved image that is the reference
+};
+
+/// The suite that the cases are of.
+struct SuiteOrigin {
+    std::string name;   ///< "lookdev"; empty: it has none
+    std::string file;   ///< as it was opened
+    std::string sha256; ///< of its text
+    std::string store;  ///< the folder of its approved images; empty: it has none
+    int test_line = 0;  ///< where it says which images are tested
+};
+
 /// One frame number (and view).
 struct FrameResult {
     int frame = 0;
@@ -121,6 +153,7 @@ struct FrameResult {
     std::string against; ///< the same of --against
     /// What `qc` says, where conclude() was to keep it: parts are judged twice, alone and joined.
     std::shared_ptr<QcRecord> record;
+    SuiteCase of_suite{};
     double seconds = 0; ///< time of the run; not part of any file
 
     Item item() const { return {frame, view, name, method}; }
@@ -166,6 +199,8 @@ struct ShotResult {
     std::vector<size_t> worst;
 
     std::vector<Acceptance> accepted{}; ///< that conclude() heeds
+    std::optional<SuiteOrigin> suite{};
+    size_t cases = 0; ///< that there are, where --only chose some of them; else 0
 };
 
 /// Sets status and message of a frame from its measurements and faults, unless its status is
@@ -178,6 +213,12 @@ bool is_undecided(const FrameResult& frame);
 
 /// Whether its frames are cases with names.
 bool is_named(const ShotResult& shot);
+
+/// That of the suite; "check" where nothing names it.
+std::string check_name(const ShotResult& shot);
+
+/// Those of its frames.
+std::vector<Status> statuses_of(const ShotResult& shot);
 
 /// Whether nothing was measured of the frame although nothing is wrong with it.
 bool is_unmeasured(const FrameResult& frame);

@@ -45,6 +45,10 @@ ShotResult shot_of(const std::string& text, const std::vector<std::string>& reco
         shot.check = json.at("check").get<std::vector<std::string>>();
         if (json.contains("exposures"))
             shot.exposures = exposures_from(json["exposures"]);
+        if (json.contains("suite"))
+            shot.suite = suite_from_json(json["suite"]);
+        if (json.contains("cases"))
+            shot.cases = whole_number<size_t>(json["cases"], "cases");
         if (json.contains("accepted"))
             shot.accepted = acceptances_in(json["accepted"]);
         each_of(json.at("frames"), "frames", [&](const ordered_json& one, const std::string&) {
@@ -82,6 +86,10 @@ void put_json(const ShotResult& shot, bool records,
                       {"check", shot.check},
                       {"id", check_id(shot.check)},
                       {"counts", counts_of(shot)}};
+    if (shot.suite)
+        head["suite"] = suite_json(*shot.suite);
+    if (shot.cases > 0)
+        head["cases"] = shot.cases;
     if (shot.exposures)
         head["exposures"] = exposures_json(*shot.exposures);
     head["worst"] = worst_of(shot);

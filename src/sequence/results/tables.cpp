@@ -132,6 +132,8 @@ std::string outcome(const FrameResult& frame) {
         return "";
     case Status::Measured:
         return "<skipped message=\"no threshold was given\"/>";
+    case Status::Skipped:
+        return format("<skipped message=\"{}\"/>", message);
     case Status::Warning:
         return format("<system-out>warning: {}&#10;{}</system-out>", message, details);
     case Status::Failed:
@@ -145,24 +147,28 @@ std::string outcome(const FrameResult& frame) {
 std::string outcome_of_case(const FrameResult& frame) {
     const std::string inside = outcome(frame);
     const size_t end = frame.status == Status::Failed ? inside.find("\">") : std::string::npos;
-    return end == std::string::npos ? inside
-                                    : inside.substr(0, end + 2) + escaped(frame.message) + "&#10;" +
-                                          inside.substr(end + 2);
+    if (end == std::string::npos)
+        return inside;
+    std::string text = frame.message + "\n";
+    for (const Measurement& measured : frame.measurements)
+        for (const std::string& finding : attribution_findings(measured.attribution))
+            text += finding + "\n";
+    return inside.substr(0, end + 2) + escaped(text) + inside.substr(end + 2);
 }
 
-std::string named_case(const FrameResult& frame) {
+std::string named_case(const FrameResult& frame, const std::string& check) {
     const std::string method = frame.method.empty() ? "" : " [" + frame.method + "]";
     const std::string number = frame.frame == 0 ? "" : format(" frame {:04d}", frame.frame);
     const std::string view = frame.view.empty() ? "" : " " + frame.view;
     const std::string inside = outcome_of_case(frame);
-    return format("  <testcase classname=\"check\" name=\"{}\" file=\"{}\"",
+    return format("  <testcase classname=\"{}\" name=\"{}\" file=\"{}\"", escaped(check),
                   escaped(frame.name + method + number + view), escaped(frame.test)) +
            (inside.empty() ? "/>\n" : ">" + inside + "</testcase>\n");
 }
 
-std::string test_case(const FrameResult& frame) {
+std::string test_case(const FrameResult& frame, const std::string& check) {
     if (frame.item().named())
-        return named_case(frame);
+        return named_case(frame, check);
     const std::string name = format(
         "frame {:04d}{}{}{}", frame.frame, frame.view.empty() ? "" : " ", escaped(frame.view),
         frame.test_frame ? format(" (test {:04d})", *frame.test_frame) : "");
@@ -197,12 +203,16 @@ std::string junit_text(const ShotResult& shot) {
     for (const FrameResult& frame : shot.frames) {
         failures += frame.status == Status::Failed ? 1 : 0;
         errors += frame.status > Status::Failed ? 1 : 0;
-        skipped += frame.status == Status::Measured || is_undecided(frame) ? 1 : 0;
-        cases += test_case(frame);
+        skipped += frame.status == Status::Measured || frame.status == Status::Skipped ||
+                           is_undecided(frame)
+                       ? 1
+                       : 0;
+        cases += test_case(frame, check_name(shot));
     }
     const std::string counts =
-        format("name=\"tonetool\" tests=\"{}\" failures=\"{}\" errors=\"{}\" skipped=\"{}\"",
-               shot.frames.size(), failures, errors, skipped);
+        format("name=\"{}\" tests=\"{}\" failures=\"{}\" errors=\"{}\" skipped=\"{}\"",
+               shot.suite ? escaped(check_name(shot)) : "tonetool", shot.frames.size(), failures,
+               errors, skipped);
     return "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites>\n <testsuite " + counts +
            ">\n" + cases + "  <system-out>" + escaped(shot.sentence) +
            "</system-out>\n </testsuite>\n</testsuites>\n";

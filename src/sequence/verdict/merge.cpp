@@ -45,18 +45,25 @@ void add_frames_without_result(ShotResult& shot, const std::vector<Item>& expect
     }
     if (series.empty())
         series.insert({});
+    const auto expect = [&](const Item& item) {
+        if (!there.insert(item).second)
+            return;
+        FrameResult frame;
+        frame.frame = item.frame;
+        frame.view = item.view;
+        frame.name = item.name;
+        frame.method = item.method;
+        frame.message =
+            std::string("no part has a result of this ") + (item.named() ? "case" : "frame");
+        shot.frames.push_back(frame);
+    };
     for (const Item& item : expected) {
-        for (const Series& of : series) {
-            if (there.insert({item.frame, of.view, of.name, of.method}).second) {
-                FrameResult frame;
-                frame.frame = item.frame;
-                frame.view = of.view;
-                frame.name = of.name;
-                frame.method = of.method;
-                frame.message = "no part has a result of this frame";
-                shot.frames.push_back(frame);
-            }
+        if (item.named()) {
+            expect(item);
+            continue;
         }
+        for (const Series& of : series)
+            expect({item.frame, of.view, of.name, of.method});
     }
 }
 
@@ -82,12 +89,16 @@ ShotResult merged(const std::vector<std::string>& parts, const std::vector<Item>
             first = file;
             whole.check = part.check;
             whole.exposures = part.exposures;
+            whole.suite = part.suite;
         }
         check_same(whole, part, first, file);
+        whole.cases = std::max(whole.cases, part.cases);
         std::move(part.frames.begin(), part.frames.end(), std::back_inserter(whole.frames));
         std::move(part.accepted.begin(), part.accepted.end(), std::back_inserter(whole.accepted));
     }
     add_frames_without_result(whole, expected);
+    if (whole.cases <= whole.frames.size()) // nothing is left out any more
+        whole.cases = 0;
     conclude(whole);
     return whole;
 }

@@ -3,6 +3,7 @@
 
 #include <OpenImageIO/strutil.h>
 #include <algorithm>
+#include <map>
 #include <stdexcept>
 
 #include "sequence/against/against_record.h"
@@ -49,9 +50,33 @@ void check_measurement(const FrameResult& frame, const Measurement& measured, co
     throw std::runtime_error(name_of(frame) + ": " + measured.command + first);
 }
 
+// Nothing kept it from being checked.
+bool was_looked_at(const FrameResult& frame) {
+    return frame.status <= Status::Failed && frame.status != Status::Skipped;
+}
+
+// What is asked for of each frame: a row of a suite may say it for its cases.
+class Checks {
+public:
+    explicit Checks(const ShotResult& shot) : m_all(check_of(shot.check)) {}
+
+    const Check& of(const FrameResult& frame) {
+        const auto& words = frame.of_suite.check;
+        if (words.empty())
+            return m_all;
+        const auto found = m_own.find(words);
+        return found != m_own.end() ? found->second
+                                    : m_own.emplace(words, check_of(words)).first->second;
+    }
+
+private:
+    Check m_all;
+    std::map<std::vector<std::string>, Check> m_own;
+};
+
 // What a frame that nothing kept from being checked must have.
 void check_whole(const FrameResult& frame, const Check& check) {
-    if (check.open || check.blocks || frame.status > Status::Failed)
+    if (check.open || check.blocks || !was_looked_at(frame))
         return;
     for (const auto& [command, words] : check.asked) {
         const auto count = std::count_if(
@@ -98,7 +123,7 @@ void judge_from_numbers(FrameResult& frame) {
     const Status found = frame.status;
     if (found == said)
         return;
-    if (found <= Status::Measured || found < said) {
+    if (!has_problem(found) || found < said) {
         throw std::runtime_error(
             format("{} is called \"{}\", but its numbers and faults say \"{}\"", name_of(frame),
                    status_name(said), status_name(found)));
@@ -109,22 +134,25 @@ void judge_from_numbers(FrameResult& frame) {
 }
 
 void check_limits(const ShotResult& shot) {
-    const Check check = check_of(shot.check);
+    Checks checks(shot);
     for (const FrameResult& frame : shot.frames) {
+        const Check& check = checks.of(frame);
         for (const Measurement& measured : frame.measurements)
             check_measurement(frame, measured, check);
         check_whole(frame, check);
+        if (frame.status == Status::Skipped && !shot.suite)
+            throw std::runtime_error(name_of(frame) + " is skipped, and the check is no suite");
     }
 }
 
 void check_searches(const ShotResult& shot) {
-    const Check check = check_of(shot.check);
-    if (check.open || check.blocks)
-        return;
-    for (const FrameResult& frame : shot.frames)
-        if (frame.status <= Status::Failed)
+    Checks checks(shot);
+    for (const FrameResult& frame : shot.frames) {
+        const Check& check = checks.of(frame);
+        if (!check.open && !check.blocks && was_looked_at(frame))
             for (const auto& [command, limits] : check.searches)
                 check_search(frame, command, limits);
+    }
 }
 
 } // namespace tonetool::sequence
