@@ -4,30 +4,50 @@
 
 #include <string>
 
+#include "imagebuf/options/ignore_options.h"
+#include "python/images.h"
 #include "python/results.h"
 #include "tonetool/compare.h"
 
 namespace tonetool::python {
 
+template <>
+struct Python<Mask> {
+    static std::string wanted() { return "Image | NDArray[np.bool_] | str | None"; }
+    static Mask from(py::handle v, const std::string& where);
+    static py::object to(const Mask&) { return py::none(); }
+};
+
+/// mask and ignore.
+template <class O>
+Fields<O> ignore_fields() {
+    return described<O, IgnoreOptions>();
+}
+
 template <class O>
 Fields<O> pair_fields() {
-    return {
-        field<O>("pixels", &O::pixels, "Layer and colour space, for both images."),
-        field<O>("size", &O::size,
+    return joined<O>(
+        {ignore_fields<O>(),
+         {
+             field<O>("pixels", &O::pixels, "Layer and colour space, for both images."),
+             field<O>(
+                 "size", &O::size,
                  "Different display windows are an error (\"match\"), the test is resized to the "
                  "reference's, or only where they meet is compared (\"crop\")."),
-        field<O>("alpha", &O::alpha,
+             field<O>(
+                 "alpha", &O::alpha,
                  "\"error\": the difference of alpha joins the map; \"ignore\": it is not looked "
                  "at."),
-        field<O>("memory", &O::memory,
+             field<O>(
+                 "memory", &O::memory,
                  "Bytes that a process without other work needs at most; larger images are read "
                  "from their files in bands. 0: bands where half of the physical memory is not "
                  "enough."),
-        field<O>(
-            "quantities", &O::quantities,
-            "Quantities of the map to pool beside the usual ones: \"p99.95\" (any percentile), "
-            "\"above0.2\" (the share of the pixels whose error is above 0.2)."),
-    };
+             field<O>("quantities", &O::quantities,
+                      "Quantities of the map to pool beside the usual ones: \"p99.95\" (any "
+                      "percentile), "
+                      "\"above0.2\" (the share of the pixels whose error is above 0.2)."),
+         }});
 }
 
 template <class S>
@@ -37,6 +57,7 @@ void add_pair_summary(ResultClass<S>& result) {
         .field("test", &S::test, "How the test was read.");
     visit_pair_counts(visitor(result));
     result.field("region", &S::region, "Pixels compared.")
+        .field(kIgnoredField.name, &S::ignored, kIgnoredField.text)
         .field("alpha_compared", &S::alpha_compared, "Alpha is part of the map.");
     visit_alpha(visitor(result));
     result.field("alpha_max_x", &S::alpha_max_x, "its column,")
