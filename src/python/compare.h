@@ -26,28 +26,24 @@ Fields<O> ignore_fields() {
 
 template <class O>
 Fields<O> pair_fields() {
-    return joined<O>(
-        {ignore_fields<O>(),
-         {
-             field<O>("pixels", &O::pixels, "Layer and colour space, for both images."),
-             field<O>(
-                 "size", &O::size,
+    Fields<O> fields = {
+        field<O>("pixels", &O::pixels, "Layer and colour space, for both images."),
+        field<O>("size", &O::size,
                  "Different display windows are an error (\"match\"), the test is resized to the "
                  "reference's, or only where they meet is compared (\"crop\")."),
-             field<O>(
-                 "alpha", &O::alpha,
+        field<O>("alpha", &O::alpha,
                  "\"error\": the difference of alpha joins the map; \"ignore\": it is not looked "
                  "at."),
-             field<O>(
-                 "memory", &O::memory,
+        field<O>("memory", &O::memory,
                  "Bytes that a process without other work needs at most; larger images are read "
                  "from their files in bands. 0: bands where half of the physical memory is not "
                  "enough."),
-             field<O>("quantities", &O::quantities,
-                      "Quantities of the map to pool beside the usual ones: \"p99.95\" (any "
-                      "percentile), "
-                      "\"above0.2\" (the share of the pixels whose error is above 0.2)."),
-         }});
+        field<O>(
+            "quantities", &O::quantities,
+            "Quantities of the map to pool beside the usual ones: \"p99.95\" (any percentile), "
+            "\"above0.2\" (the share of the pixels whose error is above 0.2)."),
+    };
+    return joined<O>({fields, ignore_fields<O>()});
 }
 
 template <class S>
