@@ -189,7 +189,7 @@ void decide(BiasResult& out) {
 } // namespace
 
 BiasResult bias_check(const BiasSide& reference, const BiasSide& test, const BiasTest& options,
-                      const ParallelFor& parallel) {
+                      const ParallelFor& parallel, const uint8_t* ignored) {
     check(reference, test, options);
     BiasResult out;
     out.options = options;
@@ -197,11 +197,12 @@ BiasResult bias_check(const BiasSide& reference, const BiasSide& test, const Bia
     out.height = reference.height();
     out.references = reference.seeds();
     out.tests = test.seeds();
-    const int64_t count = int64_t(out.width) * out.height;
-    Pixels pixels(reference, test);
+    Pixels pixels(reference, test, ignored);
+    const int64_t count = pixels.counted();
+    out.ignored = int64_t(out.width) * out.height - count;
     Sums sums = sum_pixels(pixels, parallel);
     out.nonfinite = pixels.nonfinite();
-    if (count < kFewestPixels) {
+    if (count < kFewestPixels || !any_judged(sums)) {
         out.reason = BiasReason::TooSmall;
         return out;
     }

@@ -54,9 +54,11 @@ enum class BiasMap {
 };
 
 /// The images must have the same size and at least one seed each (else Refusal). Options out of
-/// range are refused. The bits do not depend on how `parallel` schedules.
+/// range are refused. The bits do not depend on how `parallel` schedules. `ignored`: 1 for each
+/// pixel, row by row, that does not count, which must be 0 on both sides; null: all count. A block
+/// with too few pixels that count is not judged by itself.
 BiasResult bias_check(const BiasSide& reference, const BiasSide& test, const BiasTest& options,
-                      const kernels::ParallelFor& parallel);
+                      const kernels::ParallelFor& parallel, const uint8_t* ignored = nullptr);
 
 /// What was found, as "overall R", "mean 16: 3 of 144", "structure 32: 1 of 40"; for Equal: what is
 /// real and still within the margin.

@@ -41,10 +41,14 @@ struct MeanTest {
 };
 
 // Student's t of the part of the mean that neither rounding nor fireflies which this block has not
-// seen explain.
-MeanTest mean_test(const ChannelSums& sums, const Noise& noise, int channel) {
+// seen explain. A block that is not judged by itself has none.
+MeanTest mean_test(const ChannelSums& sums, const Noise& noise, int channel, bool judged) {
     const double n = sums.pixels();
     MeanTest out{};
+    if (!judged) {
+        out.p = 1;
+        return out;
+    }
     out.mean = sums.mean;
     out.level = std::abs(sums.sum_r() / n);
     out.se = std::sqrt(noise.inflate * sums.m2 / (n - 1) / n);
@@ -63,6 +67,13 @@ MeanTest mean_test(const ChannelSums& sums, const Noise& noise, int channel) {
     }
     out.p = out.tested ? 2 * student_upper_tail(std::abs(out.t), n - 1) : 1;
     return out;
+}
+
+MeanTest mean_of_block(const Sums& sums, const Noise& noise, int channel, int scale, int column,
+                       int row) {
+    const ChannelSums block = block_sums(sums, channel, scale, column, row);
+    const bool judged = block.judged(sums.cells.scale[scale].grid.pixels(column, row));
+    return mean_test(block, noise, channel, judged);
 }
 
 void resize(BiasScale::Channel& channel, size_t count) {
@@ -132,8 +143,8 @@ BiasScale mean_tests(const Sums& sums, int scale, const Noise& noise, double q,
     parallel(grid.rows(), [&](int64_t row) {
         for (int c = 0; c < kBiasChannels; ++c)
             for (int column = 0; column < grid.columns(); ++column)
-                store(mean_test(block_sums(sums, c, scale, column, int(row)), noise, c),
-                      out.channel[c], grid.at(column, int(row)));
+                store(mean_of_block(sums, noise, c, scale, column, int(row)), out.channel[c],
+                      grid.at(column, int(row)));
     });
     reject_means(out, q);
     return out;

@@ -12,6 +12,12 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
+// Where so many pixels do not count that the others tell nothing by themselves, it is not.
+bool is_judged(const Sums& sums, int scale, int column, int row) {
+    const ChannelSums block = block_sums(sums, 0, scale, column, row);
+    return block.judged(sums.cells.scale[scale].grid.pixels(column, row));
+}
+
 // Two one-sided tests (Schuirmann, 1987): |x| < within is shown if |x| + z_alpha se is. To claim it
 // of all blocks and channels needs no correction for their number, since every one must show it
 // (intersection-union, Berger, 1982).
@@ -43,11 +49,15 @@ public:
 
     void blocks() {
         const BiasScale& scale = m_result.scales.back();
-        int64_t shown = 0;
+        int64_t shown = 0, judged = 0;
         for (int row = 0; row < scale.rows(); ++row)
-            for (int column = 0; column < scale.columns(); ++column)
+            for (int column = 0; column < scale.columns(); ++column) {
+                if (!is_judged(m_sums, kBiasScales - 1, column, row))
+                    continue;
+                ++judged;
                 shown += block(scale, column, row);
-        m_result.shown = double(shown) / double(scale.blocks());
+            }
+        m_result.shown = double(shown) / double(judged);
     }
 
 private:
@@ -92,20 +102,33 @@ private:
     const double m_z_alpha, m_z_both;
 };
 
-double fewest_pixels(const Grid& grid) {
+// That count, of a block that is judged; of a scale without any, two.
+double fewest_pixels(const Sums& sums, int scale) {
+    const Grid& grid = sums.cells.scale[scale].grid;
     double fewest = kInfinity;
     for (int row = 0; row < grid.rows(); ++row)
         for (int column = 0; column < grid.columns(); ++column)
-            fewest = std::min(fewest, grid.pixels(column, row));
-    return fewest;
+            if (is_judged(sums, scale, column, row))
+                fewest = std::min(fewest, block_sums(sums, 0, scale, column, row).pixels());
+    return std::isfinite(fewest) ? fewest : 2;
 }
 
 } // namespace
 
+bool any_judged(const Sums& sums) {
+    constexpr int last = kBiasScales - 1;
+    const Grid& grid = sums.cells.scale[last].grid;
+    for (int row = 0; row < grid.rows(); ++row)
+        for (int column = 0; column < grid.columns(); ++column)
+            if (is_judged(sums, last, column, row))
+                return true;
+    return false;
+}
+
 void bound_differences(const Sums& sums, BiasResult& result) {
-    for (size_t s = 0; s < kBiasScales; ++s)
-        result.scales[s].t_alpha =
-            student_quantile(1 - result.options.alpha, fewest_pixels(sums.cells.scale[s].grid) - 1);
+    for (int s = 0; s < kBiasScales; ++s)
+        result.scales[size_t(s)].t_alpha =
+            student_quantile(1 - result.options.alpha, fewest_pixels(sums, s) - 1);
     Claim claim(sums, result);
     claim.overall();
     claim.contradictions();

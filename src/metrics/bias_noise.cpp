@@ -39,6 +39,9 @@ public:
         for (size_t column = 0; column < m_means.size(); ++column)
             for (auto x = size_t(m_grid.x[column]); x < size_t(m_grid.x[column + 1]); ++x)
                 out[x] = (m_t[x] - m_r[x]) - m_means[column];
+        const uint8_t* ignored = m_pixels.ignored(y);
+        for (size_t x = 0; ignored && x < out.size(); ++x)
+            out[x] = ignored[x] != 0 ? 0 : out[x];
     }
 
 private:
@@ -98,6 +101,26 @@ std::array<double, kBiasChannels> firefly_shares(const Sums& sums, int unlike) {
     return out;
 }
 
+// As lag_products(), of 1 where a pixel counts: how many products there are.
+std::vector<double> counted_pairs(const Pixels& pixels, const Grid& grid) {
+    std::vector<double> out(grid.count());
+    const auto row_of = [&](int y) {
+        const uint8_t* ignored = pixels.ignored(y);
+        std::vector<double> row(size_t(pixels.width()));
+        std::transform(ignored, ignored + row.size(), row.begin(),
+                       [](uint8_t one) { return double(one == 0); });
+        return row;
+    };
+    for (int row = 0; row < grid.rows(); ++row)
+        for (int y = grid.y[size_t(row)]; y < grid.y[size_t(row) + 1]; ++y) {
+            const std::vector<double> here = row_of(y);
+            const std::vector<double> below = y + 1 < pixels.height() ? row_of(y + 1) : here;
+            lag_products(here, y + 1 < pixels.height() ? &below : nullptr, grid.x,
+                         out.data() + grid.at(0, row));
+        }
+    return out;
+}
+
 double neighbour_correlation(Pixels& pixels, const Sums& sums,
                              const kernels::ParallelFor& parallel) {
     const Grid& grid = sums.cells.scale[1].grid;
@@ -115,12 +138,17 @@ double neighbour_correlation(Pixels& pixels, const Sums& sums,
             std::swap(e, next);
         }
     });
+    const auto pairs = pixels.ignored(0) ? counted_pairs(pixels, grid) : std::vector<double>();
     std::vector<double> values;
     for (int row = 0; row < grid.rows(); ++row)
         for (int column = 0; column < grid.columns(); ++column) {
-            const double squares = block_sums(sums, 0, 1, column, row).m2;
-            if (squares > 0)
-                values.push_back(0.5 * products[grid.at(column, row)] / squares);
+            const ChannelSums block = block_sums(sums, 0, 1, column, row);
+            const size_t at = grid.at(column, row);
+            double part = 0.5; // of two neighbours of each pixel
+            if (!pairs.empty())
+                part = pairs[at] > 0 ? block.pixels() / pairs[at] : 0;
+            if (block.m2 > 0 && part > 0)
+                values.push_back(part * products[at] / block.m2);
         }
     return median(std::move(values));
 }

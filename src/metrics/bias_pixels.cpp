@@ -38,9 +38,10 @@ void luminance_row(const double* const rgb[3], int count, double* out) {
         out[x] = kLuminance[0] * rgb[0][x] + kLuminance[1] * rgb[1][x] + kLuminance[2] * rgb[2][x];
 }
 
-Pixels::Pixels(const BiasSide& reference, const BiasSide& test)
+Pixels::Pixels(const BiasSide& reference, const BiasSide& test, const uint8_t* ignored)
     : m_reference(reference),
       m_test(test),
+      m_ignored(ignored),
       m_bad(size_t(std::max(reference.height(), 0))) {}
 
 // A pixel's luminance is finite where all of its channels are.
@@ -66,6 +67,11 @@ void Pixels::luminance(int y, double* r, double* t) {
     m_bad[size_t(y)] = bad;
 }
 
+int64_t Pixels::counted() const {
+    const int64_t all = int64_t(width()) * height();
+    return m_ignored ? std::count(m_ignored, m_ignored + all, 0) : all;
+}
+
 int64_t Pixels::nonfinite() const {
     return std::accumulate(m_bad.begin(), m_bad.end(), int64_t(0));
 }
@@ -85,6 +91,8 @@ void Pixels::row(int y, int x, int count, double* const r[3], double* const t[3]
 
 void Pixels::strip(const kernels::Window& window, Strip& out) const {
     out.window = window;
+    out.ignored = m_ignored ? ignored(window.y0) + window.x0 : nullptr;
+    out.ignored_step = width();
     double t[kBiasChannels][Strip::kWidth];
     double* const test[3] = {t[1], t[2], t[3]};
     for (int y = 0; y < window.height; ++y) {

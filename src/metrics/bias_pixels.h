@@ -18,11 +18,13 @@ struct Strip {
     kernels::Window window;
     double r[kBiasChannels][kRows * kWidth];
     double d[kBiasChannels][kRows * kWidth];
+    const uint8_t* ignored; ///< of the first pixel; null: all count
+    ptrdiff_t ignored_step; ///< from row to row
 };
 
 class Pixels {
 public:
-    Pixels(const BiasSide& reference, const BiasSide& test);
+    Pixels(const BiasSide& reference, const BiasSide& test, const uint8_t* ignored = nullptr);
 
     int width() const { return m_reference.width(); }
     int height() const { return m_reference.height(); }
@@ -30,6 +32,13 @@ public:
     /// Luminance of a row of both sides, 0 where a channel of either is not finite. Rows must be
     /// seen by this before any other function is asked for them.
     void luminance(int y, double* r, double* t);
+
+    /// 1 for each pixel of a row that does not count; null: all count.
+    const uint8_t* ignored(int y) const {
+        return m_ignored ? m_ignored + ptrdiff_t(y) * width() : nullptr;
+    }
+    /// Pixels that count.
+    int64_t counted() const;
 
     /// Pixels that are not finite, of the rows seen.
     int64_t nonfinite() const;
@@ -47,6 +56,7 @@ public:
 private:
     const BiasSide& m_reference;
     const BiasSide& m_test;
+    const uint8_t* m_ignored;
     std::vector<int> m_bad; // pixels of each row that are not finite
 };
 

@@ -37,6 +37,12 @@ struct Cell {
     int x0, y0, width, height;
     const double* d[kBiasChannels];
     const double* r[kBiasChannels];
+    const uint8_t* ignored; ///< as in Strip
+    ptrdiff_t ignored_step;
+
+    bool counts(int x, int y) const {
+        return !ignored || ignored[ptrdiff_t(y) * ignored_step + x] == 0;
+    }
 };
 
 // Calls visit(cell, index of the cell) for a row of cells, from left to right.
@@ -52,7 +58,11 @@ void visit_cells(const Pixels& pixels, const Grid& grid, int row, const Visit& v
         pixels.strip({x0, y0, grid.x[size_t(end)] - x0, height}, *strip);
         for (; column < end; ++column) {
             const int x = grid.x[size_t(column)];
-            Cell cell{x, y0, grid.x[size_t(column) + 1] - x, height, {}, {}};
+            Cell cell{x, y0, grid.x[size_t(column) + 1] - x, height, {}, {}, nullptr, 0};
+            if (strip->ignored) {
+                cell.ignored = strip->ignored + (x - x0);
+                cell.ignored_step = strip->ignored_step;
+            }
             for (int c = 0; c < kBiasChannels; ++c) {
                 cell.d[c] = strip->d[c] + (x - x0);
                 cell.r[c] = strip->r[c] + (x - x0);
@@ -81,6 +91,13 @@ Lanes sums_of_rows(const Cell& cell, int channel, int first) {
 // Calls add(lane, value) for all values of a cell.
 template <class Add>
 void by_lanes(const Cell& cell, const double* values, const Add& add) {
+    if (cell.ignored) {
+        for (int y = 0; y < cell.height; ++y)
+            for (int x = 0; x < cell.width; ++x)
+                if (cell.counts(x, y))
+                    add(x & 3, values[ptrdiff_t(y) * Strip::kWidth + x]);
+        return;
+    }
     for (int y = 0; y < cell.height; ++y, values += Strip::kWidth) {
         int x = 0;
         for (; x + 3 < cell.width; x += 4)
@@ -107,6 +124,18 @@ void second_moment(const Cell& cell, const double* d, ChannelSums& out) {
     out.absolute = all_lanes(absolute);
 }
 
+void count_pixels(const Cell& cell, ChannelSums& out) {
+    out.colour[0].pixels = out.colour[1].pixels = 0;
+    for (int y = 0; y < cell.height; ++y)
+        for (int x = 0; x < cell.width; ++x)
+            out.colour[(cell.x0 + x + cell.y0 + y) & 1].pixels += cell.counts(x, y);
+}
+
+// 0 where no pixel counts.
+double mean_of(const ChannelSums& sums) {
+    return sums.pixels() > 0 ? sums.sum_d() / sums.pixels() : 0;
+}
+
 ChannelSums sums_of_cell(const Cell& cell, int channel) {
     ChannelSums out;
     for (int first = 0; first < 2; ++first) {
@@ -118,7 +147,9 @@ ChannelSums sums_of_cell(const Cell& cell, int channel) {
         out.colour[colour].pixels += rows * ((cell.width + 1) / 2);
         out.colour[1 - colour].pixels += rows * (cell.width / 2);
     }
-    out.mean = out.sum_d() / out.pixels();
+    if (cell.ignored) // whose sums are 0
+        count_pixels(cell, out);
+    out.mean = mean_of(out);
     second_moment(cell, cell.d[channel], out);
     return out;
 }
@@ -140,16 +171,16 @@ void add_pairs(const double* r, const double* t, const std::vector<int>& edges, 
     }
 }
 
-// Every `step`th product of one row, added to its cells.
-void add_products(const double* x, int count, int step, const std::vector<int>& edges,
-                  ProductSums* out) {
+// Every `step`th product of one row, added to its cells; those with pixels that do not count are 0.
+void add_products(const double* x, int count, int step, const uint8_t* ignored,
+                  const std::vector<int>& edges, ProductSums* out) {
     for (size_t cell = 0; cell + 1 < edges.size(); ++cell) {
         ProductSums sums;
         const int first = (edges[cell] + step - 1) / step * step;
         for (int i = first; i < std::min(edges[cell + 1], count); i += step) {
             sums.sum += x[i];
             sums.squares += x[i] * x[i];
-            ++sums.used;
+            sums.used += !ignored || (ignored[i] == 0 && ignored[i + step - 1] == 0);
         }
         out[cell].sum += sums.sum;
         out[cell].squares += sums.squares;
@@ -168,19 +199,29 @@ public:
 
     void add(int y, const Sums& sums, PairSums* pairs, ProductSums* products) {
         m_pixels.luminance(y, m_r.data(), m_t.data());
+        const uint8_t* ignored = m_pixels.ignored(y);
+        if (ignored)
+            clear_pairs(ignored);
         add_pairs(m_r.data(), m_t.data(), sums.pair_grid.x, pairs);
         const int width = m_pixels.width();
         if (m_pixels.has_halves()) {
             m_pixels.half_products(y, m_x.data());
-            add_products(m_x.data(), width, 1, sums.cells.grid.x, products);
+            add_products(m_x.data(), width, 1, ignored, sums.cells.grid.x, products);
             return;
         }
         for (size_t x = 0; x + 1 < size_t(width); x += 2)
             m_x[x] = (m_t[x] - m_r[x]) * (m_t[x + 1] - m_r[x + 1]);
-        add_products(m_x.data(), width / 2 * 2, 2, sums.cells.grid.x, products);
+        add_products(m_x.data(), width / 2 * 2, 2, ignored, sums.cells.grid.x, products);
     }
 
 private:
+    // A pair tells nothing where one of its pixels does not count.
+    void clear_pairs(const uint8_t* ignored) {
+        for (size_t x = 0; x + 1 < m_r.size(); x += 2)
+            if (ignored[x] != 0 || ignored[x + 1] != 0)
+                m_r[x] = m_r[x + 1] = m_t[x] = m_t[x + 1] = 0;
+    }
+
     Pixels& m_pixels;
     std::vector<double> m_r, m_t, m_x;
 };
@@ -232,7 +273,8 @@ std::vector<double> thresholds(const Sums& sums, int unlike, int row) {
     for (int c = 0; c < kBiasChannels; ++c)
         for (int column = 0; column < blocks.columns(); ++column) {
             const ChannelSums block = block_sums(sums, c, 0, column, row);
-            out.push_back(kOutlier * std::max(clean_sum(block, unlike) / block.pixels(), 0.0));
+            const double light = std::max(clean_sum(block, unlike), 0.0);
+            out.push_back(kOutlier * light / std::max(block.pixels(), 1.0));
         }
     return out;
 }
@@ -313,7 +355,7 @@ ChannelSums block_sums(const Sums& sums, int channel, int scale, int column, int
             out.colour[colour].add(of[cell].colour[colour]);
         out.absolute += of[cell].absolute;
     });
-    out.mean = out.sum_d() / out.pixels();
+    out.mean = mean_of(out);
     for_each_cell(sums.cells, blocks, column, row, [&](size_t at) {
         const ChannelSums& cell = of[at];
         const double n = cell.pixels(), delta = cell.mean - out.mean, square = delta * delta;

@@ -4,6 +4,7 @@
 // cancel, and the rounding of floats would become skewness.
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
 #include "metrics/bias_grid.h"
@@ -31,6 +32,11 @@ struct ChannelSums {
     double pixels() const { return colour[0].pixels + colour[1].pixels; }
     double sum_d() const { return colour[0].d + colour[1].d; }
     double sum_r() const { return colour[0].r + colour[1].r; }
+    /// Of all its pixels so many must count for a cell or block to be judged by itself.
+    bool judged(double all) const {
+        constexpr double fewest = 32;
+        return pixels() >= std::min(fewest, all);
+    }
 };
 
 /// Products of independent differences in Y.

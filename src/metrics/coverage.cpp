@@ -119,9 +119,14 @@ uint32_t cryptomatte_id(std::string_view name) {
     return exponent == 0 || exponent == 255 ? hash ^ 1u << 23 : hash;
 }
 
-Coverage::Row Coverage::decode(const std::vector<float>& ranks, size_t pairs) {
+Coverage::Row Coverage::decode(const std::vector<float>& ranks, size_t pairs,
+                               const uint8_t* ignored) {
     Row row;
     for (size_t at = 0; at < ranks.size(); at += 2 * pairs) {
+        if (ignored && ignored[at / (2 * pairs)] != 0) {
+            row.counts.push_back(0);
+            continue;
+        }
         const size_t first = row.shares.size();
         double total = 0;
         for (size_t i = at; i < at + 2 * pairs; i += 2) {

@@ -31,7 +31,9 @@ public:
 
     /// Ranks are pairs of an id, by its bits, and its coverage, interleaved by pixel. Coverages
     /// that are NaN, infinite or negative are 0; where they add up to more than 1 all are divided.
-    static Row decode(const std::vector<float>& ranks, size_t pairs);
+    /// Where `ignored` is not 0, which may be null, a pixel has no share at all.
+    static Row decode(const std::vector<float>& ranks, size_t pairs,
+                      const uint8_t* ignored = nullptr);
     void add(const Row& row);
 
     size_t pixels() const { return m_ends.size(); }

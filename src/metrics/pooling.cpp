@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <vector>
 
 #include "metrics/blocks.h"
 #include "metrics/order_statistics.h"
@@ -17,6 +18,7 @@ struct Row {
     double sum = 0;
     float min = 0, max = 0;
     int min_x = 0, max_x = 0; // the first ones
+    int pixels = 0;
 };
 
 // Four sums by turns, so that an addition need not wait for the one before.
@@ -32,7 +34,7 @@ double sum_of(const float* row, int width) {
 }
 
 Row scan_row(const float* row, int width) {
-    Row out{sum_of(row, width), row[0], row[0], 0, 0};
+    Row out{sum_of(row, width), row[0], row[0], 0, 0, width};
     for (int x = 1; x < width; ++x) {
         if (row[x] < out.min) {
             out.min = row[x];
@@ -45,6 +47,30 @@ Row scan_row(const float* row, int width) {
     }
     return out;
 }
+
+// What counts of a row, closed up as if nothing else were there.
+struct Closed {
+    std::vector<float> values;
+    std::vector<int> places;
+
+    void take(const float* row, int width) {
+        values.clear();
+        places.clear();
+        for (int x = 0; x < width; ++x)
+            if (!std::isnan(row[x])) {
+                values.push_back(row[x]);
+                places.push_back(x);
+            }
+    }
+    Row scanned() const {
+        if (values.empty())
+            return {};
+        Row out = scan_row(values.data(), int(values.size()));
+        out.min_x = places[size_t(out.min_x)];
+        out.max_x = places[size_t(out.max_x)];
+        return out;
+    }
+};
 
 // Two histograms by turns: neighbours are often equal. Buckets are found some pixels at a time, in
 // a loop that a compiler turns into vectors.
@@ -75,9 +101,13 @@ private:
 };
 
 // Sums of rows and extremes, in the order of the rows.
-void join(FlipPool& pool, const std::vector<Row>& rows, int width, int x0, int y0) {
-    const auto less_min = [](const Row& a, const Row& b) { return a.min < b.min; };
-    const auto less_max = [](const Row& a, const Row& b) { return a.max < b.max; };
+void join(FlipPool& pool, const std::vector<Row>& rows, int x0, int y0) {
+    const auto less_min = [](const Row& a, const Row& b) {
+        return a.pixels > 0 && (b.pixels == 0 || a.min < b.min);
+    };
+    const auto less_max = [](const Row& a, const Row& b) {
+        return b.pixels > 0 && (a.pixels == 0 || a.max < b.max);
+    };
     const auto lowest = std::min_element(rows.begin(), rows.end(), less_min);
     const auto highest = std::max_element(rows.begin(), rows.end(), less_max);
     pool.min = lowest->min;
@@ -87,9 +117,10 @@ void join(FlipPool& pool, const std::vector<Row>& rows, int width, int x0, int y
     pool.max_x = x0 + highest->max_x;
     pool.max_y = y0 + int(highest - rows.begin());
     double sum = 0;
-    for (const Row& row : rows)
+    for (const Row& row : rows) {
         sum += row.sum;
-    pool.pixels = int64_t(width) * int64_t(rows.size());
+        pool.pixels += row.pixels;
+    }
     pool.mean = sum / double(pool.pixels);
 }
 
@@ -122,21 +153,21 @@ void percentiles(FlipPool& pool, const OrderStatistics& order, PoolRequest* furt
 
 // An error is compared as the double that it is: no share depends on how E was rounded.
 void shares_above(const float* map, int width, int height, ptrdiff_t stride,
-                  const kernels::ParallelFor& parallel, PoolRequest& further) {
+                  const kernels::ParallelFor& parallel, int64_t pixels, PoolRequest& further) {
     for (const double error : further.above) {
         std::atomic<int64_t> count{0};
         parallel(height, [&](int64_t y) {
             const float* row = map + y * stride;
             count += std::count_if(row, row + width, [&](float v) { return double(v) > error; });
         });
-        further.found_above.push_back(double(count) / (double(width) * height));
+        further.found_above.push_back(double(count) / double(pixels));
     }
 }
 
 } // namespace
 
 FlipPool pool(const float* map, int width, int height, ptrdiff_t stride, int x0, int y0,
-              const kernels::ParallelFor& parallel, PoolRequest* further) {
+              const kernels::ParallelFor& parallel, PoolRequest* further, Gaps gaps) {
     FlipPool out;
     if (width <= 0 || height <= 0)
         return out;
@@ -144,20 +175,27 @@ FlipPool pool(const float* map, int width, int height, ptrdiff_t stride, int x0,
     Accumulators<Histograms> histograms([] { return Histograms(); });
     for_each_block(width, height, parallel, [&](int first, int end) {
         histograms.with_one([&](Histograms& histogram) {
+            Closed closed;
             for (int y = first; y < end; ++y) {
-                rows[size_t(y)] = scan_row(map + y * stride, width);
-                histogram.add(map + y * stride, width);
+                const float* row = map + y * stride;
+                if (gaps == Gaps::Nan)
+                    closed.take(row, width);
+                rows[size_t(y)] = gaps == Gaps::Nan ? closed.scanned() : scan_row(row, width);
+                histogram.add(gaps == Gaps::Nan ? closed.values.data() : row,
+                              rows[size_t(y)].pixels);
             }
         });
     });
-    join(out, rows, width, x0, y0);
+    join(out, rows, x0, y0);
+    if (out.pixels == 0)
+        return {};
     for (const auto& histogram : histograms.all())
         for (size_t i = 0; i < out.histogram.size(); ++i)
             out.histogram[i] += histogram->even[i] + histogram->odd[i];
     percentiles(out, {map, width, height, stride, parallel, OrderStatistics::Keep::CountsAndSums},
                 further);
     if (further)
-        shares_above(map, width, height, stride, parallel, *further);
+        shares_above(map, width, height, stride, parallel, out.pixels, *further);
     return out;
 }
 

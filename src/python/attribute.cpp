@@ -19,6 +19,7 @@ Fields<CallOptions> attribute_keywords() {
     using O = CallOptions;
     return joined<O>(
         {described<O, AttributeOptions>(),
+         ignore_fields<O>(),
          {field<O>("pixels", &O::pixels, "Layer and colour space, for both images."),
           field<O>("size", &O::size,
                    "Different display windows are an error (\"match\"), or only where they meet is "

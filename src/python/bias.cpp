@@ -30,6 +30,7 @@ struct BiasObject {
     std::map<std::string, double> numbers;
     FlipSide reference, test;
     OIIO::ROI region;
+    std::optional<double> ignored;
     std::vector<std::string> warnings;
     py::object map;
 };
@@ -38,6 +39,7 @@ Fields<CallOptions> fields() {
     using O = CallOptions;
     return joined<O>(
         {described<O, BiasOptions>(),
+         ignore_fields<O>(),
          {field<O>("pixels", &O::pixels, "Layer and colour space, for all images."),
           field<O>("size", &O::size,
                    "Different display windows are an error (\"match\"), the tests are resized to "
@@ -94,6 +96,7 @@ py::object run_bias(std::vector<py::object>& images, const CallOptions& options)
     out.reference = summary.reference;
     out.test = summary.test;
     out.region = summary.region;
+    out.ignored = summary.ignored;
     out.warnings = summary.warnings;
     out.map = to_python(std::move(map), OutputKind::map(*references.first()));
     return py::cast(std::move(out));
@@ -139,6 +142,7 @@ void add_results(Module& module) {
         .field("reference", &B::reference, "How the references were read; counts are sums.")
         .field("test", &B::test, "How the tests were read; counts are sums.")
         .field("region", &B::region, "Pixels compared.")
+        .field(kIgnoredField.name, &B::ignored, kIgnoredField.text)
         .field("warnings", &B::warnings, "What a user must know, one sentence each.")
         .object("map", &B::map, "Image", "The map that was asked for, height x width x channels.")
         .finish();

@@ -32,6 +32,19 @@ void add_pool(Module& module) {
 
 } // namespace
 
+Mask Python<Mask>::from(py::handle v, const std::string& where) {
+    if (v.is_none())
+        return {};
+    auto image = py::reinterpret_borrow<py::object>(v);
+    if (!py::isinstance<OIIO::ImageBuf>(v) && !py::isinstance<py::array>(v) &&
+        (py::isinstance<py::str>(v) || py::hasattr(v, "__fspath__")))
+        return {to_text(v, where), nullptr};
+    if (py::isinstance<py::array>(v) && py::array(image).dtype().kind() == 'b')
+        image = image.attr("astype")("uint8") * py::int_(UINT8_MAX);
+    const auto kept = std::make_shared<InputImage>(image, where, Channels::Named);
+    return {"", std::shared_ptr<const OIIO::ImageBuf>(kept, &kept->buf())};
+}
+
 void add_compare(Module& module) {
     add_pool(module);
     using S = FlipSide;

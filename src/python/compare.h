@@ -4,14 +4,29 @@
 
 #include <string>
 
+#include "imagebuf/options/ignore_options.h"
+#include "python/images.h"
 #include "python/results.h"
 #include "tonetool/compare.h"
 
 namespace tonetool::python {
 
+template <>
+struct Python<Mask> {
+    static std::string wanted() { return "Image | NDArray[np.bool_] | str | None"; }
+    static Mask from(py::handle v, const std::string& where);
+    static py::object to(const Mask&) { return py::none(); }
+};
+
+/// mask and ignore.
+template <class O>
+Fields<O> ignore_fields() {
+    return described<O, IgnoreOptions>();
+}
+
 template <class O>
 Fields<O> pair_fields() {
-    return {
+    Fields<O> fields = {
         field<O>("pixels", &O::pixels, "Layer and colour space, for both images."),
         field<O>("size", &O::size,
                  "Different display windows are an error (\"match\"), the test is resized to the "
@@ -28,6 +43,7 @@ Fields<O> pair_fields() {
             "Quantities of the map to pool beside the usual ones: \"p99.95\" (any percentile), "
             "\"above0.2\" (the share of the pixels whose error is above 0.2)."),
     };
+    return joined<O>({fields, ignore_fields<O>()});
 }
 
 template <class S>
@@ -37,6 +53,7 @@ void add_pair_summary(ResultClass<S>& result) {
         .field("test", &S::test, "How the test was read.");
     visit_pair_counts(visitor(result));
     result.field("region", &S::region, "Pixels compared.")
+        .field(kIgnoredField.name, &S::ignored, kIgnoredField.text)
         .field("alpha_compared", &S::alpha_compared, "Alpha is part of the map.");
     visit_alpha(visitor(result));
     result.field("alpha_max_x", &S::alpha_max_x, "its column,")

@@ -2,6 +2,7 @@
 // Luminance statistics and exposure.
 #include "tonetool/luminance.h"
 
+#include "python/compare.h"
 #include "python/families.h"
 #include "python/results.h"
 
@@ -11,7 +12,7 @@ namespace {
 
 const std::string kSource = "Luminance of Rec.709 (ITU-R BT.709): 0.2126 R + 0.7152 G + 0.0722 B.";
 
-struct Pixels {
+struct Pixels : IgnoreOptions {
     PixelOptions pixels;
 };
 using Options = On<Pixels>;
@@ -21,12 +22,16 @@ Fields<Options> fields() {
             roi_field<Options>(), threads_field<Options>()};
 }
 
+Fields<Options> stats_fields() {
+    return joined<Options>({fields(), ignore_fields<Options>()});
+}
+
 py::object stats(std::vector<py::object>& images, const Options& options) {
     const InputImage image(images[0], "luminance_stats: image");
     LuminanceStats found;
     run_or_raise("luminance_stats", [&](std::string& error) {
         return ToneAlgo::luminance_stats(found, image.buf(), error, options.pixels, options.roi,
-                                         options.nthreads);
+                                         options.nthreads, options);
     });
     return py::cast(found);
 }
@@ -68,7 +73,7 @@ void add_luminance(Module& module) {
                     "counted and left out.",
                     "No colour, deep images, no finite pixel, an unreadable file.",
                     kSource},
-        fields(), stats);
+        stats_fields(), stats);
     define(
         module,
         Description{"exposure",

@@ -34,7 +34,7 @@ def test_every_public_function_is_there():
         text = re.sub(r"//.*|#.*", "", header.read_text(encoding="utf-8"))
         names |= set(re.findall(r"TONETOOL_API[^(;]*?(\w+)\(", text))
     only_cpp = {"version", "attribute_findings", "bias_evidence", "bias_numbers", "bias_place", "bias_reason_name", "bias_sentence", "bias_verdict_name",
-                "noise_floor_method", "color_config_files", "lut_references", "drop_profile", "find_part", "flip_exposed", "flip_quantity_name",
+                "noise_floor_method", "color_config_files", "lut_references", "drop_profile", "find_part", "flip_exposed", "ignored_pixels", "flip_quantity_name",
                 "retag", "state_chromaticities", "stated_exposure", "stated_gamma", "take_whole_exposure",
                 "unapplied_profile", "write_texture"}
     assert only_cpp <= names

@@ -122,12 +122,12 @@ def test_flip(pair, program, tmp_path):
     names, images = pair
     said = set()
     for how in ({"curve": "aces"}, {"view": VIEW}):
-        result = tonetool.hdr_flip(*images, alpha="error", quantities=["p99.95"], **how)
+        result = tonetool.hdr_flip(*images, alpha="error", quantities=["p99.95"], ignore=["2x2+0+0"], **how)
         said |= attributes_of(result.map, "FLIP:")
     assert missing(result.summary, attribute, said, ATTRIBUTES) == UNSAID_OF_FLIP
     said = set()
     for how in ("tonemapper=aces", "display=sRGB"):
-        program("--colorconfig", VIEW["config"], *names, f"--hdrflip:{how}:alpha=error:above=0.25",
+        program("--colorconfig", VIEW["config"], *names, f"--hdrflip:{how}:alpha=error:above=0.25:ignore=2x2+0+0",
                 "--json", "out.json")
         said |= record_of(tmp_path)
     assert missing(result.summary, key, said, KEYS) == UNSAID_OF_FLIP
@@ -137,9 +137,11 @@ def test_errors(pair, program, tmp_path):
     names, images = pair
     attributes, keys = set(), set()
     for metric in tonetool.error_metrics():
-        result = tonetool.error_map(*images, metric=metric, alpha="error", quantities=["p99.95"])
+        result = tonetool.error_map(*images, metric=metric, alpha="error", quantities=["p99.95"],
+                                    ignore=["2x2+0+0"])
         attributes |= attributes_of(result.map, "Error:")
-        program(*names, f"--errormap:metric={metric}:alpha=error:above=0.25", "--json", "out.json")
+        program(*names, f"--errormap:metric={metric}:alpha=error:above=0.25:ignore=2x2+0+0",
+                "--json", "out.json")
         keys |= record_of(tmp_path)
     assert missing(result.summary, attribute, attributes, ATTRIBUTES) == UNSAID
     assert missing(result.summary, key, keys, {**KEYS, "value": "psnr", "metric": "psnr", "decibels": "psnr"}) == UNSAID
@@ -168,7 +170,7 @@ def test_bias_check(pair, program, tmp_path):
     noisy = tonetool.bias_check(*(rng.gamma(4, 0.25, (96, 96, 3)).astype(np.float32) for _ in range(2)))
     members = {name for name in structs()["BiasResult"] if name not in NOT_NUMBERS}
     of_channels = {"gain": "gain.Y", "rare": "rare.B", "tested": "block-tests"}
-    assert {of_channels.get(name, name) for name in members} <= set(noisy.numbers) | {"more"}
+    assert {of_channels.get(name, name) for name in members} <= set(noisy.numbers) | {"more", "ignored"}  # told beside them
     for name in structs()["BiasGain"]:
         shown = {"se": "gain-se", "energy_se": "energy-se"}.get(name, name)
         assert name == "rejected" or f"{shown}.G" in noisy.numbers

@@ -34,7 +34,8 @@ std::string what_text(const PairSummary& summary, const std::string& reference,
                       const std::string& test) {
     return printable(test) + " against " + printable(reference) +
            layers_text(summary.reference, summary.test) +
-           spaces_text(summary.reference, summary.test) + size_text(summary.region);
+           spaces_text(summary.reference, summary.test) + size_text(summary.region) +
+           ignored_text(summary.ignored);
 }
 
 std::string exposures_text(const std::vector<double>& stops) {
@@ -80,6 +81,11 @@ std::string labelled(const std::string& label, const Strings& lines) {
 }
 
 } // namespace
+
+std::string ignored_text(const std::optional<double>& share) {
+    constexpr double percent = 100;
+    return share ? format(", {:.3g} % ignored", percent * *share) : "";
+}
 
 std::string numbers_text(const FlipSummary& summary) {
     const FlipPool& pool = summary.pool;

@@ -12,6 +12,7 @@
 #include "chain/commands/frame_pictures.h"
 #include "chain/commands/options.h"
 #include "imagebuf/options/bias_options.h"
+#include "imagebuf/options/ignore_options.h"
 #include "imagebuf/pixels/upright.h"
 #include "sequence/results/measurement.h"
 #include "sequence/results/verdict_limits.h"
@@ -62,6 +63,7 @@ BiasOptions bias_options(const Session& session, const Call& call) {
     options.size = size_policy(call);
     options.memory = memory_for(session, call);
     read_options(call, options);
+    read_ignored(call, options);
     options.alpha /= family_of(call);
     return options;
 }
@@ -113,7 +115,8 @@ std::string evidence_text(const BiasResult& r) {
 Strings brief_lines(const BiasSummary& summary) {
     const BiasResult& r = summary.result;
     Strings lines{plural(r.references, "reference") + ", " + plural(r.tests, "test") +
-                  format(", {}x{}", r.width, r.height) + (r.judged ? noise_text(r) : "")};
+                  format(", {}x{}", r.width, r.height) + ignored_text(summary.ignored) +
+                  (r.judged ? noise_text(r) : "")};
     if (!r.judged)
         return lines;
     const BiasGain& y = r.gain[0];
@@ -325,7 +328,7 @@ Rows bias_commands() {
             .modifiers(pixel_modifiers())
             .modifier("resize", "0|1", "resize the tests to the reference's display window")
             .modifier("crop", "0|1", "compare only where the display windows meet")
-            .modifiers(Modifiers{kPrint})
+            .modifiers(modifiers_of<IgnoreOptions>(), Modifiers{kPrint})
             .frequent("within,references,tests,inconclusive,fail,frames,layer")
             .judges()};
 }

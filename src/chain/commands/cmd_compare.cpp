@@ -88,6 +88,13 @@ Compared compare(Session& session, const Call& call, const Look& look, const Com
     return done;
 }
 
+std::string left_out_text(const PairSummary& summary) {
+    return ignored_text(summary.ignored);
+}
+std::string left_out_text(const TmqiSummary&) {
+    return "";
+}
+
 template <class Summary>
 void print(Session& session, const Call& call, const Summary& summary, const std::string& test,
            bool judged) {
@@ -98,7 +105,8 @@ void print(Session& session, const Call& call, const Summary& summary, const std
     else if (what == Detail::Brief)
         session.print(brief_text(label, summary, reference, test));
     else if (what == Detail::Line && !judged)
-        session.print(label + ": " + numbers_text(summary) + " (" + printable(test) + ")");
+        session.print(label + ": " + numbers_text(summary) + left_out_text(summary) + " (" +
+                      printable(test) + ")");
 }
 
 // `limits` are what judge() will say a line of.
@@ -129,12 +137,14 @@ void show_flip(Session& session, const Call& call, sequence::PictureRequest requ
     show(session, call, std::move(request));
 }
 
-bool judge_flip(Session& session, const Call& call, const Limits& limits, const FlipPool& pool,
-                size_t test = 0) {
+bool judge_flip(Session& session, const Call& call, const Limits& limits,
+                const FlipSummary& summary, size_t test = 0) {
+    const FlipPool& pool = summary.pool;
     const auto measure = [&](const std::string& quantity) {
         return ToneAlgo::flip_quantity(pool, quantity).value();
     };
-    return judge(session, call, limits, measure, sequence::Position{pool.max_x, pool.max_y}, test);
+    return judge(session, call, limits, measure, sequence::Position{pool.max_x, pool.max_y}, test,
+                 summary.ignored);
 }
 
 void push_result(Session& session, const Call& call, OIIO::ImageBuf result) {
@@ -211,7 +221,7 @@ void run_hdrflip(Session& session, const Call& call) {
     for (size_t i = 0; i < maps.size(); ++i) {
         FlipResult& result = results[i];
         report(session, call, result.summary, limits, i);
-        judge_flip(session, call, limits, result.summary.pool, i);
+        judge_flip(session, call, limits, result.summary, i);
         attribute_error(session, call, attributed, maps[i], i);
         save_exposures(session, call, result, i);
         sequence::PictureRequest request = pair_request(views, i);
@@ -248,7 +258,7 @@ void run_ldrflip(Session& session, const Call& call) {
             return ToneAlgo::ldr_flip(to[0], reference, *tests[0], options, &result);
         });
     report(session, call, result.summary, limits);
-    judge_flip(session, call, limits, result.summary.pool);
+    judge_flip(session, call, limits, result.summary);
     attribute_error(session, call, attribute_options(call, options, "ldrflip"), maps[0]);
     sequence::PictureRequest request = pair_request(views);
     static_cast<FlipOptions&>(request.look) = options;
@@ -274,7 +284,7 @@ void run_flipdiff(Session& session, const Call& call) {
                        : ToneAlgo::ldr_flip(to[0], reference, *tests[0], options, &result);
         });
     report(session, call, result.summary, limits);
-    if (judge_flip(session, call, limits, result.summary.pool))
+    if (judge_flip(session, call, limits, result.summary))
         session.print("FAILURE");
     else if (!limits.empty())
         session.report("PASS");
@@ -300,7 +310,7 @@ void run_filmstrip(Session& session, const Call& call) {
             return ToneAlgo::flip_filmstrip(to[0], reference, *tests[0], options, look, &result);
         });
     report(session, call, result.summary, limits);
-    judge_flip(session, call, limits, result.summary.pool);
+    judge_flip(session, call, limits, result.summary);
     maps[0].specmod().attribute("oiio:ColorSpace", "sRGB");
     push_result(session, call, std::move(maps[0])); // upright already
 }
@@ -340,7 +350,7 @@ void run_errormap(Session& session, const Call& call) {
             return ToneAlgo::flip_quantity(summary.pool, quantity).value_or(summary.value);
         };
         judge(session, call, limits, measured,
-              sequence::Position{summary.pool.max_x, summary.pool.max_y}, i);
+              sequence::Position{summary.pool.max_x, summary.pool.max_y}, i, summary.ignored);
         attribute_error(session, call, attribute_options(call, options), maps[i], i);
         sequence::PictureRequest request = pair_request(views, i);
         request.look.pixels = options.pixels;

@@ -6,11 +6,16 @@
 #include <OpenImageIO/strutil.h>
 #include <algorithm>
 #include <limits>
+#include <optional>
 #include <ostream>
 
 #include "chain/commands/color_input.h"
 #include "chain/commands/commands.h"
+#include "chain/commands/flip_report.h"
+#include "chain/commands/options.h"
+#include "chain/images/counted_pair.h"
 #include "chain/images/unseen_difference.h"
+#include "imagebuf/options/ignore_options.h"
 #include "sequence/results/results.h"
 #include "text/error.h"
 #include "tonetool/color_tags.h"
@@ -48,8 +53,7 @@ void print_maximum(Session& session, const OIIO::ImageBuf& a, const OIIO::ImageB
 }
 
 void print_report(Session& session, const OIIO::ImageBuf& a, const OIIO::ImageBuf& b,
-                  const Results& found, bool perceptual) {
-    const double pixels = double(std::max(a.spec().image_pixels(), b.spec().image_pixels()));
+                  const Results& found, double pixels, bool perceptual) {
     const DiffLimits& limits = session.settings.diff;
     if (!perceptual) {
         session.out << format("  Mean error = {:g}\n  RMS error = {:g}\n  Peak SNR = {:g}\n",
@@ -89,7 +93,8 @@ sequence::Threshold threshold_of(const Results& found, const DiffLimits& limits,
             warns ? none : limit, warns ? limit : none};
 }
 
-void record(Session& session, const Results& found, double pixels, Verdict verdict) {
+void record(Session& session, const Results& found, double pixels, Verdict verdict,
+            const std::optional<CountedPair>& counted) {
     if (session.check.result) {
         sequence::Measurement measured;
         measured.thresholds = {threshold_of(found, session.settings.diff, pixels, verdict)};
@@ -97,6 +102,8 @@ void record(Session& session, const Results& found, double pixels, Verdict verdi
             {"mean", found.meanerror}, {"rms", found.rms_error}, {"max", found.maxerror}};
         measured.worst = sequence::Position{found.maxx, found.maxy};
         measured.pixels = static_cast<long long>(pixels);
+        if (counted)
+            measured.parameters.emplace_back(key_name(kIgnoredField), counted->ignored());
         session.check.result->measurements.push_back(std::move(measured));
     }
 }
@@ -141,11 +148,34 @@ void add(Results& found, const NonfiniteMismatch& unlike) {
     found.maxc = unlike.channel;
 }
 
+// What of two images counts; nothing where all does.
+std::optional<CountedPair> counted_pair(Session& session, const Call& call, const OIIO::ImageBuf& a,
+                                        const OIIO::ImageBuf& b) {
+    IgnoreOptions options;
+    read_ignored(call, options);
+    if (!options.any())
+        return std::nullopt;
+    const std::string label = call.row().label();
+    const LeaveOut how = label == "pdiff" ? LeaveOut::Equalizing : LeaveOut::Closing;
+    std::optional<CountedPair> counted(std::in_place, a, b, options, how);
+    for (const std::string& warning : counted->warnings())
+        session.warning(label, warning);
+    session.print(label + ": " + format("{}x{} pixels", a.spec().width, a.spec().height) +
+                  ignored_text(counted->ignored()));
+    return counted;
+}
+
 // Once something differs, all that follows is reported.
-void compare_pixels(Session& session, const OIIO::ImageBuf& a, const OIIO::ImageBuf& b,
-                    bool perceptual, const std::string& heading, Verdict& worst) {
+void compare_pixels(Session& session, const Call& call, const OIIO::ImageBuf& whole_a,
+                    const OIIO::ImageBuf& whole_b, const std::string& heading, Verdict& worst) {
     const Settings& settings = session.settings;
-    const double pixels = double(std::max(a.spec().image_pixels(), b.spec().image_pixels()));
+    const bool perceptual = call.row().label() == "pdiff";
+    const auto counted = counted_pair(session, call, whole_a, whole_b);
+    const OIIO::ImageBuf &a = counted ? counted->a() : whole_a,
+                         &b = counted ? counted->b() : whole_b;
+    const double pixels = counted
+                              ? counted->pixels()
+                              : double(std::max(a.spec().image_pixels(), b.spec().image_pixels()));
     Results found = results_of(a, b, settings.diff, perceptual);
     Verdict verdict = judge(found, settings.diff, pixels);
     // Where oiiotool fails, too, its report is kept.
@@ -158,14 +188,16 @@ void compare_pixels(Session& session, const OIIO::ImageBuf& a, const OIIO::Image
     const auto unseen = perceptual && !settings.compat && !a.deep() && !b.deep()
                             ? unseen_differences(a, b, settings.diff.fail.each)
                             : 0;
+    if (counted)
+        counted->place(found.maxx, found.maxy);
     Results all = found;
     all.nfail = std::max(found.nfail, unseen);
     verdict = unseen > 0 ? judge(all, settings.diff, pixels) : verdict;
-    record(session, all, pixels, verdict);
+    record(session, all, pixels, verdict, counted);
     worst = std::max(worst, verdict);
     if (worst != Verdict::Pass || settings.verbose) {
         session.out << heading;
-        print_report(session, a, b, found, perceptual);
+        print_report(session, whole_a, whole_b, found, pixels, perceptual);
         if (unlike.pixels > 0 && !settings.compat) {
             session.print(
                 format("  {} pixel(s) are NaN, Inf or -Inf in one image and not in the other",
@@ -208,9 +240,13 @@ int levels_of(Session& session, Part& a, Part& b) {
     return 1;
 }
 
-void compare_parts(Session& session, Part& a, Part& b, bool perceptual, const std::string& which,
+void compare_parts(Session& session, const Call& call, Part& a, Part& b, const std::string& which,
                    Comparison& compared) {
     const int levels = levels_of(session, a, b);
+    if (levels > 1 && (call.has("mask") || call.has("ignore"))) {
+        throw CommandError("mask= and ignore= are of one MIP level, and " + std::to_string(levels) +
+                           " are compared (valid: --selectmip of both images)");
+    }
     for (int level = 0; level < levels; ++level) {
         if (level > 0 && a.mip_levels() != b.mip_levels())
             return compared.differ(session, "Files do not match in their number of MIPmap levels");
@@ -222,19 +258,19 @@ void compare_parts(Session& session, Part& a, Part& b, bool perceptual, const st
         const std::string heading = format("{} {}: {} x {}, {} channel\n", which,
                                            level > 0 ? format(" MIP level {} ", level) : "",
                                            spec.width, spec.height, spec.nchannels);
-        compare_pixels(session, a.pixels(level), b.pixels(level), perceptual,
+        compare_pixels(session, call, a.pixels(level), b.pixels(level),
                        which.empty() ? "" : heading, compared.worst);
     }
 }
 
-Comparison compare_images(Session& session, const Image& a, const Image& b, bool perceptual) {
+Comparison compare_images(Session& session, const Call& call, const Image& a, const Image& b) {
     const bool all = compares_all(session);
     const size_t parts = all ? std::min(a.part_count(), b.part_count()) : 1;
     Comparison compared;
     for (size_t s = 0; s < parts; ++s) {
         const bool named = session.settings.all_subimages || parts > 1;
-        compare_parts(session, a.part(s), b.part(s), perceptual,
-                      named ? format("Subimage {}", s) : "", compared);
+        compare_parts(session, call, a.part(s), b.part(s), named ? format("Subimage {}", s) : "",
+                      compared);
     }
     if (all && a.part_count() != b.part_count()) {
         compared.differ(session, format("Images had differing numbers of subimages ({} vs {})",
@@ -304,7 +340,7 @@ void run_diff(Session& session, const Call& call) {
         }
         warn_of_unapplied(session, call, a, b);
     }
-    const Comparison compared = compare_images(session, a, b, perceptual);
+    const Comparison compared = compare_images(session, call, a, b);
     const Verdict verdict = compared.worst;
     complete_record(session, call, before, verdict, compared.unlike);
     session.print(verdict == Verdict::Pass      ? "PASS"
@@ -335,10 +371,12 @@ Rows diff_commands() {
     rows.push_back(
         command("diff", "Report the difference of two images; status 1 if it fails", run_diff)
             .images(2, 2)
+            .modifiers(modifiers_of<IgnoreOptions>())
             .judges());
     rows.push_back(
         command("pdiff", "Report the perceptual difference of two images (Yee)", run_diff)
             .images(2, 2)
+            .modifiers(modifiers_of<IgnoreOptions>())
             .judges());
     return rows;
 }

@@ -8,6 +8,7 @@
 #include "chain/commands/options.h"
 #include "chain/commands/tone_args.h"
 #include "imagebuf/options/flip_options.h"
+#include "imagebuf/options/ignore_options.h"
 #include "text/error.h"
 
 namespace tonetool::chain {
@@ -49,8 +50,8 @@ Modifiers pair_modifiers() {
         {pixel_modifiers(),
          {{"resize", "0|1", "resize the test image to the reference's display window"},
           {"crop", "0|1", "compare only where the display windows meet"},
-          {"alpha", "ignore|error",
-           "what becomes of alpha: error: its difference joins the map"}}});
+          {"alpha", "ignore|error", "what becomes of alpha: error: its difference joins the map"}},
+         modifiers_of<IgnoreOptions>()});
 }
 
 Modifiers hdr_modifiers() {
@@ -104,12 +105,17 @@ uint64_t memory_for(const Session& session, const Call& call) {
     return memory - std::min(memory, shown_bytes(session, call));
 }
 
+void read_ignored(const Call& call, IgnoreOptions& options) {
+    read_options(call, options);
+}
+
 void read_pair_options(const Session& session, const Call& call, PairOptions& options) {
     options.memory = memory_for(session, call);
     options.pixels = pixel_options(call);
     options.size = size_policy(call);
     bool error = call.choice("alpha", {"ignore", "error"}).value_or("ignore") == "error";
     options.alpha = error ? AlphaPolicy::Error : AlphaPolicy::Ignore;
+    read_ignored(call, options);
 }
 
 void read_flip_options(const Session& session, const Call& call, bool screen,
@@ -183,29 +189,31 @@ ErrorOptions error_options(const Session& session, const Call& call) {
 constexpr double kFlipdiffPpd = 67.02; // OpenImageIO's
 
 Modifiers flipdiff_modifiers() {
-    return {
-        {"hdr", "0|1", "HDR-FLIP (1), or LDR-FLIP"},
-        {"maxluminance", "X",
-         "luminance that the first exposure suits (2.0); 0: exposures "
-         "from the reference"},
-        {"medianluminance", "X", "luminance that the last exposure suits (0.18)"},
-        {"startExposure", "STOPS", "first exposure"},
-        {"stopExposure", "STOPS", "last exposure"},
-        {"numExposures", "N", "number of exposures; 0: from their range"},
-        {"ppd", "X",
-         OIIO::Strutil::fmt::format("pixels per degree of visual angle ({})", kFlipdiffPpd)},
-        {"tonemapper", "NAME", "tone curve (aces): " + join(ToneAlgo::flip_tonemappers(), ", ")},
-        {"colormap", "NAME", "push the map in these colours, as --colormap"},
-        {"layer", "NAME", "layer whose R,G,B are used"},
-        {"from", "SPACE", "colour space of the pixels"},
-        kPrint,
-        {"fail", "X", "exit status 3 unless the largest error is at most X (0 to below 1)"}};
+    return concatenated(
+        {{{"hdr", "0|1", "HDR-FLIP (1), or LDR-FLIP"},
+          {"maxluminance", "X",
+           "luminance that the first exposure suits (2.0); 0: exposures "
+           "from the reference"},
+          {"medianluminance", "X", "luminance that the last exposure suits (0.18)"},
+          {"startExposure", "STOPS", "first exposure"},
+          {"stopExposure", "STOPS", "last exposure"},
+          {"numExposures", "N", "number of exposures; 0: from their range"},
+          {"ppd", "X",
+           OIIO::Strutil::fmt::format("pixels per degree of visual angle ({})", kFlipdiffPpd)},
+          {"tonemapper", "NAME", "tone curve (aces): " + join(ToneAlgo::flip_tonemappers(), ", ")},
+          {"colormap", "NAME", "push the map in these colours, as --colormap"},
+          {"layer", "NAME", "layer whose R,G,B are used"},
+          {"from", "SPACE", "colour space of the pixels"},
+          kPrint,
+          {"fail", "X", "exit status 3 unless the largest error is at most X (0 to below 1)"}},
+         modifiers_of<IgnoreOptions>()});
 }
 
 HdrFlipOptions flipdiff_options(const Session& session, const Call& call) {
     HdrFlipOptions options;
     options.memory = memory_for(session, call);
     options.pixels = pixel_options(call);
+    read_ignored(call, options);
     options.ppd = call.number("ppd", kPpdRange).value_or(kFlipdiffPpd);
     options.curve.name =
         call.choice("tonemapper", ToneAlgo::flip_tonemappers()).value_or(options.curve.name);

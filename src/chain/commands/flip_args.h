@@ -39,7 +39,7 @@ struct Measures {
 // Lists of modifiers, to be put together into rows.
 extern const Modifier kPrint;
 Modifiers pixel_modifiers(); ///< layer, from
-Modifiers pair_modifiers();  ///< and resize, crop, alpha
+Modifiers pair_modifiers();  ///< and resize, crop, alpha, mask, ignore
 Modifiers hdr_modifiers();   ///< tone curve and exposures
 /// fail, warn, quantity, print, and above where there is a map; `unless` says what keeps from
 /// failing.
@@ -54,6 +54,8 @@ void read_view_spaces(const std::optional<ViewOptions>& view, PixelOptions& pixe
 SizePolicy size_policy(const Call& call);
 /// What --memory leaves beside the images that a report holds.
 uint64_t memory_for(const Session& session, const Call& call);
+/// mask= and ignore=.
+void read_ignored(const Call& call, IgnoreOptions& options);
 void read_pair_options(const Session& session, const Call& call, PairOptions& options);
 /// `screen`: distance, width and pixels describe the screen; else only ppd does.
 void read_flip_options(const Session& session, const Call& call, bool screen, FlipOptions& options);

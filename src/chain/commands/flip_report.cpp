@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "chain/commands/flip_report.h"
 
+#include "imagebuf/options/ignore_options.h"
 #include "sequence/results/measuring.h"
 #include "text/error.h"
 
@@ -66,6 +67,9 @@ void add_pair(Lines& lines, const PairSummary& summary, const std::string& refer
     add_side(lines, "reference", reference, summary.reference);
     add_side(lines, "test", test, summary.test);
     visit_pair_counts(fields(lines, summary));
+    visit_ignored(summary, [&](const SummaryField& field, double share) {
+        lines.add(key_name(field), share);
+    });
     lines.add("pixels", summary.pool.pixels);
 }
 
@@ -172,7 +176,8 @@ void record(Session& session, const Call& call, sequence::Measurement measuremen
 
 bool judge(Session& session, const Call& call, const Limits& limits,
            const std::function<double(const std::string& quantity)>& measure,
-           const std::optional<sequence::Position>& worst, size_t test) {
+           const std::optional<sequence::Position>& worst, size_t test,
+           const std::optional<double>& ignored) {
     if (limits.empty())
         return false;
     const std::string label = call.row().label();
@@ -188,7 +193,7 @@ bool judge(Session& session, const Call& call, const Limits& limits,
         session.check.result->measurements.back().thresholds = thresholds;
     const std::string where =
         worst ? ", worst pixel " + std::to_string(worst->x) + "," + std::to_string(worst->y) : "";
-    const std::string file = " (" + call.images.at(test + 1)->name() + ")";
+    const std::string file = ignored_text(ignored) + " (" + call.images.at(test + 1)->name() + ")";
     if (!said.warned.empty())
         session.warning(label, join(said.warned, ", ") + where + file);
     if (!said.failed.empty()) {

@@ -44,6 +44,9 @@ std::string numbers_text(const FlipSummary& summary);
 std::string numbers_text(const ErrorSummary& summary);
 std::string numbers_text(const TmqiSummary& summary);
 
+/// ", 25 % ignored": the part of the pixels that does not count, where mask= or ignore= was given.
+std::string ignored_text(const std::optional<double>& share);
+
 /// How much of a comparison is printed.
 enum class Detail {
     Nothing, ///< but what fails or warns
@@ -60,10 +63,11 @@ void record(Session& session, const Call& call, sequence::Measurement measuremen
 
 /// The verdict of a command with limits as the last line of its report: PASS, WARNING or FAIL, the
 /// limits that say so, the worst pixel where there is one, and the test image. Warns, and counts in
-/// the session. Whatever is not on the good side of a limit fails. Returns whether one of fail= was
-/// missed.
+/// the session. Whatever is not on the good side of a limit fails. `ignored`: the part of the
+/// pixels that does not count, as ignored_text() takes it. Returns whether one of fail= was missed.
 bool judge(Session& session, const Call& call, const Limits& limits,
            const std::function<double(const std::string& quantity)>& measure,
-           const std::optional<sequence::Position>& worst, size_t test = 0);
+           const std::optional<sequence::Position>& worst, size_t test = 0,
+           const std::optional<double>& ignored = {});
 
 } // namespace tonetool::chain

@@ -60,6 +60,7 @@ void show(Session& session, const Call& call, sequence::PictureRequest request) 
         session.report(nothing + "the images do not fit into --memory");
         return;
     }
+    static_cast<IgnoreOptions&>(request.look) = {}; // the images are shown as they are
     sequence::FrameResult so_far = *session.check.result;
     sequence::judge(so_far);
     ask_for_worst(request, painter, so_far);

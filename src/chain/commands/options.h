@@ -7,6 +7,7 @@
 
 #include "chain/commands/commands.h"
 #include "imagebuf/options/option.h"
+#include "tonetool/compare.h"
 
 namespace tonetool::chain {
 
@@ -52,6 +53,9 @@ inline void read_value(const Call& call, const char* key, const Range&, std::str
 inline void read_value(const Call& call, const char* key, const Range&, Strings& value) {
     if (const auto list = call.text(key))
         value = split(*list, ',');
+}
+inline void read_value(const Call& call, const char* key, const Range&, Mask& value) {
+    value.file = call.text(key).value_or("");
 }
 template <class T>
 void read_value(const Call& call, const char* key, const Range& range, std::optional<T>& value) {

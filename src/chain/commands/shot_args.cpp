@@ -10,12 +10,12 @@ namespace tonetool::chain {
 
 namespace {
 
-void measure_sample(Session& session, const Call& call, const PixelOptions& options) {
+void measure_sample(Session& session, const Call& call, const PairOptions& options) {
     const Image& reference = *call.images.front();
-    const OIIO::ImageBuf pixels = color_source(session, call, reference, options);
+    const OIIO::ImageBuf pixels = color_source(session, call, reference, options.pixels);
     LuminanceStats stats;
     std::string why;
-    if (!ToneAlgo::luminance_stats(stats, pixels, why, options))
+    if (!ToneAlgo::luminance_stats(stats, pixels, why, options.pixels, {}, 0, options))
         throw CommandError(why);
     session.check.sample->reference = reference.name();
     session.check.sample->max_luminance = stats.max;
@@ -42,7 +42,7 @@ void read_shot_exposures(Session& session, const Call& call, HdrFlipOptions& opt
                            " goes without maxluminance= and medianluminance= (valid: either)");
     }
     if (from == "shot" && session.check.sample)
-        measure_sample(session, call, options.pixels);
+        measure_sample(session, call, options);
     const sequence::ShotExposures range = range_of(session, from);
     const std::string& name = call.images.front()->name();
     if (from != "shot" && !sequence::was_measured_on(range, name)) {

@@ -40,11 +40,11 @@ std::vector<float> pixels_of_map(const ImageBuf& map) {
     return error;
 }
 
-double mean_of(const std::vector<float>& error) {
+double mean_of(const std::vector<float>& error, double pixels) {
     double sum = 0;
     for (const float e : error)
         sum += double(e);
-    return sum / double(error.size());
+    return sum / pixels;
 }
 
 void run_attribute(AttributeResult& result, const ImageParts& reference, const ImageParts& test,
@@ -60,8 +60,10 @@ void run_attribute(AttributeResult& result, const ImageParts& reference, const I
                              size_text(options.memory), size_text(input.bytes())));
     input.read(nthreads);
     ErrorMeter meter(input, options, input.bytes(), nthreads);
-    const std::vector<float> error = map ? pixels_of_map(*map) : meter.map();
-    result.mean = mean_of(error);
+    std::vector<float> error = map ? pixels_of_map(*map) : meter.map();
+    for (size_t p = 0; p < error.size(); ++p)
+        error[p] = input.counts(p) ? error[p] : 0;
+    result.mean = mean_of(error, input.counted());
     ExchangedLights lights = attribute_lights(input, meter, result.mean, options.alone);
     result.lights = std::move(lights.lights);
     result.warnings = input.warnings();

@@ -4,6 +4,7 @@
 #include <OpenImageIO/strutil.h>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <set>
 
 #include "imagebuf/compare/pair.h"
@@ -79,6 +80,7 @@ void AttributeInput::find_region(const Images& reference, const Images& test,
     const OIIO::ROI compared =
         compared_region(image_of(0, reference), image_of(1, test), options.size);
     m_region = region.defined() ? plane_of(region) : compared;
+    m_ignored.open(options, image_of(0, reference).spec(), m_region);
 }
 
 AttributeInput::Wanted AttributeInput::wanted(size_t side, const std::vector<int>& channels) const {
@@ -270,10 +272,28 @@ void AttributeInput::read(int nthreads) {
         read_rows(begin, end, nthreads);
         begin = end;
     }
+    leave_out_ignored();
     for (Group& group : m_groups) // what is not finite is in the rest
         for (std::vector<float>& light : group.light)
             for (float& value : light)
                 value = std::isfinite(value) ? value : 0;
+}
+
+// Of lights and colours; data have no surface there (attribute_layers()).
+void AttributeInput::leave_out_ignored() {
+    constexpr float nan = std::numeric_limits<float>::quiet_NaN();
+    const auto clear = [&](std::vector<float>& values, size_t channels) {
+        for (size_t i = 0; i < values.size(); ++i)
+            if (!counts(i / channels))
+                values[i] = nan;
+    };
+    for (Group& group : m_groups)
+        for (std::vector<float>& light : group.light)
+            clear(light, 3);
+    for (Layer& layer : m_layers)
+        for (std::vector<float>& values : layer.values)
+            if (layer.kind == "albedo" || layer.kind == "color")
+                clear(values, layer.channels);
 }
 
 void AttributeInput::read_rows(int begin, int end, int nthreads) {
@@ -286,7 +306,8 @@ void AttributeInput::read_rows(int begin, int end, int nthreads) {
                                                ? reader.light(one.part, one.channels, m_region, y)
                                                : reader.values(one.part, one.channels, m_region, y);
             if (one.coverage)
-                rows[size_t(i)] = metrics::Coverage::decode(row, one.channels.size() / 2);
+                rows[size_t(i)] = metrics::Coverage::decode(
+                    row, one.channels.size() / 2, m_ignored.any() ? m_ignored.row(y) : nullptr);
             else
                 std::copy(row.begin(), row.end(),
                           one.values->begin() + (y - m_region.ybegin) * ptrdiff_t(row.size()));

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "imagebuf/attribute/cryptomatte.h"
+#include "imagebuf/pixels/ignored_pixels.h"
 #include "imagebuf/qc/layer_reader.h"
 #include "metrics/coverage.h"
 #include "tonetool/attribute.h"
@@ -44,6 +45,11 @@ public:
     size_t pixels() const { return size_t(m_region.width()) * size_t(m_region.height()); }
     /// Bytes of all that read() keeps, but for coverages.
     uint64_t bytes() const;
+    /// Pixels that do not count: no light of groups, no coverage, NaN in colours; the picture has
+    /// them.
+    const IgnoredPixels& ignored() const { return m_ignored; }
+    bool counts(size_t pixel) const { return !m_ignored.any() || m_ignored.all()[pixel] == 0; }
+    double counted() const { return double(m_ignored.counted(m_region)); }
     const SidePixels& picture() const { return m_picture; }
     const std::vector<Group>& groups() const { return m_groups; } ///< by name
     /// By name, but that of the objects first.
@@ -76,9 +82,11 @@ private:
     /// Channels of all parts together, which must lie in one part.
     Wanted wanted(size_t side, const std::vector<int>& channels) const;
     void read_rows(int begin, int end, int nthreads);
+    void leave_out_ignored();
 
     LayerReader m_readers[2];
     OIIO::ROI m_region;
+    IgnoredPixels m_ignored;
     SidePixels m_picture;
     std::vector<Group> m_groups;
     std::vector<Type> m_types;

@@ -81,10 +81,11 @@ metrics::LightRatio ratio_of(const AttributeInput::Group& group, size_t pixels) 
     return ratio;
 }
 
-double light_of(const std::vector<float>& picture) {
+double light_of(const AttributeInput& input) {
+    const std::vector<float>& picture = input.picture()[0];
     double sum = 0;
     for (size_t at = 0; at < picture.size(); ++at)
-        if (std::isfinite(picture[at]))
+        if (std::isfinite(picture[at]) && input.counts(at / 3))
             sum += double(kernels::kLuminance[at % 3]) * double(picture[at]);
     return sum;
 }
@@ -110,7 +111,9 @@ void exchange_lights(const AttributeInput& input, size_t side, const std::vector
 }
 
 std::vector<double> ErrorMeter::run(const std::vector<Maker>& tests, std::vector<ImageBuf>& maps) {
-    const FlipPlan plan = plan_of(m_options);
+    FlipPlan plan = plan_of(m_options);
+    plan.common.mask = mask_of(m_input.ignored(), m_input.region());
+    plan.common.ignore.clear();
     const OIIO::ROI& region = m_input.region();
     const ImageBuf reference = image_around(region, m_input.picture()[0].data());
     std::vector<std::vector<float>> pixels(tests.size());
@@ -172,7 +175,7 @@ ExchangedLights attribute_lights(const AttributeInput& input, ErrorMeter& meter,
                 exchange_lights(input, side, {part}, rgb);
             });
     const std::vector<double> means = meter.means(tests);
-    const double whole = light_of(input.picture()[0]);
+    const double whole = light_of(input);
     std::vector<size_t> found;
     for (size_t part = 0; part < parts; ++part) {
         AttributedLight& light = table.lights.emplace_back();

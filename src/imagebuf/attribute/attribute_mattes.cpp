@@ -77,7 +77,7 @@ void compare_data(const AttributeInput& input, const AttributeInput::Layer& laye
     row.max = change.max;
     row.background_changed = change.background_changed;
     row.changed = std::count(change.changed.begin(), change.changed.end(), 1);
-    if (double(row.changed) >= kChangedShare * double(input.pixels()))
+    if (double(row.changed) >= kChangedShare * input.counted())
         row.finding = "changed";
     if (!input.types().empty() && row.changed > 0)
         row.most_under = most_under(input.types().front(), change.changed);
@@ -153,6 +153,12 @@ std::vector<AttributedLayer> attribute_layers(const AttributeInput& input) {
     for (const AttributeInput::Layer& layer : input.layers())
         if (layer.kind == "depth" && surfaces.in[0].empty())
             surfaces = metrics::surfaces_of(pixels_of(layer));
+    if (input.ignored().any())
+        for (std::vector<uint8_t>& in : surfaces.in) {
+            in.resize(input.pixels(), 1); // without depth
+            for (size_t p = 0; p < in.size(); ++p)
+                in[p] = in[p] != 0 && input.counts(p);
+        }
     std::vector<AttributedLayer> rows;
     for (const AttributeInput::Layer& layer : input.layers()) {
         AttributedLayer& row = rows.emplace_back();

@@ -8,6 +8,7 @@
 #include <mutex>
 
 #include "imagebuf/pixels/allocation.h"
+#include "imagebuf/pixels/ignored_pixels.h"
 #include "imagebuf/pixels/parallel.h"
 #include "metrics/refusal.h"
 
@@ -98,11 +99,18 @@ void ColorReader::open(const ImageBuf& image, const PixelOptions& options, ROI r
         for (size_t run = 0; run < runs.size(); ++run)
             if (channels[i] >= runs[run].begin && channels[i] < runs[run].end)
                 m_place[i] = {run, channels[i] - runs[run].begin, runs[run].count()};
-    const int64_t inside = m_window.width() > 0 && m_window.height() > 0
-                               ? int64_t(m_window.width()) * m_window.height()
-                               : 0;
-    m_uncovered = int64_t(region.width()) * region.height() - inside;
+    count_pixels();
     m_source.open(image, runs);
+}
+
+void ColorReader::count_pixels() {
+    const auto count = [&](const ROI& part) {
+        const int64_t pixels =
+            part.width() > 0 && part.height() > 0 ? int64_t(part.width()) * part.height() : 0;
+        return pixels - (m_ignored && pixels > 0 ? m_ignored->count(part) : 0);
+    };
+    m_counted = count(m_region);
+    m_uncovered = m_counted - count(m_window);
 }
 
 size_t ColorReader::row_bytes() const {
@@ -118,6 +126,8 @@ ColorPlanes ColorReader::planes() const {
     out.region = m_region;
     out.begin = out.end = m_region.ybegin;
     out.choice = m_choice;
+    out.ignored = m_ignored;
+    out.counted = m_counted;
     out.uncovered_count = m_uncovered;
     return out;
 }
@@ -228,8 +238,32 @@ void ColorReader::clean_row(int y, const Stage& stage, ColorPlanes& planes,
     const size_t to = inside ? from + size_t(m_window.width()) : width;
     row.blacken(0, from);
     row.blacken(to, width);
-    if (inside)
+    if (inside && m_ignored)
+        clean_some(row, from, to, y, stage, counts);
+    else if (inside)
         clean(row, from, to, y, stage, counts);
+}
+
+// What does not count is in no count, but where neighbours see it in the largest component: a curve
+// must be sound for all that it is asked for.
+void ColorReader::clean_some(const Row& row, size_t from, size_t to, int y, const Stage& stage,
+                             ColorCounts& counts) const {
+    const uint8_t* ignored = m_ignored->row(y);
+    for (size_t begin = from; begin < to;) {
+        const size_t end =
+            size_t(std::find(ignored + begin, ignored + to, uint8_t(1 - ignored[begin])) - ignored);
+        if (ignored[begin] == 0) {
+            clean(row, begin, end, y, stage, counts);
+        } else if (m_keep_ignored) {
+            ColorCounts uncounted;
+            clean(row, begin, end, y, stage, uncounted);
+            counts.largest = std::max(counts.largest, uncounted.largest);
+            std::fill(row.nonfinite + begin, row.nonfinite + end, uint8_t(0));
+        } else {
+            row.blacken(begin, end);
+        }
+        begin = end;
+    }
 }
 
 // Through the configuration that knows the space; empty where none is asked.
@@ -249,14 +283,18 @@ std::vector<float> ColorReader::convert(const float* const (&in)[3], const size_
 
 void ColorReader::clean(const Row& row, size_t from, size_t to, int y, const Stage& stage,
                         ColorCounts& counts) const {
-    const float* in[3] = {staged(stage, y, 0), staged(stage, y, 1), staged(stage, y, 2)};
+    const size_t skip = from - size_t(m_window.xbegin - m_region.xbegin);
     const size_t step[3] = {size_t(m_place[0].stride), size_t(m_place[1].stride),
                             size_t(m_place[2].stride)};
-    const float* alpha = m_place[3].stride > 0 ? staged(stage, y, 3) : nullptr;
+    const float* in[3] = {staged(stage, y, 0) + skip * step[0],
+                          staged(stage, y, 1) + skip * step[1],
+                          staged(stage, y, 2) + skip * step[2]};
+    const size_t alpha_step = size_t(m_place[3].stride);
+    const float* alpha = alpha_step > 0 ? staged(stage, y, 3) + skip * alpha_step : nullptr;
     const std::vector<float> converted = convert(in, step, to - from);
     const bool as_stored = keeps_values(m_space) && !row.alpha;
     for (size_t x = from; x < to; ++x) {
-        const float a = alpha ? alpha[(x - from) * size_t(m_place[3].stride)] : 1.0f;
+        const float a = alpha ? alpha[(x - from) * alpha_step] : 1.0f;
         const float stored[3] = {in[0][(x - from) * step[0]], in[1][(x - from) * step[1]],
                                  in[2][(x - from) * step[2]]};
         if (as_stored && a == 1 && is_light(stored)) {

@@ -26,6 +26,12 @@ public:
     void keep_color_of_any_alpha() { m_any_alpha = true; }
     /// Negative components stay what they are; before open().
     void keep_negative() { m_least = -FLT_MAX; }
+    /// Pixels that do not count are in no count, and finite: black, or if `keep` their colour,
+    /// where they have one; before open(). Null: all count.
+    void ignore(const IgnoredPixels* ignored, bool keep = false) {
+        m_ignored = ignored;
+        m_keep_ignored = keep;
+    }
     /// Looks at the header only. The image must live as long as this does.
     void open(const OIIO::ImageBuf& image, const PixelOptions& options, OIIO::ROI region,
               bool want_alpha, int nthreads);
@@ -68,6 +74,9 @@ private:
     void clean_row(int y, const Stage& stage, ColorPlanes& planes, ColorCounts& counts) const;
     void clean(const Row& row, size_t from, size_t to, int y, const Stage& stage,
                ColorCounts& counts) const;
+    void clean_some(const Row& row, size_t from, size_t to, int y, const Stage& stage,
+                    ColorCounts& counts) const;
+    void count_pixels();
     void clean_pixel(const Row& row, size_t x, const float (&stored)[3], const float* alpha,
                      const float* converted, ColorCounts& counts) const;
     std::vector<float> convert(const float* const (&in)[3], const size_t (&step)[3],
@@ -83,10 +92,12 @@ private:
     ColorChoice m_choice;
     ColorSpace m_space;
     OIIO::ROI m_region, m_window;
-    bool m_alpha = false, m_watch = false, m_any_alpha = false, m_saving_memory = false;
+    bool m_alpha = false, m_watch = false, m_any_alpha = false, m_saving_memory = false,
+         m_keep_ignored = false;
     float m_least = 0; ///< of a component
     int m_nthreads = 0;
-    int64_t m_uncovered = 0;
+    const IgnoredPixels* m_ignored = nullptr;
+    int64_t m_counted = 0, m_uncovered = 0;
     Place m_place[4];
     Stage m_stage;
 };

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "imagebuf/pixels/ignored_pixels.h"
 #include "imagebuf/pixels/parallel.h"
 
 namespace tonetool {
@@ -19,10 +20,12 @@ void row_of_luminance(const ColorPlanes& planes, const OIIO::ROI& window, int y,
     planes.row(planes.region.xbegin, y, rgb);
     luminances(rgb[0], rgb[1], rgb[2], out, width);
     const uint8_t* nonfinite = planes.nonfinite.data() + planes.at(y);
+    const uint8_t* ignored = planes.ignored ? planes.ignored->row(y) : nullptr;
     const bool inside = y >= window.ybegin && y < window.yend;
     for (int i = 0; i < width; ++i) {
         const int x = planes.region.xbegin + i;
-        if (nonfinite[i] || !inside || x < window.xbegin || x >= window.xend)
+        if (nonfinite[i] || !inside || x < window.xbegin || x >= window.xend ||
+            (ignored && ignored[i] != 0))
             out[i] = kNan;
     }
 }

@@ -4,6 +4,7 @@
 #include <OpenImageIO/strutil.h>
 #include <algorithm>
 
+#include "imagebuf/options/ignore_options.h"
 #include "imagebuf/options/summary_fields.h"
 
 namespace tonetool {
@@ -95,11 +96,19 @@ void annotate_tone(const Writer& to, const FlipSummary& summary) {
         visit_bake_error(to.fields(summary));
 }
 
+template <class Summary>
+void annotate_ignored(const Writer& to, const Summary& summary) {
+    visit_ignored(summary, [&](const SummaryField& field, double share) {
+        to.number(attribute_name(field), share);
+    });
+}
+
 void annotate_pair(const Writer& to, const PairSummary& summary) {
     annotate_pool(to, summary.pool);
     visit_side(to.fields(summary.reference, "reference"));
     visit_side(to.fields(summary.test, "test"));
     visit_pair_counts(to.fields(summary));
+    annotate_ignored(to, summary);
     if (summary.alpha_compared)
         visit_alpha(to.fields(summary));
 }
@@ -158,6 +167,7 @@ void annotate(ImageSpec& spec, const BiasSummary& summary) {
         to.number(name, value);
     visit_side(to.fields(summary.reference, "reference"));
     visit_side(to.fields(summary.test, "test"));
+    annotate_ignored(to, summary);
     annotate_end(to, summary.warnings);
 }
 

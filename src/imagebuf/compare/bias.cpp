@@ -18,6 +18,7 @@
 #include "imagebuf/pixels/bands.h"
 #include "imagebuf/pixels/deliver.h"
 #include "imagebuf/pixels/guard.h"
+#include "imagebuf/pixels/ignored_pixels.h"
 #include "imagebuf/pixels/parallel.h"
 #include "metrics/refusal.h"
 #include "tonetool/bias.h"
@@ -78,7 +79,11 @@ Digest digest_of(const ColorPlanes& planes) {
 // The seeds of one side: one that stays in memory, or the sums of several.
 class SideReader {
 public:
-    SideReader(const char* who, int nthreads) : m_who(who), m_nthreads(nthreads) {}
+    /// `ignored` as metrics::bias_check() takes it.
+    SideReader(const char* who, const uint8_t* ignored, int nthreads)
+        : m_who(who),
+          m_ignored(ignored),
+          m_nthreads(nthreads) {}
 
     void add(ColorPlanes&& planes, size_t count, BiasSummary& summary) {
         note(planes, summary);
@@ -135,8 +140,9 @@ private:
         constexpr double level = 1e-4;
         BiasTest test;
         test.alpha = level;
-        const BiasResult found = metrics::bias_check(
-            BiasSide(m_planes.view()), BiasSide(planes.view()), test, make_parallel(m_nthreads));
+        const BiasResult found =
+            metrics::bias_check(BiasSide(m_planes.view()), BiasSide(planes.view()), test,
+                                make_parallel(m_nthreads), m_ignored);
         const auto differs = [](const auto& one) { return one.rejected > 0; };
         if (std::any_of(found.gain.begin(), found.gain.end(), differs) ||
             std::any_of(found.scales.begin(), found.scales.end(), differs)) {
@@ -149,6 +155,7 @@ private:
     }
 
     const char* m_who;
+    const uint8_t* m_ignored;
     int m_nthreads;
     int m_seeds = 0;
     ColorPlanes m_planes;
@@ -184,11 +191,17 @@ public:
         for (const auto& fitted : m_fitted)
             fitted->set_region(m_region);
         summary.region = m_region;
+        m_ignored.open(m_options, first.spec(), m_region);
+        summary.ignored = m_ignored.share(m_region);
+        warn_of_ignored(summary.ignored, summary.warnings);
         check_memory();
     }
 
+    const IgnoredPixels& ignored() const { return m_ignored; }
+
     BiasResult judge(BiasSummary& summary) {
-        SideReader reference("reference", m_nthreads), test("test", m_nthreads);
+        const uint8_t* ignored = m_ignored.any() ? m_ignored.all().data() : nullptr;
+        SideReader reference("reference", ignored, m_nthreads), test("test", ignored, m_nthreads);
         for (size_t i = 0; i < m_fitted.size(); ++i) {
             const bool of_test = i >= m_references.size();
             read(i, of_test ? test : reference, of_test ? m_tests.size() : m_references.size(),
@@ -197,7 +210,7 @@ public:
         summary.reference = reference.found();
         summary.test = test.found();
         BiasResult result = metrics::bias_check(reference.side(), test.side(), m_options,
-                                                make_parallel(m_nthreads));
+                                                make_parallel(m_nthreads), ignored);
         result.x = m_region.xbegin;
         result.y = m_region.ybegin;
         refuse_holes(result);
@@ -206,9 +219,9 @@ public:
 
 private:
     // A stray one is a pixel less; of a picture of them nothing can be said.
-    static void refuse_holes(const BiasResult& result) {
+    void refuse_holes(const BiasResult& result) const {
         constexpr double most = 0.01;
-        const double pixels = double(result.width) * result.height;
+        const auto pixels = double(m_ignored.counted(m_region));
         if (double(result.nonfinite) > most * pixels) {
             throw Refusal(format("{} of {} pixels are NaN or Inf in one of the images, more than "
                                  "{:g} %: there is too little left to compare",
@@ -239,7 +252,7 @@ private:
         const bool several_r = m_references.size() > 1, several_t = m_tests.size() > 1;
         const uint64_t pixel = (several_r ? sums : planes) + (several_t ? sums : planes) +
                                (several_r || several_t ? 2 * planes : 0) + blocks;
-        const uint64_t least = kSetAside + pixels * pixel;
+        const uint64_t least = kSetAside + m_ignored.bytes() + pixels * pixel;
         if (m_options.memory > 0 && least > m_options.memory)
             throw Refusal("memory is " + size_text(m_options.memory) + ": needs at least " +
                           size_text(least));
@@ -248,6 +261,7 @@ private:
     void read(size_t i, SideReader& side, size_t count, BiasSummary& summary) {
         const FittedTest& fitted = *m_fitted[i];
         ColorReader reader;
+        reader.ignore(m_ignored.any() ? &m_ignored : nullptr);
         fitted.open_reader(false, m_nthreads, reader);
         if (m_options.memory > 0)
             reader.save_memory();
@@ -263,6 +277,7 @@ private:
     std::vector<BiasSeed> m_references, m_tests;
     std::vector<std::unique_ptr<FittedTest>> m_fitted;
     ROI m_region;
+    IgnoredPixels m_ignored;
 };
 
 // ---- maps
@@ -277,6 +292,13 @@ const MapPlanes kMapPlanes[] = {
     {kBiasMaps[0], BiasMap::Signed, {"difference", "halfwidth", "confidence"}},
     {kBiasMaps[1], BiasMap::P, {"p16", "p32", "p64"}},
     {kBiasMaps[2], BiasMap::Rejected, {"means", "structures"}}};
+
+// 0 where pixels do not count.
+void clear_ignored(const IgnoredPixels& ignored, ImageBuf& map) {
+    for (ImageBuf::Iterator<float> p(map); ignored.any() && !p.done(); ++p)
+        for (int c = 0; c < map.nchannels() && ignored.at(p.x(), p.y()); ++c)
+            p[c] = 0;
+}
 
 ImageBuf make_bias_map(const BiasResult& result, const BiasOptions& options, const ROI& region,
                        const ROI& full, int nthreads) {
@@ -313,6 +335,7 @@ void check_bias(ImageBuf& dst, const Images& references, const Images& tests,
     summary.result = run.judge(summary);
     ImageBuf map = make_bias_map(summary.result, options, summary.region,
                                  references.front()->roi_full(), nthreads);
+    clear_ignored(run.ignored(), map);
     annotate(map.specmod(), summary);
     deliver(dst, std::move(map), "Bias:");
 }

@@ -89,7 +89,8 @@ std::string equal_text(const BiasResult& result) {
     const std::string within = percent(result.options.within);
     switch (result.reason) {
     case BiasReason::Identical:
-        return "equal: every pixel is the same";
+        return std::string("equal: every pixel") + (result.ignored > 0 ? " that counts" : "") +
+               " is the same";
     case BiasReason::Rounding:
         return "equal: no pixel differs by more than the rounding of half floats";
     case BiasReason::DifferencesWithin:
@@ -135,8 +136,10 @@ std::string undecided_text(const BiasResult& result) {
     const std::string name = ToneAlgo::bias_verdict_name(result.verdict);
     switch (result.reason) {
     case BiasReason::TooSmall:
-        return name + format(": the image has {} pixel(s), which are too few (at least 4096)",
-                             int64_t(result.width) * result.height);
+        return name + format(": the image has {} pixel(s){} (at least 4096)",
+                             int64_t(result.width) * result.height - result.ignored,
+                             result.ignored > 0 ? " that count, which are too few or too scattered"
+                                                : ", which are too few");
     case BiasReason::NonFinite:
         return name + format(": of {} pixel(s), which are NaN or Inf, nothing is known; nothing "
                              "else keeps the images from being equal",

@@ -4,6 +4,7 @@
 #include <OpenImageIO/strutil.h>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <mutex>
 
 #include "imagebuf/compare/annotate.h"
@@ -11,6 +12,7 @@
 #include "imagebuf/compare/quantities.h"
 #include "imagebuf/pixels/allocation.h"
 #include "imagebuf/pixels/deliver.h"
+#include "imagebuf/pixels/ignored_pixels.h"
 #include "imagebuf/pixels/parallel.h"
 #include "kernels/flip_tile.h"
 #include "metrics/pooling.h"
@@ -133,6 +135,8 @@ void FlipMaps::take(int begin, int end, const ColorPlanes& reference, const Colo
             compare_alpha(y, sides);
         if (nonfinite)
             override_nonfinite(y, sides);
+        if (reference.ignored)
+            clear_ignored(y, *reference.ignored);
         const Unseen found = unseen(y, sides);
         const std::lock_guard<std::mutex> hold(lock);
         m_unseen.differing += found.differing;
@@ -174,6 +178,44 @@ void FlipMaps::override_nonfinite(int y, const Sides& sides) {
         for (FlipExposure& picture : m_pictures)
             row(picture.flip, y)[x] = error;
     }
+}
+
+void FlipMaps::clear_ignored(int y, const IgnoredPixels& ignored) {
+    for (int x = m_roi.xbegin; x < m_roi.xend; ++x) {
+        if (!ignored.at(x, y))
+            continue;
+        const auto at = size_t(x - m_roi.xbegin);
+        row(m_error, y)[at] = 0;
+        if (m_index.initialized())
+            row(m_index, y)[at] = 0;
+        for (FlipExposure& picture : m_pictures)
+            row(picture.flip, y)[at] = 0;
+    }
+}
+
+void FlipMaps::mark_ignored(const IgnoredPixels& ignored, float value) {
+    make_parallel(m_nthreads)(m_roi.height(), [&](int64_t i) {
+        const int y = m_roi.ybegin + int(i);
+        float* error = row(m_error, y);
+        for (int x = m_roi.xbegin; x < m_roi.xend; ++x)
+            if (ignored.at(x, y))
+                error[x - m_roi.xbegin] = value;
+    });
+}
+
+// Where pixels do not count the map has gaps while it is pooled.
+FlipPool FlipMaps::pooled(const IgnoredPixels* ignored) {
+    using metrics::Gaps;
+    metrics::PoolRequest further = m_plan.pool;
+    if (ignored)
+        mark_ignored(*ignored, std::numeric_limits<float>::quiet_NaN());
+    FlipPool pool = metrics::pool(
+        row(m_error, m_roi.ybegin), m_roi.width(), m_roi.height(), m_roi.width(), m_roi.xbegin,
+        m_roi.ybegin, make_parallel(m_nthreads), &further, ignored ? Gaps::Nan : Gaps::None);
+    if (ignored)
+        mark_ignored(*ignored, 0);
+    name_further(further, pool);
+    return pool;
 }
 
 // Scene values that all that is white at the darkest exposure reaches, and all that is black at the
@@ -312,7 +354,9 @@ FlipSummary FlipMaps::summarize(const Sides& sides, const Found& found) {
     s.nonfinite_both = found.nonfinite.alike;
     s.nonfinite_unlike = found.nonfinite.unlike;
     s.alpha_ignored = found.alpha_ignored;
+    s.ignored = found.ignored;
     s.warnings = found.notes;
+    warn_of_ignored(s.ignored, s.warnings);
     if (m_plan.hdr) {
         s.tonemapper = m_plan.tonemapper;
         s.parameters = m_plan.curve.parameters;
@@ -336,11 +380,8 @@ FlipSummary FlipMaps::summarize(const Sides& sides, const Found& found) {
             s.alpha_max_y = m_roi.ybegin + int(y);
         }
     }
-    s.alpha_mean /= double(m_roi.width()) * m_roi.height();
-    metrics::PoolRequest further = m_plan.pool;
-    s.pool = metrics::pool(row(m_error, m_roi.ybegin), m_roi.width(), m_roi.height(), m_roi.width(),
-                           m_roi.xbegin, m_roi.ybegin, make_parallel(m_nthreads), &further);
-    name_further(further, s.pool);
+    s.pool = pooled(sides.reference.ignored);
+    s.alpha_mean /= double(s.pool.pixels);
     collect_warnings(sides.reference, sides.test, s);
     warn_of_unseen(sides, s);
     warn_of_clipped(s);

@@ -18,6 +18,7 @@ struct Found {
     NonfiniteBoth nonfinite;
     int64_t alpha_ignored = 0; ///< pixels whose alpha differs and is not compared
     std::vector<std::string> notes;
+    std::optional<double> ignored; ///< share of the pixels that do not count
 };
 
 /// The results of one test over the pixels asked for: filled band by band, then finished.
@@ -59,6 +60,9 @@ private:
     float* row(OIIO::ImageBuf& image, int y) const;
     void compare_alpha(int y, const Sides& sides);
     void override_nonfinite(int y, const Sides& sides);
+    void clear_ignored(int y, const IgnoredPixels& ignored);
+    void mark_ignored(const IgnoredPixels& ignored, float value);
+    FlipPool pooled(const IgnoredPixels* ignored);
     Clipping clipping() const;
     Unseen unseen(int y, const Sides& sides) const;
     void count_hidden(const std::vector<float> (&pixels)[2][3], Unseen& found) const;

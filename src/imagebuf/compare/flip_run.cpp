@@ -9,6 +9,7 @@
 #include "imagebuf/compare/ignored_alpha.h"
 #include "imagebuf/compare/pair.h"
 #include "imagebuf/pixels/bands.h"
+#include "imagebuf/pixels/ignored_pixels.h"
 #include "imagebuf/pixels/parallel.h"
 #include "metrics/errors.h"
 #include "metrics/luminance.h"
@@ -59,7 +60,8 @@ public:
             begin = end;
         }
         for (size_t t = 0; t < dst.size(); ++t) {
-            const Found found{m_both[t], ignored_alpha(t), m_fitted[t].notes()};
+            const Found found{m_both[t], ignored_alpha(t), m_fitted[t].notes(),
+                              m_ignored.share(m_roi)};
             filled[t].finish(m_reference.planes, m_tests[t].planes, found, maps.emplace_back(),
                              results.emplace_back());
         }
@@ -73,12 +75,17 @@ private:
         m_roi = roi.defined() ? OIIO::roi_intersection(roi, m_region) : m_region;
         if (m_roi.width() <= 0 || m_roi.height() <= 0)
             throw Refusal("the region of interest holds no pixel of the images");
+        m_ignored.open(m_plan.common, m_image.spec(), m_region);
+        (void)m_ignored.counted(m_roi);
     }
+
+    const IgnoredPixels* ignored() const { return m_ignored.any() ? &m_ignored : nullptr; }
 
     void open(size_t count) {
         m_reference.name = side_name("reference", m_image);
         if (!m_plan.alpha())
             m_reference.reader.watch_alpha();
+        m_reference.reader.ignore(ignored(), true);
         of_side(m_reference.name, [&] {
             m_reference.reader.open(m_image, m_plan.common.pixels, m_region, m_plan.alpha(),
                                     m_nthreads);
@@ -90,6 +97,7 @@ private:
             m_tests[t].name = m_fitted[t].name();
             if (!m_plan.alpha())
                 m_tests[t].reader.watch_alpha();
+            m_tests[t].reader.ignore(ignored());
             m_fitted[t].open_reader(m_plan.alpha(), m_nthreads, m_tests[t].reader);
             m_tests[t].planes = m_fitted[t].planes(m_tests[t].reader);
             if (m_plan.alpha() && m_reference.planes.choice.a < 0 && m_tests[t].planes.choice.a < 0)
@@ -105,7 +113,7 @@ private:
             m_reference.planes.counts.alpha_digest == m_tests[test].planes.counts.alpha_digest)
             return 0;
         return count_alpha_differences(m_image, m_reference.planes.choice, m_fitted[test].image(),
-                                       m_fitted[test].choice(), m_roi);
+                                       m_fitted[test].choice(), m_roi, ignored());
     }
 
     bool keeps_each() const { return m_plan.hdr && m_plan.hdr_options.want_exposures; }
@@ -126,7 +134,7 @@ private:
             m_needs.thread =
                 flip::work_bytes(bounded(), m_roi.width(), m_tests.size(), keeps_each());
         m_needs.threads = oiio::threads_of(m_nthreads);
-        m_needs.held = m_held;
+        m_needs.held = m_held + m_ignored.bytes();
         for (size_t i = 0; i <= m_tests.size(); ++i) {
             const ColorReader& reader = i == 0 ? m_reference.reader : m_tests[i - 1].reader;
             m_needs.row += reader.row_bytes();
@@ -211,6 +219,7 @@ private:
 
     void substitute(size_t test, int fresh) {
         ColorPlanes &r = m_reference.planes, &t = m_tests[test].planes;
+        take_reference(r, t, fresh, r.end);
         substitute_nonfinite(r, t, r.begin, fresh);
         const NonfiniteBoth both = substitute_nonfinite(r, t, fresh, r.end);
         m_both[test].alike += both.alike;
@@ -281,6 +290,7 @@ private:
     const ImageBuf& m_image;
     int m_nthreads, m_radius;
     ROI m_region, m_roi;
+    IgnoredPixels m_ignored;
     const FittedTest* m_fitted = nullptr;
     uint64_t m_held = 0;
     MemoryNeeds m_needs;

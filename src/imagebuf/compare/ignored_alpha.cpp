@@ -57,8 +57,8 @@ private:
 } // namespace
 
 int64_t count_alpha_differences(const ImageBuf& reference, const ColorChoice& of_reference,
-                                const ImageBuf& test, const ColorChoice& of_test,
-                                const ROI& region) {
+                                const ImageBuf& test, const ColorChoice& of_test, const ROI& region,
+                                const IgnoredPixels* ignored) {
     AlphaRows r, t;
     ROI both = OIIO::roi_intersection(plane_of(reference.roi()), plane_of(test.roi()));
     both = OIIO::roi_intersection(both, region);
@@ -71,9 +71,13 @@ int64_t count_alpha_differences(const ImageBuf& reference, const ColorChoice& of
         const int end = std::min(y + step, both.yend);
         r.read(y, end, both);
         t.read(y, end, both);
-        for (size_t i = 0; i < r.values().size(); ++i)
+        for (size_t i = 0; i < r.values().size(); ++i) {
+            const auto width = size_t(both.width());
+            if (ignored && ignored->at(both.xbegin + int(i % width), y + int(i / width)))
+                continue;
             count += !(std::abs(double(r.values()[i]) - double(t.values()[i])) <= rounding) &&
                      r.values()[i] != t.values()[i];
+        }
     }
     return count;
 }

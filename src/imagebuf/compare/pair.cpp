@@ -12,6 +12,7 @@
 #include "imagebuf/aov/channels.h"
 #include "imagebuf/pixels/allocation.h"
 #include "imagebuf/pixels/bands.h"
+#include "imagebuf/pixels/ignored_pixels.h"
 #include "imagebuf/pixels/layer_name.h"
 #include "imagebuf/pixels/names.h"
 #include "imagebuf/pixels/oiio_compat.h"
@@ -73,10 +74,6 @@ ImageBuf interleaved(const ColorPlanes& planes, const ROI& full) {
             pixels[i * channels + 3] = planes.alpha[i];
     }
     return image;
-}
-
-int64_t pixels_of(const ColorPlanes& planes) {
-    return int64_t(planes.width()) * planes.region.height();
 }
 
 // What resizing holds at most: planes and image, or images with and without holes before and after.
@@ -269,13 +266,13 @@ void warn_of_holes(const FlipSide& side, const std::string& who,
 }
 
 void check_covered(const ColorPlanes& planes, const std::string& who) {
-    if (planes.uncovered_count >= pixels_of(planes))
+    if (planes.uncovered_count >= planes.counted)
         throw Refusal(
             who + "'s data window covers none of the compared pixels: there is nothing to compare");
 }
 
 void check_finite(const ColorPlanes& planes, const std::string& who) {
-    if (planes.counts.nonfinite + planes.uncovered_count >= pixels_of(planes))
+    if (planes.counts.nonfinite + planes.uncovered_count >= planes.counted)
         throw Refusal(who + " has no finite pixel: there is nothing to compare");
 }
 
@@ -309,6 +306,21 @@ NonfiniteBoth substitute_nonfinite(ColorPlanes& r, ColorPlanes& t, int begin, in
             bad.plane[p][i] = good.plane[p][i];
     }
     return both;
+}
+
+void take_reference(const ColorPlanes& r, ColorPlanes& t, int begin, int end) {
+    const auto width = size_t(r.width());
+    for (int y = begin; y < end && r.ignored; ++y) {
+        const uint8_t* ignored = r.ignored->row(y);
+        for (size_t x = 0, i = r.at(y); x < width; ++x, ++i) {
+            if (ignored[x] == 0)
+                continue;
+            for (size_t p = 0; p < 3; ++p)
+                t.plane[p][i] = r.plane[p][i];
+            if (!t.alpha.empty())
+                t.alpha[i] = r.alpha[i];
+        }
+    }
 }
 
 void fill_nonfinite(ColorPlanes& planes, float value) {

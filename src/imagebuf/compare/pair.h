@@ -91,6 +91,10 @@ bool nonfinite_alike(const ColorPlanes& reference, size_t at, const ColorPlanes&
 /// counts the latter; once more it changes nothing.
 NonfiniteBoth substitute_nonfinite(ColorPlanes& reference, ColorPlanes& test, int begin, int end);
 
+/// Gives pixels that do not count the reference's colour and alpha, so that the neighbourhood sees
+/// no difference there. Works on rows that both hold.
+void take_reference(const ColorPlanes& reference, ColorPlanes& test, int begin, int end);
+
 /// Gives the non-finite pixels of an image this value in R, G and B.
 void fill_nonfinite(ColorPlanes& planes, float value);
 

@@ -95,6 +95,10 @@ void visit_pair_counts(const Visit& visit) {
           &S::alpha_ignored);
 }
 
+/// Where a mask or a region was given; of PairSummary and BiasSummary.
+inline constexpr SummaryField kIgnoredField{
+    "ignored", "Part of the compared pixels that mask and ignore leave out; None: neither given."};
+
 /// Where alpha is compared.
 template <class Visit>
 void visit_alpha(const Visit& visit) {

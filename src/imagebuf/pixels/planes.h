@@ -14,6 +14,8 @@
 
 namespace tonetool {
 
+class IgnoredPixels;
+
 /// What was found in the pixels read so far, each of them looked at once.
 struct ColorCounts {
     int64_t nonfinite = 0, negative = 0;
@@ -42,7 +44,10 @@ struct ColorPlanes {
     PagedArray<uint64_t> beside;
     bool knows_kinds = true; ///< resizing leaves NaN of everything that is not finite
     ColorCounts counts;
-    int64_t uncovered_count = 0; ///< pixels of the region outside the data window
+    /// Which pixels do not count: they are in no count, and finite. Null where all count.
+    const IgnoredPixels* ignored = nullptr;
+    int64_t counted = 0;         ///< pixels of the region that count,
+    int64_t uncovered_count = 0; ///< and those of them outside the data window
 
     int width() const { return region.width(); }
     bool whole() const { return begin == region.ybegin && end == region.yend; }

@@ -7,6 +7,7 @@
 
 #include "imagebuf/color/luminance_plane.h"
 #include "imagebuf/pixels/guard.h"
+#include "imagebuf/pixels/ignored_pixels.h"
 #include "imagebuf/pixels/parallel.h"
 #include "imagebuf/pixels/row_source.h"
 #include "metrics/luminance.h"
@@ -19,14 +20,17 @@ using OIIO::ImageBuf;
 using OIIO::ROI;
 
 void measure(LuminanceStats& stats, const ImageBuf& src, const PixelOptions& options, ROI roi,
-             int nthreads) {
+             int nthreads, const IgnoreOptions& without) {
     check_readable(src, "source");
     const ROI region = part_of(src, roi);
+    IgnoredPixels ignored;
+    ignored.open(without, src.spec(), region);
     ColorReader reader;
+    reader.ignore(ignored.any() ? &ignored : nullptr);
     reader.open(src, options, region, false, nthreads);
     ColorPlanes planes = reader.planes();
     const auto luminance = read_luminance(reader, planes, nthreads);
-    const int64_t pixels = int64_t(region.width()) * region.height();
+    const int64_t pixels = ignored.counted(region);
     if (planes.counts.nonfinite == pixels)
         throw Refusal("the image has no finite pixel");
     stats = metrics::luminance(luminance.data(), region.width(), region.height(),
@@ -63,8 +67,9 @@ void scale_color(ImageBuf& dst, const ImageBuf& src, double stops, const PixelOp
 namespace ToneAlgo {
 
 bool luminance_stats(LuminanceStats& stats, const ImageBuf& src, std::string& error,
-                     const PixelOptions& options, ROI roi, int nthreads) {
-    return contained(error, [&] { measure(stats, src, options, roi, nthreads); });
+                     const PixelOptions& options, ROI roi, int nthreads,
+                     const IgnoreOptions& ignored) {
+    return contained(error, [&] { measure(stats, src, options, roi, nthreads, ignored); });
 }
 
 bool exposure(ImageBuf& dst, const ImageBuf& src, double stops, const PixelOptions& options,

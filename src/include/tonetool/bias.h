@@ -25,7 +25,8 @@ namespace tonetool {
 /// The maps of bias_check().
 inline constexpr const char* kBiasMaps[] = {"signed", "p", "rejected", "all"};
 
-struct BiasOptions : BiasTest {
+/// The pixels that do not count are 0 in all images, and no block has them.
+struct BiasOptions : BiasTest, IgnoreOptions {
     PixelOptions pixels;                 ///< layer and colour space, for all images
     SizePolicy size = SizePolicy::Match; ///< for images with different display windows
     /// Two layers that hold images of independent halves of the samples, which a renderer has
@@ -47,6 +48,8 @@ struct BiasSummary {
     BiasResult result;
     FlipSide reference, test;
     OIIO::ROI region; ///< pixels compared
+    /// The part of them that does not count; unset: neither a mask nor a region was given.
+    std::optional<double> ignored;
     /// Warnings for the user, one sentence each.
     std::vector<std::string> warnings;
 };

@@ -87,6 +87,7 @@ struct BiasResult {
     int x = 0, y = 0;                                     ///< of the first pixel
     int width = 0, height = 0, references = 0, tests = 0; ///< references, tests: seeds
     int64_t nonfinite = 0;                                ///< pixels that count as 0 on both sides
+    int64_t ignored = 0;                                  ///< pixels that do not count at all
 
     /// False after a short cut (identical, rounding, too small): what follows, down to `scales`, is
     /// empty then.

@@ -4,16 +4,49 @@
 
 #include <OpenImageIO/imagebuf.h>
 #include <cstdint>
+#include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "tonetool/export.h"
 #include "tonetool/numbers.h"
 #include "tonetool/pixels.h"
 
 namespace tonetool {
 
+/// A mask: a file, or an image in memory.
+struct Mask {
+    std::string file;
+    std::shared_ptr<const OIIO::ImageBuf> image; ///< instead of the file
+
+    bool given() const { return image || !file.empty(); }
+};
+
+/// Which pixels of a comparison do not count.
+///
+/// A pixel counts where the first channel of the mask is 0.5 or more and no region of `ignore`
+/// covers it. What does not count takes the reference's colour in the tests, so that neighbours see
+/// no difference; the map is 0 there, and it is in no number: not in the pool and its pixels, the
+/// exposures, the counts of pixels that are not finite, negative or not covered.
+///
+/// The mask lies on the reference's display window and must have its size (of its own display
+/// window), wherever its own begins, and its Orientation. Its values are taken as they are stored,
+/// integers as 0 to 1, without a conversion of colours; NaN does not count, and neither does what
+/// lies outside the mask's data window. Compared pixels outside of both its windows (overscan,
+/// which a mask of the display window cannot know of) count. No pixel that counts is an error; more
+/// than half that does not, a warning.
+struct IgnoreOptions {
+    Mask mask;
+    /// Regions that do not count, "WxH+X+Y" in the reference's pixels; one that holds no compared
+    /// pixel is an error.
+    std::vector<std::string> ignore;
+
+    bool any() const { return mask.given() || !ignore.empty(); }
+};
+
 /// How a reference and a test image are brought together.
-struct PairOptions {
+struct PairOptions : IgnoreOptions {
     PixelOptions pixels;                 ///< layer and colour space, for both images
     SizePolicy size = SizePolicy::Match; ///< for images with different display windows
     AlphaPolicy alpha = AlphaPolicy::Ignore;
@@ -48,6 +81,8 @@ struct PairSummary {
     /// Pixels whose alpha differs, where alpha is ignored.
     int64_t alpha_ignored = 0;
     OIIO::ROI region; ///< pixels compared
+    /// The part of them that does not count, 0 to 1; unset: neither a mask nor a region was given.
+    std::optional<double> ignored;
     bool alpha_compared = false;
     double alpha_mean = 0, alpha_max = 0; ///< |alpha difference|
     int alpha_max_x = 0, alpha_max_y = 0;
@@ -56,4 +91,16 @@ struct PairSummary {
     std::vector<std::string> warnings;
 };
 
+namespace ToneAlgo {
+
+/// The pixels of `region` that do not count, as every comparison with these options finds them: 1
+/// for each, row by row, else 0. `reference` is its header. Adds to `warnings` if more than half do
+/// not count. Returns false with the reason in `error`: a mask that cannot be read or is of another
+/// size, a region that is none, no pixel that counts. The mask is read by the call itself, past
+/// every ImageCache, unless it was read before.
+TONETOOL_API bool ignored_pixels(std::vector<uint8_t>& ignored, const OIIO::ImageSpec& reference,
+                                 const IgnoreOptions& options, OIIO::ROI region,
+                                 std::vector<std::string>& warnings, std::string& error);
+
+} // namespace ToneAlgo
 } // namespace tonetool

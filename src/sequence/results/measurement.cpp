@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sequence/results/measurement.h"
 
+#include <cmath>
+
+#include "imagebuf/options/ignore_options.h"
 #include "imagebuf/options/summary_fields.h"
 
 namespace tonetool::sequence {
@@ -35,11 +38,18 @@ void add_pool(Measurement& to, const FlipPool& pool) {
     to.pixels = pool.pixels;
 }
 
+template <class Summary>
+void add_ignored(Measurement& to, const Summary& summary) {
+    visit_ignored(
+        summary, [&](const SummaryField& field, double share) { add(to, key_name(field), share); });
+}
+
 void add_pair(Measurement& to, const PairSummary& summary) {
     add_pool(to, summary.pool);
     visit_side(fields(to, summary.reference, "reference"));
     visit_side(fields(to, summary.test, "test"));
     visit_pair_counts(fields(to, summary));
+    add_ignored(to, summary);
     if (summary.alpha_compared)
         visit_alpha(fields(to, summary));
     to.warnings = summary.warnings;
@@ -114,9 +124,11 @@ Measurement measurement(const BiasSummary& summary) {
                      {"power", result.options.power}};
     visit_side(fields(to, summary.reference, "reference"));
     visit_side(fields(to, summary.test, "test"));
+    add_ignored(to, summary);
     if (const auto place = ToneAlgo::bias_place(result))
         to.worst = Position{place->x, place->y};
-    to.pixels = static_cast<long long>(summary.region.npixels());
+    const auto pixels = double(summary.region.npixels());
+    to.pixels = std::llround(pixels * (1 - summary.ignored.value_or(0)));
     to.warnings = summary.warnings;
     return to;
 }

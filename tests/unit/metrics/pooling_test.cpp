@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <random>
 #include <vector>
@@ -141,6 +142,39 @@ TEST(Pool, OnePixelAndNone) {
     EXPECT_EQ(p.min_y, 5);
     EXPECT_EQ(p.pixels, 1);
     EXPECT_EQ(pool(nullptr, 0, 5, 0, 0, 0, in_order()).pixels, 0);
+}
+
+// Gaps are as if the pixels around them were next to each other.
+TEST(Pool, GapsDoNotCount) {
+    constexpr int width = 40, height = 30, left = 7, top = 3, inner = 26, rows = 20;
+    auto map = random_map(size_t(width) * size_t(height));
+    std::vector<float> crop;
+    for (int y = 0; y < height; ++y)
+        for (int x = 0; x < width; ++x) {
+            float& value = map[size_t(y * width + x)];
+            if (x >= left && x < left + inner && y >= top && y < top + rows)
+                crop.push_back(value);
+            else
+                value = std::numeric_limits<float>::quiet_NaN();
+        }
+    PoolRequest of_gaps{{99.95}, {0.5}, {}, {}}, of_crop = of_gaps;
+    const FlipPool a =
+        pool(map.data(), width, height, width, 0, 0, on_threads(3), &of_gaps, Gaps::Nan);
+    const FlipPool b = pool(crop.data(), inner, rows, inner, left, top, in_order(), &of_crop);
+    EXPECT_EQ(a.mean, b.mean);
+    EXPECT_EQ(a.weighted_q1, b.weighted_q1);
+    EXPECT_EQ(a.p95, b.p95);
+    EXPECT_EQ(a.min, b.min);
+    EXPECT_EQ(a.max, b.max);
+    EXPECT_EQ(std::vector({a.min_x, a.min_y, a.max_x, a.max_y}),
+              std::vector({b.min_x, b.min_y, b.max_x, b.max_y}));
+    EXPECT_EQ(a.histogram, b.histogram);
+    EXPECT_EQ(a.pixels, inner * rows);
+    EXPECT_EQ(of_gaps.found_percentiles, of_crop.found_percentiles);
+    EXPECT_EQ(of_gaps.found_above, of_crop.found_above);
+    std::fill(map.begin(), map.end(), std::numeric_limits<float>::quiet_NaN());
+    EXPECT_EQ(pool(map.data(), width, height, width, 0, 0, in_order(), nullptr, Gaps::Nan).pixels,
+              0);
 }
 
 // 8K worth of equal errors: a sum in float would be 9 % off.

@@ -139,6 +139,17 @@ TEST(Bands, WithHolesAndNegativeValuesAtTheirSeams) {
     expect_bands_alike(holed(clean, 11, 1), {&holes, &other, &clean});
 }
 
+TEST(Bands, WithPixelsThatDoNotCount) {
+    const auto clean = picture(3);
+    const auto other = disturbed(clean, 0.3, 4);
+    HdrFlipOptions some = all_maps();
+    some.ignore = {"12x20+3+10", "40x1+0+15", "1x83+7+0"};
+    expect_bands_alike(clean, {&other}, some);
+    const auto holes = holed(other, 7, 1), reference = holed(clean, 11, 1);
+    expect_bands_alike(reference, {&holes, &other, &clean}, some);
+    expect_bands_alike(reference, {&holes}, some, ROI(2, 41, 5, 61));
+}
+
 TEST(Bands, WithoutADifferenceThatShows) {
     const auto reference = picture(5), shifted = scaled(reference, -0.5);
     HdrFlipOptions given;
