@@ -264,10 +264,10 @@ CheckedFrames::CheckedFrames(const FrameContext& context, const std::optional<St
     : m_context(context),
       m_state(state),
       m_pictures(pictures),
+      m_images(case_images(context.plan.check)),
       m_results(context.plan.runs.size()) {}
 
-FrameResult CheckedFrames::unchecked(size_t index) const {
-    const FramePlan& plan = m_context.plan;
+FrameResult unchecked_frame(const FramePlan& plan, size_t index) {
     const FrameRun& run = plan.runs[index];
     const Strings names =
         words_at(run.words, plan.sequences.empty() ? plan.check.inputs : plan.sequences);
@@ -285,14 +285,18 @@ FrameResult CheckedFrames::unchecked(size_t index) const {
 CheckedFrames::Checked CheckedFrames::check(size_t index) const {
     const FramePlan& plan = m_context.plan;
     const FrameRun& run = plan.runs[index];
-    Checked checked{unchecked(index), "", ""};
+    Checked checked{unchecked_frame(plan, index), "", ""};
     FrameResult& result = checked.result;
     std::ostringstream out, err;
     Session session = m_context.session(index, out, err);
     sequence::FramePainter painter{m_pictures, {}};
     painter.pair_comes = draws_pairs(plan.line);
     session.check.result = &result;
-    session.check.painter = draws(plan.check) ? &painter : nullptr;
+    sequence::CaseDrawing drawing;
+    drawing.worst_asked = m_images.has_value();
+    painter.for_report = draws(plan.check);
+    painter.beside = m_images ? &drawing : nullptr;
+    session.check.painter = painter.for_report || painter.beside ? &painter : nullptr;
     m_context.run_commands(session, index);
     result.warnings = session.outcome.warning_texts;
     if (session.outcome.warnings > int(result.warnings.size()))
@@ -305,6 +309,7 @@ CheckedFrames::Checked CheckedFrames::check(size_t index) const {
         result.message = run.absent;
     if (painter.drawn)
         checked.pictures = m_pictures.texts(result, *painter.drawn);
+    write_images(drawing, checked);
     // Warnings are the verdict's matter: whether they count may differ when the result is found.
     const int status = session.exit_status();
     checked.status = status == 2 ? 0 : status;
@@ -315,6 +320,29 @@ CheckedFrames::Checked CheckedFrames::check(size_t index) const {
     return checked;
 }
 
+// Rules over all frames find faults, and limits follow from them.
+bool CheckedFrames::may_fail_at_end(const FrameResult& result) const {
+    const CheckPlan& check = m_context.plan.check;
+    const auto is_automatic = [](const sequence::Measurement& one) {
+        return std::any_of(one.thresholds.begin(), one.thresholds.end(),
+                           [](const sequence::Threshold& limit) { return limit.automatic; });
+    };
+    return check.has("qc") || check.has("against") ||
+           std::any_of(result.measurements.begin(), result.measurements.end(), is_automatic);
+}
+
+void CheckedFrames::write_images(const sequence::CaseDrawing& drawing, Checked& checked) const {
+    const FrameResult& result = checked.result;
+    const bool wanted = m_images && drawing.worst.test.initialized() &&
+                        (m_images->wants(result.status) || may_fail_at_end(result));
+    try {
+        if (wanted)
+            m_images->write(result, drawing.worst);
+    } catch (const std::exception& problem) {
+        checked.unkept = std::string("--images: ") + problem.what();
+    }
+}
+
 // What an earlier run has kept, with the pictures where there are to be some.
 std::optional<CheckedFrames::Checked> CheckedFrames::find(size_t index) const {
     auto kept = m_state->find(m_context.item(index), origin(index));
@@ -322,6 +350,8 @@ std::optional<CheckedFrames::Checked> CheckedFrames::find(size_t index) const {
         return std::nullopt;
     FrameResult found = sequence::frame_from_json(kept->result);
     if (draws(m_context.plan.check) && !m_pictures.restore(found))
+        return std::nullopt;
+    if (m_images && m_images->wants(found.status) && !m_images->has(found))
         return std::nullopt;
     return Checked{
         std::move(found),        std::move(kept->out), std::move(kept->err), kept->status, true,
@@ -338,7 +368,7 @@ CheckedFrames::Checked CheckedFrames::check_or_find(size_t index) const {
         const std::string error = keep_in(
             *m_state, m_context.item(index), origin(index), made.files,
             {sequence::to_json(made.result), made.out, made.err, made.status, made.written});
-        if (!error.empty())
+        if (!error.empty() && made.unkept.empty())
             made.unkept = "--state: " + error;
     }
     return made;
@@ -367,7 +397,7 @@ Ran CheckedFrames::run(size_t index, std::ostream& out, std::ostream& err) {
 }
 
 Ran CheckedFrames::failed(size_t index, Status status, const std::string& why, std::ostream& err) {
-    FrameResult result = unchecked(index);
+    FrameResult result = unchecked_frame(m_context.plan, index);
     result.status = status;
     result.message = status == Status::Crashed ? crashed(why) : why;
     m_context.print_error(index, result.message, err);
@@ -401,6 +431,8 @@ void CheckedFrames::take(size_t index, Ran& ran) {
         // What the process had begun to write.
         remove_abandoned_outputs(
             words_at(m_context.plan.runs[index].words, m_context.plan.check.outputs));
+        if (m_images)
+            remove_abandoned_outputs(m_images->files(result).all());
     }
     if (!draws(m_context.plan.check))
         return;

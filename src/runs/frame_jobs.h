@@ -9,6 +9,7 @@
 
 #include "chain/session/session.h"
 #include "runs/loop.h"
+#include "sequence/report/case_images.h"
 #include "sequence/report/report_store.h"
 #include "sequence/results/shot_exposures.h"
 #include "sequence/results/state.h"
@@ -29,6 +30,9 @@ struct FrameContext {
     /// Prints what ended the run of a frame, as its commands' errors are printed.
     void print_error(size_t index, const std::string& error, std::ostream& err) const;
 };
+
+/// The result of a frame before anything is known of it.
+sequence::FrameResult unchecked_frame(const FramePlan& plan, size_t index);
 
 /// A frame whose commands do what they do.
 class PlainFrames final : public FrameJob {
@@ -103,13 +107,14 @@ private:
         std::string unkept{};      ///< why its result could not be kept for a later run
     };
 
-    sequence::FrameResult unchecked(size_t index) const;
     Checked check(size_t index) const;
     std::optional<Checked> find(size_t index) const;
     Checked check_or_find(size_t index) const;
     sequence::Origin origin(size_t index) const;
     // Frames of several processes must not write one file either.
     void claim(const Strings& written, sequence::FrameResult& result, Ran& ran) const;
+    bool may_fail_at_end(const sequence::FrameResult& result) const;
+    void write_images(const sequence::CaseDrawing& drawing, Checked& checked) const;
 
     const FrameContext& m_context;
     const std::optional<sequence::State>& m_state;
@@ -117,6 +122,7 @@ private:
     void keep_pictures(bool known, const sequence::PictureTexts& texts,
                        const sequence::FrameResult& result);
 
+    std::optional<sequence::CaseImages> m_images; ///< of --images
     std::vector<sequence::FrameResult> m_results;
     std::string m_unkept;
 };

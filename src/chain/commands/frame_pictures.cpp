@@ -62,6 +62,14 @@ void show(Session& session, const Call& call, sequence::PictureRequest request) 
     }
     sequence::FrameResult so_far = *session.check.result;
     sequence::judge(so_far);
+    try {
+        if (painter.beside)
+            painter.beside->take(request, so_far);
+    } catch (const std::exception& problem) {
+        session.report(call.row().label() + ": no images: " + problem.what());
+    }
+    if (!painter.for_report)
+        return;
     ask_for_worst(request, painter, so_far);
     for (const sequence::Measurement& measured : so_far.measurements)
         if (measured.worst && request.full)

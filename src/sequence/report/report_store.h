@@ -12,6 +12,7 @@
 #include <tuple>
 #include <vector>
 
+#include "sequence/report/case_pictures.h"
 #include "sequence/report/report_pictures.h"
 #include "sequence/results/results.h"
 
@@ -109,6 +110,8 @@ struct FramePainter {
     bool pair = false; ///< a pair was drawn as it was compared, not an image
     /// A later command draws a pair: of an image before it only thumbnails and spots are needed.
     bool pair_comes = false;
+    bool for_report = true;        ///< else `drawn` stays empty
+    CaseDrawing* beside = nullptr; ///< what is drawn for --images and --figure
 
     bool wants(const PictureRequest& request) const {
         return !drawn || (!pair && request.reference);

@@ -4,6 +4,7 @@
 
 #include <string>
 
+#include "sequence/results/case_files.h"
 #include "sequence/results/results.h"
 
 namespace tonetool::sequence {
@@ -16,6 +17,12 @@ std::string github_text(const ShotResult& shot);
 /// did not pass. GitHub refuses a summary of more than 1 MiB as a whole: it is cut at 200 rows or
 /// 900 kB, with a line that counts the rest.
 std::string summary_text(const ShotResult& shot);
+
+/// --ctest: a line for each number that has a limit (or the first where none has), for the verdict
+/// and for each image, as CTest finds them in what a test prints. Of several cases the names begin
+/// with the case's, and only the worst has images: CDash compares what is called TestImage,
+/// ValidImage and DifferenceImage2.
+std::string ctest_text(const ShotResult& shot, const CaseFiles& images);
 
 /// Adds the text to the end of a file, which may hold others' already. Throws a runtime_error where
 /// it cannot be written.
