@@ -134,7 +134,7 @@ void write_for_others(const sequence::ShotResult& shot, const CheckPlan& check, 
 // What there is of --images, without what is of an earlier run.
 sequence::CaseFiles images_at_end(const sequence::ShotResult& shot, const CheckPlan& check,
                                   Strings& errors, std::ostream& err) {
-    const auto images = case_images(check);
+    const auto images = case_images(check, shot.check);
     sequence::CaseFiles kept;
     if (!images)
         return kept;
@@ -149,7 +149,7 @@ sequence::CaseFiles images_at_end(const sequence::ShotResult& shot, const CheckP
 
 // An image that a case may get is one that is read.
 void refuse_images(const FramePlan& plan) {
-    const auto images = case_images(plan.check);
+    const auto images = case_images(plan.check, plan.check.essence);
     if (!images)
         return;
     std::set<std::string> read;
@@ -193,12 +193,16 @@ bool draws(const CheckPlan& check) {
            (check.has("report") || check.has("contactsheet") || check.has("pictures"));
 }
 
-std::optional<sequence::CaseImages> case_images(const CheckPlan& check) {
+std::optional<sequence::CaseImages> case_images(const CheckPlan& check, const Strings& words) {
     if (check.dry_run || !check.has("images"))
         return std::nullopt;
-    const bool still =
-        std::none_of(check.essence.begin(), check.essence.end(),
-                     [](const std::string& word) { return sequence::is_pattern(word); });
+    bool wildcards = true, still = true;
+    for (const std::string& word : words) {
+        const std::string name = word.substr(std::min(word.find_first_not_of('-'), word.size()));
+        if (word != name)
+            wildcards = name == "wildcardon" || (wildcards && name != "wildcardoff");
+        still &= !wildcards || !sequence::is_pattern(word);
+    }
     return sequence::CaseImages(check.argument("images"), still);
 }
 

@@ -21,8 +21,8 @@ bool draws(const CheckPlan& check);
 /// Where they are kept; empty: in memory.
 std::string picture_folder(const CheckPlan& check);
 
-/// The images of --images; nullopt where there are to be none.
-std::optional<sequence::CaseImages> case_images(const CheckPlan& check);
+/// The images of --images; nullopt where there are to be none. `words`: of the check.
+std::optional<sequence::CaseImages> case_images(const CheckPlan& check, const Strings& words);
 
 /// A CommandError where a file that is written at the end is one that the line, with the words of
 /// one of its runs, reads or writes itself, by whatever name. `parts`: of --merge.

@@ -126,7 +126,7 @@ void PlanRun::remove_abandoned() const {
             files.push_back(m_state->file(m_context.item(i)));
             files.push_back(m_sample_state->file(m_context.item(i)));
         }
-        if (const auto images = case_images(check)) {
+        if (const auto images = case_images(check, check.essence)) {
             const Strings named = images->files(unchecked_frame(m_plan, i)).all();
             files.insert(files.end(), named.begin(), named.end());
         }

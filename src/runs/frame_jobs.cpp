@@ -264,7 +264,7 @@ CheckedFrames::CheckedFrames(const FrameContext& context, const std::optional<St
     : m_context(context),
       m_state(state),
       m_pictures(pictures),
-      m_images(case_images(context.plan.check)),
+      m_images(case_images(context.plan.check, context.plan.check.essence)),
       m_results(context.plan.runs.size()) {}
 
 FrameResult unchecked_frame(const FramePlan& plan, size_t index) {
