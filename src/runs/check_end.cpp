@@ -26,7 +26,9 @@
 #include "sequence/verdict/part_files.h"
 #include "text/error.h"
 #include "text/printable.h"
+#include "text/text.h"
 #include "text/token.h"
+#include "tonetool/write.h"
 
 namespace tonetool::runs {
 
@@ -111,6 +113,17 @@ void write_table(const sequence::ShotResult& shot, const CheckPlan& check,
         throw CommandError("--table: no number of " + lacking);
 }
 
+void write_figure(const sequence::ShotResult& shot, const CheckPlan& check,
+                  const sequence::PictureStore& pictures, const std::string& file,
+                  std::ostream& err) {
+    std::string warning, why;
+    const OIIO::ImageBuf figure = sequence::figure(shot, pictures, check.figure, warning);
+    if (!warning.empty())
+        err << "tonetool WARNING: --figure: " << warning << '\n';
+    if (!write_image(figure, file, why))
+        throw CommandError(why);
+}
+
 // Tables for papers, and what continuous integration shows.
 void write_for_others(const sequence::ShotResult& shot, const CheckPlan& check, std::ostream& out,
                       Strings& errors) {
@@ -147,6 +160,25 @@ sequence::CaseFiles images_at_end(const sequence::ShotResult& shot, const CheckP
     return kept;
 }
 
+// What --figure names must be there before anything runs.
+void check_figure(const FramePlan& plan) {
+    const CheckPlan& check = plan.check;
+    const auto need = [&](const char* key, const Strings& asked, std::string sequence::Item::*member) {
+        std::set<std::string> there;
+        for (const FrameRun& run : plan.runs)
+            there.insert(run.frame.item().*member);
+        for (const std::string& one : asked)
+            if (there.count(one) == 0)
+                throw CommandError(std::string("--figure: ") + key + " has \"" + one +
+                                   "\" (there are: " +
+                                   join({there.begin(), there.end()}, ", ") + ")");
+    };
+    if (!check.has("figure"))
+        return;
+    need("names", check.figure.names, &sequence::Item::name);
+    need("methods", check.figure.methods, &sequence::Item::method);
+}
+
 // An image that a case may get is one that is read.
 void refuse_images(const FramePlan& plan) {
     const auto images = case_images(plan.check, plan.check.essence);
@@ -172,6 +204,7 @@ void refuse_images(const FramePlan& plan) {
 
 void refuse_to_write_over(const FramePlan& plan, const Strings& parts) {
     refuse_images(plan);
+    check_figure(plan);
     const std::vector<EndFile> places = places_of(plan.check);
     if (places.empty())
         return;
@@ -248,6 +281,16 @@ int conclude_check(const sequence::ShotResult& shot, const FramePlan& plan,
         sequence::attempt(errors, [&] { sequence::write_text(text, bad->second); });
     }
     write_for_others(shot, plan.check, out, errors);
+    if (const auto figure = files.find("figure"); figure != files.end()) {
+        const auto draw = [&] { write_figure(shot, plan.check, pictures, figure->second, err); };
+        sequence::attempt(errors, [&] {
+            try {
+                draw();
+            } catch (const std::exception& problem) {
+                throw CommandError(std::string("--figure: ") + problem.what());
+            }
+        });
+    }
     if (plan.check.has("ctest"))
         out << sequence::ctest_text(shot, images) << std::flush;
     if (!unkept.empty())

@@ -22,6 +22,15 @@ chain::Rows check_commands() {
             .modifier("digits", "N", "behind the decimal point, in .md and .tex (4)")
             .modifier("methods", "NAME,...", "which, in that order (all)")
             .whole_line(),
+        command("figure FILE",
+                "Draw named cases for a paper: a row for each name with its reference, a column for "
+                "each method, insets above their error maps, and the first number below")
+            .modifier("names", "NAME,...", "which, in that order (all)")
+            .modifier("methods", "NAME,...", "which, in that order (all)")
+            .modifier("inset", "WxH+X+Y,...", "parts of the picture (whole pictures)")
+            .modifier("scale", "N", "times which pixels of insets are repeated (4)")
+            .modifier("stops", "X", "exposure of all pictures (the middle of the row's)")
+            .whole_line(),
         command("github",
                 "Print what did not pass as annotations of GitHub, and add a summary to the file "
                 "that GITHUB_STEP_SUMMARY names")

@@ -11,6 +11,7 @@
 #include "chain/session/runner.h"
 #include "runs/check_end.h"
 #include "runs/packed.h"
+#include "sequence/results/automatic_limits.h"
 #include "sequence/results/probe.h"
 #include "sequence/results/results_json.h"
 #include "text/error.h"
@@ -50,6 +51,17 @@ bool draws_pairs(const chain::ParsedLine& line) {
     };
     return any({"hdrflip", "ldrflip", "flipdiff", "errormap", "biascheck"}) &&
            !any({"if", "while", "for"});
+}
+
+// A command after a comparison may find a fault or warn, and --qc and --against find more at the
+// end.
+bool may_fail_later(const FramePlan& plan) {
+    bool compared = plan.check.has("qc") || plan.check.has("against"), more = compared;
+    for (const chain::Word& word : plan.line.words) {
+        more |= compared && (!word.row || !word.row->whole_line);
+        compared |= word.row && word.row->group == chain::Group::Compare && word.row->pops > 0;
+    }
+    return more;
 }
 
 // Of cases: the folders of their names are made as they are written.
@@ -294,8 +306,11 @@ CheckedFrames::Checked CheckedFrames::check(size_t index) const {
     session.check.result = &result;
     sequence::CaseDrawing drawing;
     drawing.worst_asked = m_images.has_value();
+    drawing.worst_always = may_fail_later(plan);
+    drawing.first_asked = is_in_figure(index);
+    drawing.stops = plan.check.figure.stops;
     painter.for_report = draws(plan.check);
-    painter.beside = m_images ? &drawing : nullptr;
+    painter.beside = drawing.worst_asked || drawing.first_asked ? &drawing : nullptr;
     session.check.painter = painter.for_report || painter.beside ? &painter : nullptr;
     m_context.run_commands(session, index);
     result.warnings = session.outcome.warning_texts;
@@ -309,6 +324,8 @@ CheckedFrames::Checked CheckedFrames::check(size_t index) const {
         result.message = run.absent;
     if (painter.drawn)
         checked.pictures = m_pictures.texts(result, *painter.drawn);
+    if (drawing.first.test.initialized())
+        checked.figure = sequence::figure_text(drawing.first);
     write_images(drawing, checked);
     // Warnings are the verdict's matter: whether they count may differ when the result is found.
     const int status = session.exit_status();
@@ -323,12 +340,12 @@ CheckedFrames::Checked CheckedFrames::check(size_t index) const {
 // Rules over all frames find faults, and limits follow from them.
 bool CheckedFrames::may_fail_at_end(const FrameResult& result) const {
     const CheckPlan& check = m_context.plan.check;
-    const auto is_automatic = [](const sequence::Measurement& one) {
-        return std::any_of(one.thresholds.begin(), one.thresholds.end(),
-                           [](const sequence::Threshold& limit) { return limit.automatic; });
-    };
-    return check.has("qc") || check.has("against") ||
-           std::any_of(result.measurements.begin(), result.measurements.end(), is_automatic);
+    return check.has("qc") || check.has("against") || sequence::has_automatic_limit(result);
+}
+
+bool CheckedFrames::is_in_figure(size_t index) const {
+    const CheckPlan& check = m_context.plan.check;
+    return check.has("figure") && !check.dry_run && check.figure.wants(m_context.item(index));
 }
 
 void CheckedFrames::write_images(const sequence::CaseDrawing& drawing, Checked& checked) const {
@@ -346,7 +363,7 @@ void CheckedFrames::write_images(const sequence::CaseDrawing& drawing, Checked& 
 // What an earlier run has kept, with the pictures where there are to be some.
 std::optional<CheckedFrames::Checked> CheckedFrames::find(size_t index) const {
     auto kept = m_state->find(m_context.item(index), origin(index));
-    if (!kept)
+    if (!kept || is_in_figure(index))
         return std::nullopt;
     FrameResult found = sequence::frame_from_json(kept->result);
     if (draws(m_context.plan.check) && !m_pictures.restore(found))
@@ -393,7 +410,7 @@ Ran CheckedFrames::run(size_t index, std::ostream& out, std::ostream& err) {
     return {checked.status, in_words(checked.result), false,
             packed({sequence::to_json(checked.result), checked.known ? "known" : "",
                     packed({pictures.begin(), pictures.end()}), packed(checked.written),
-                    checked.unkept})};
+                    checked.unkept, checked.figure})};
 }
 
 Ran CheckedFrames::failed(size_t index, Status status, const std::string& why, std::ostream& err) {
@@ -402,7 +419,7 @@ Ran CheckedFrames::failed(size_t index, Status status, const std::string& why, s
     result.message = status == Status::Crashed ? crashed(why) : why;
     m_context.print_error(index, result.message, err);
     return {1, in_words(result), false,
-            packed({sequence::to_json(result), "", "", packed({}), ""})};
+            packed({sequence::to_json(result), "", "", packed({}), "", ""})};
 }
 
 void CheckedFrames::claim(const Strings& written, FrameResult& result, Ran& ran) const {
@@ -420,13 +437,15 @@ void CheckedFrames::claim(const Strings& written, FrameResult& result, Ran& ran)
 }
 
 void CheckedFrames::take(size_t index, Ran& ran) {
-    const Strings texts = unpacked(ran.found, 5);
+    Strings texts = unpacked(ran.found, 6);
     m_unkept = m_unkept.empty() ? texts[4] : m_unkept;
     FrameResult& result = m_results[index];
     result = sequence::frame_from_json(texts[0]);
     result.name = m_context.plan.runs[index].frame.name; // to the byte, whatever JSON makes of it
     result.method = m_context.plan.runs[index].frame.method;
     claim(unpacked(texts[3]), result, ran);
+    if (!texts[5].empty())
+        m_pictures.keep_figure(result.item(), std::move(texts[5]));
     if (result.status == Status::Crashed) {
         // What the process had begun to write.
         remove_abandoned_outputs(

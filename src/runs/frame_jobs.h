@@ -104,6 +104,7 @@ private:
         Strings written{};  ///< files, by its commands
         std::optional<sequence::PictureTexts> pictures{};
         sequence::FileLog files{}; ///< that its run has opened
+        std::string figure{};      ///< its pictures in --figure
         std::string unkept{};      ///< why its result could not be kept for a later run
     };
 
@@ -115,6 +116,8 @@ private:
     void claim(const Strings& written, sequence::FrameResult& result, Ran& ran) const;
     bool may_fail_at_end(const sequence::FrameResult& result) const;
     void write_images(const sequence::CaseDrawing& drawing, Checked& checked) const;
+    // The case is in --figure, which is drawn of its images.
+    bool is_in_figure(size_t index) const;
 
     const FrameContext& m_context;
     const std::optional<sequence::State>& m_state;

@@ -64,7 +64,7 @@ void show(Session& session, const Call& call, sequence::PictureRequest request) 
     sequence::judge(so_far);
     try {
         if (painter.beside)
-            painter.beside->take(request, so_far);
+            painter.beside->take(request, so_far, session.outcome.warnings > 0);
     } catch (const std::exception& problem) {
         session.report(call.row().label() + ": no images: " + problem.what());
     }

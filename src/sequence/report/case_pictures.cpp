@@ -9,6 +9,7 @@
 #include "imagebuf/pixels/upright.h"
 #include "sequence/report/bytes.h"
 #include "sequence/report/shown_pair.h"
+#include "sequence/results/automatic_limits.h"
 
 namespace tonetool::sequence {
 
@@ -67,12 +68,14 @@ CasePictures draw_case(const PictureRequest& request, const std::optional<double
     return drawn_at(request, pair, stops ? *stops : middle_of(pair));
 }
 
-void CaseDrawing::take(const PictureRequest& request, const FrameResult& so_far) {
+void CaseDrawing::take(const PictureRequest& request, const FrameResult& so_far, bool warned) {
     const bool pair = request.reference && request.compared;
     const bool measured = pair && !so_far.measurements.empty();
     const std::pair<bool, Status> rank{pair, measured ? so_far.measurements.back().status
                                                       : so_far.status};
-    if (worst_asked && (!worst.test.initialized() || m_rank < rank)) {
+    const bool may_be_bad = worst_always || warned || so_far.status > Status::Measured ||
+                            has_automatic_limit(so_far);
+    if (worst_asked && may_be_bad && (!worst.test.initialized() || m_rank < rank)) {
         worst = draw_worst(request,
                            measured ? so_far.measurements.back().worst : std::optional<Position>{});
         m_rank = rank;

@@ -31,13 +31,15 @@ CasePictures draw_case(const PictureRequest& request, const std::optional<double
 /// What is drawn of one case, beside the report, while its commands run.
 struct CaseDrawing {
     bool worst_asked = false;      ///< by --images
+    bool worst_always = true; ///< also where the case has passed so far: something else may come
     bool first_asked = false;      ///< by --figure
     std::optional<double> stops{}; ///< of that
     /// Of the command with the worst result, the first of equals; a pair before an image.
     CasePictures worst{};
     CasePictures first{}; ///< of the first command that compares
 
-    void take(const PictureRequest& request, const FrameResult& so_far);
+    /// `warned`: the commands have told warnings, which the result so far does not have.
+    void take(const PictureRequest& request, const FrameResult& so_far, bool warned);
 
 private:
     std::pair<bool, Status> m_rank{false, Status::Passed};
