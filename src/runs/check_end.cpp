@@ -163,15 +163,16 @@ sequence::CaseFiles images_at_end(const sequence::ShotResult& shot, const CheckP
 // What --figure names must be there before anything runs.
 void check_figure(const FramePlan& plan) {
     const CheckPlan& check = plan.check;
-    const auto need = [&](const char* key, const Strings& asked, std::string sequence::Item::*member) {
+    const auto need = [&](const char* key, const Strings& asked,
+                          std::string sequence::Item::*member) {
         std::set<std::string> there;
         for (const FrameRun& run : plan.runs)
             there.insert(run.frame.item().*member);
         for (const std::string& one : asked)
             if (there.count(one) == 0)
                 throw CommandError(std::string("--figure: ") + key + " has \"" + one +
-                                   "\" (there are: " +
-                                   join({there.begin(), there.end()}, ", ") + ")");
+                                   "\" (there are: " + join({there.begin(), there.end()}, ", ") +
+                                   ")");
     };
     if (!check.has("figure"))
         return;

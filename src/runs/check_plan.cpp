@@ -286,8 +286,9 @@ private:
         if (m_plan.has("merge") && m_plan.has("state"))
             throw CommandError("--merge and --state exclude each other");
         if (m_plan.has("merge") && m_plan.has("figure")) {
-            throw CommandError("--figure is drawn of images, which results do not have (valid: with "
-                               "the comparison, without --merge)");
+            throw CommandError(
+                "--figure is drawn of images, which results do not have (valid: with "
+                "the comparison, without --merge)");
         }
         if (m_plan.has("statistics") && !m_plan.has("merge") && m_plan.exposures != "shot") {
             throw CommandError("--statistics measures what exposures=shot needs: no command has it "

@@ -22,9 +22,10 @@ chain::Rows check_commands() {
             .modifier("digits", "N", "behind the decimal point, in .md and .tex (4)")
             .modifier("methods", "NAME,...", "which, in that order (all)")
             .whole_line(),
-        command("figure FILE",
-                "Draw named cases for a paper: a row for each name with its reference, a column for "
-                "each method, insets above their error maps, and the first number below")
+        command(
+            "figure FILE",
+            "Draw named cases for a paper: a row for each name with its reference, a column for "
+            "each method, insets above their error maps, and the first number below")
             .modifier("names", "NAME,...", "which, in that order (all)")
             .modifier("methods", "NAME,...", "which, in that order (all)")
             .modifier("inset", "WxH+X+Y,...", "parts of the picture (whole pictures)")

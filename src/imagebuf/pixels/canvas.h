@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A sheet on which pictures, frames and text are laid out. Header only: the rooms below the library's
-// draw sheets, too.
+// A sheet on which pictures, frames and text are laid out. Header only: the rooms below the
+// library's draw sheets, too.
 #pragma once
 
 #include <OpenImageIO/imagebuf.h>

@@ -73,8 +73,8 @@ void CaseDrawing::take(const PictureRequest& request, const FrameResult& so_far,
     const bool measured = pair && !so_far.measurements.empty();
     const std::pair<bool, Status> rank{pair, measured ? so_far.measurements.back().status
                                                       : so_far.status};
-    const bool may_be_bad = worst_always || warned || so_far.status > Status::Measured ||
-                            has_automatic_limit(so_far);
+    const bool may_be_bad =
+        worst_always || warned || so_far.status > Status::Measured || has_automatic_limit(so_far);
     if (worst_asked && may_be_bad && (!worst.test.initialized() || m_rank < rank)) {
         worst = draw_worst(request,
                            measured ? so_far.measurements.back().worst : std::optional<Position>{});

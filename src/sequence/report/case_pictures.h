@@ -30,9 +30,9 @@ CasePictures draw_case(const PictureRequest& request, const std::optional<double
 
 /// What is drawn of one case, beside the report, while its commands run.
 struct CaseDrawing {
-    bool worst_asked = false;      ///< by --images
+    bool worst_asked = false; ///< by --images
     bool worst_always = true; ///< also where the case has passed so far: something else may come
-    bool first_asked = false;      ///< by --figure
+    bool first_asked = false; ///< by --figure
     std::optional<double> stops{}; ///< of that
     /// Of the command with the worst result, the first of equals; a pair before an image.
     CasePictures worst{};

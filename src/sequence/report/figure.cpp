@@ -134,9 +134,9 @@ class Figure {
 public:
     Figure(const ShotResult& shot, const PictureStore& pictures, const FigureOptions& options)
         : m_options(options),
-          m_scale(options.scale > 0         ? options.scale
+          m_scale(options.scale > 0        ? options.scale
                   : options.insets.empty() ? 1
-                                            : 4) {
+                                           : 4) {
         collect(shot, pictures);
         for (const FigureRow& row : m_rows)
             measure(row);
