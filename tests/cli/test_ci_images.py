@@ -107,6 +107,15 @@ def test_names(tonetool, tmp_path, make_image, jobs):
     assert images(tmp_path / "f") == of("w@0003")
 
 
+def test_long_names_are_cut_and_differ(tonetool, suite):
+    for end in "ab":
+        for side in "rt":
+            shutil.copy(suite / side / "hair/long.exr", suite / side / ("ö" * 120 + end + ".exr"))
+    tonetool(*WORDS, "--images", "out", status=1)
+    found = [name for name in images(suite / "out") if name.startswith("ö" * 90 + "@")]
+    assert len(found) == 6 and len({name.split(".")[0] for name in found}) == 2
+
+
 def test_no_image_of_an_earlier_run_remains(tonetool, suite):
     (suite / "out").mkdir()
     shutil.copy(suite / "r/cornell.exr", suite / "out/cornell.test.png")  # somebody else's
