@@ -3,11 +3,16 @@
 
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/sysutil.h>
+#include <algorithm>
 #include <filesystem>
 #include <ostream>
+#include <set>
+#include <utility>
 
+#include "runs/frame_jobs.h"
 #include "runs/loop.h"
 #include "runs/rehearsal.h"
+#include "sequence/frames/file_sequence.h"
 #include "sequence/frames/file_stamp.h"
 #include "sequence/report/report_files.h"
 #include "sequence/results/check_files.h"
@@ -21,7 +26,9 @@
 #include "sequence/verdict/part_files.h"
 #include "text/error.h"
 #include "text/printable.h"
+#include "text/text.h"
 #include "text/token.h"
+#include "tonetool/write.h"
 
 namespace tonetool::runs {
 
@@ -54,7 +61,8 @@ std::vector<EndFile> places_of(const CheckPlan& check) {
     std::vector<EndFile> places;
     for (const auto& [command, file] : check.written()) {
         const bool is_file = command != "merge" && command != "state" && command != "pictures" &&
-                             command != "exit-zero" && command != "accept" && command != "github";
+                             command != "exit-zero" && command != "accept" && command != "github" &&
+                             command != "images" && command != "ctest";
         if (is_file && file != "-")
             places.push_back({command, file, normal(file), sequence::stamp_of(file)});
     }
@@ -105,6 +113,17 @@ void write_table(const sequence::ShotResult& shot, const CheckPlan& check,
         throw CommandError("--table: no number of " + lacking);
 }
 
+void write_figure(const sequence::ShotResult& shot, const CheckPlan& check,
+                  const sequence::PictureStore& pictures, const std::string& file,
+                  std::ostream& err) {
+    std::string warning, why;
+    const OIIO::ImageBuf figure = sequence::figure(shot, pictures, check.figure, warning);
+    if (!warning.empty())
+        err << "tonetool WARNING: --figure: " << warning << '\n';
+    if (!write_image(figure, file, why))
+        throw CommandError(why);
+}
+
 // Tables for papers, and what continuous integration shows.
 void write_for_others(const sequence::ShotResult& shot, const CheckPlan& check, std::ostream& out,
                       Strings& errors) {
@@ -126,9 +145,68 @@ void write_for_others(const sequence::ShotResult& shot, const CheckPlan& check, 
         });
 }
 
+// What there is of --images, without what is of an earlier run.
+sequence::CaseFiles images_at_end(const sequence::ShotResult& shot, const CheckPlan& check,
+                                  Strings& errors, std::ostream& err) {
+    const auto images = case_images(check, shot.check);
+    sequence::CaseFiles kept;
+    if (!images)
+        return kept;
+    sequence::attempt(errors, [&] { kept = images->settle(shot); });
+    if (const size_t lacking = sequence::lacking_images(shot, kept); lacking > 0) {
+        err << "tonetool WARNING: --images: none of " << lacking << " that did not pass in \""
+            << printable(check.argument("images"))
+            << "\" (valid: the folder that --images had when they were compared)\n";
+    }
+    return kept;
+}
+
+// What --figure names must be there before anything runs.
+void check_figure(const FramePlan& plan) {
+    const CheckPlan& check = plan.check;
+    const auto need = [&](const char* key, const Strings& asked,
+                          std::string sequence::Item::*member) {
+        std::set<std::string> there;
+        for (const FrameRun& run : plan.runs)
+            there.insert(run.frame.item().*member);
+        for (const std::string& one : asked)
+            if (there.count(one) == 0)
+                throw CommandError(std::string("--figure: ") + key + " has \"" + one +
+                                   "\" (there are: " + join({there.begin(), there.end()}, ", ") +
+                                   ")");
+    };
+    if (!check.has("figure"))
+        return;
+    need("names", check.figure.names, &sequence::Item::name);
+    need("methods", check.figure.methods, &sequence::Item::method);
+}
+
+// An image that a case may get is one that is read.
+void refuse_images(const FramePlan& plan) {
+    const auto images = case_images(plan.check, plan.check.essence);
+    if (!images)
+        return;
+    std::set<std::string> read;
+    for (const FrameRun& run : plan.runs)
+        for (const std::string& file : files_read(plan, run.words))
+            read.insert(normal(file));
+    for (size_t i = 0; i < plan.runs.size(); ++i) {
+        const sequence::CaseFiles::Of files = images->files(unchecked_frame(plan, i));
+        for (const auto& kind : sequence::CaseFiles::kAll) {
+            const std::string& file = files.*kind.second;
+            if (read.count(normal(file)) > 0)
+                throw CommandError("--images: \"" + file +
+                                   "\" is read, and would be written "
+                                   "over (valid: a folder of its own)");
+        }
+    }
+}
+
 } // namespace
 
 void refuse_to_write_over(const FramePlan& plan, const Strings& parts) {
+    refuse_images(plan);
+    check_figure(plan);
     const std::vector<EndFile> places = places_of(plan.check);
     if (places.empty())
         return;
@@ -149,6 +227,19 @@ Strings words_at(const Strings& words, const std::vector<size_t>& places) {
 bool draws(const CheckPlan& check) {
     return !check.dry_run &&
            (check.has("report") || check.has("contactsheet") || check.has("pictures"));
+}
+
+std::optional<sequence::CaseImages> case_images(const CheckPlan& check, const Strings& words) {
+    if (check.dry_run || !check.has("images"))
+        return std::nullopt;
+    bool wildcards = true, still = true;
+    for (const std::string& word : words) {
+        const std::string name = word.substr(std::min(word.find_first_not_of('-'), word.size()));
+        if (word != name)
+            wildcards = name == "wildcardon" || (wildcards && name != "wildcardoff");
+        still &= !wildcards || !sequence::is_pattern(word);
+    }
+    return sequence::CaseImages(check.argument("images"), still);
 }
 
 std::string picture_folder(const CheckPlan& check) {
@@ -184,12 +275,27 @@ int conclude_check(const sequence::ShotResult& shot, const FramePlan& plan,
     out << sequence::faults_text(shot, plan.verbose);
     out << "check: " << status_name(shot.verdict) << ", " << printable(shot.sentence) << std::endl;
     const sequence::CheckFiles files = plan.check.written();
-    Strings errors = sequence::write_results(shot, files, plan.check.json_records);
+    Strings errors;
+    const sequence::CaseFiles images = images_at_end(shot, plan.check, errors, err);
+    for (std::string& error : sequence::write_results(shot, files, plan.check.json_records, images))
+        errors.push_back(std::move(error));
     if (const auto bad = files.find("bad-frames"); bad != files.end()) {
         const std::string text = sequence::bad_frames_text(shot, plan.check.bad_from);
         sequence::attempt(errors, [&] { sequence::write_text(text, bad->second); });
     }
     write_for_others(shot, plan.check, out, errors);
+    if (const auto figure = files.find("figure"); figure != files.end()) {
+        const auto draw = [&] { write_figure(shot, plan.check, pictures, figure->second, err); };
+        sequence::attempt(errors, [&] {
+            try {
+                draw();
+            } catch (const std::exception& problem) {
+                throw CommandError(std::string("--figure: ") + problem.what());
+            }
+        });
+    }
+    if (plan.check.has("ctest"))
+        out << sequence::ctest_text(shot, images) << std::flush;
     if (!unkept.empty())
         errors.push_back(unkept);
     for (const std::string& complaint : sequence::unused_acceptances(shot))
@@ -224,6 +330,7 @@ Strings parts_of(const FramePlan& plan) {
     refuse_to_write_over(plan, parts);
     sequence::CheckFiles places = check.written_places();
     places.erase("pictures"); // which are read here
+    places.erase("images");
     sequence::try_places(places);
     if (check.has("pictures") && !OIIO::Filesystem::is_directory(check.argument("pictures")))
         throw CommandError("--pictures: there is no folder \"" + check.argument("pictures") + "\"");

@@ -4,8 +4,10 @@
 #pragma once
 
 #include <iosfwd>
+#include <optional>
 
 #include "runs/frames.h"
+#include "sequence/report/case_images.h"
 #include "sequence/report/report_store.h"
 #include "sequence/results/results.h"
 
@@ -18,6 +20,9 @@ Strings words_at(const Strings& words, const std::vector<size_t>& places);
 bool draws(const CheckPlan& check);
 /// Where they are kept; empty: in memory.
 std::string picture_folder(const CheckPlan& check);
+
+/// The images of --images; nullopt where there are to be none. `words`: of the check.
+std::optional<sequence::CaseImages> case_images(const CheckPlan& check, const Strings& words);
 
 /// A CommandError where a file that is written at the end is one that the line, with the words of
 /// one of its runs, reads or writes itself, by whatever name. `parts`: of --merge.

@@ -102,6 +102,8 @@ private:
             take_picture_limits(word, name);
         else if (word.is("table"))
             take_table(word, name, argument);
+        else if (word.is("figure"))
+            take_figure(word, name);
         else if (!word.is("qc") && !word.is("against")) // whose own are read when they run
             take_modifiers(name, word);
     }
@@ -120,6 +122,36 @@ private:
             else
                 throw CommandError(name + " has no modifier \"" + key +
                                    "\" (valid: quantity, digits, methods)");
+        }
+    }
+
+    void take_figure(const Word& word, const std::string& name) {
+        sequence::FigureOptions& figure = m_plan.figure;
+        for (const auto& [key, value] : word.token.modifiers) {
+            if (key == "names")
+                figure.names = split(value, ',');
+            else if (key == "methods")
+                figure.methods = split(value, ',');
+            else if (key == "inset")
+                take_insets(name, value);
+            else if (key == "scale")
+                figure.scale = checked_integer(name + ": " + key, value, {1, 64});
+            else if (key == "stops")
+                figure.stops = checked_number(name + ": " + key, value, {-100, 100});
+            else
+                throw CommandError(name + " has no modifier \"" + key +
+                                   "\" (valid: names, methods, inset, scale, stops)");
+        }
+    }
+
+    void take_insets(const std::string& name, const std::string& value) {
+        for (const std::string& text : split(value, ',')) {
+            const auto inset = sequence::parse_inset(text);
+            if (!inset) {
+                throw CommandError(name + ": inset is \"" + text +
+                                   "\" (valid: WIDTHxHEIGHT+X+Y, as 96x64+120+40)");
+            }
+            m_plan.figure.insets.push_back(*inset);
         }
     }
 
@@ -255,6 +287,11 @@ private:
     void check_merge() const {
         if (m_plan.has("merge") && m_plan.has("state"))
             throw CommandError("--merge and --state exclude each other");
+        if (m_plan.has("merge") && m_plan.has("figure")) {
+            throw CommandError(
+                "--figure is drawn of images, which results do not have (valid: with "
+                "the comparison, without --merge)");
+        }
         if (m_plan.has("statistics") && !m_plan.has("merge") && m_plan.exposures != "shot") {
             throw CommandError("--statistics measures what exposures=shot needs: no command has it "
                                "(valid: --hdrflip:exposures=shot)");

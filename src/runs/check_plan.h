@@ -8,6 +8,7 @@
 
 #include "chain/language/line.h"
 #include "sequence/frames/file_sequence.h"
+#include "sequence/report/figure.h"
 #include "sequence/report/report_page.h"
 #include "sequence/results/method_table.h"
 #include "sequence/results/results.h"
@@ -36,6 +37,7 @@ struct CheckPlan {
     sequence::PictureCounts pictures;                     ///< of --report and --pictures
     sequence::PageLimits page;                            ///< of --report
     sequence::MethodTableOptions table;
+    sequence::FigureOptions figure;
     /// The words without those that say which frames, where to and how fast; and where they are.
     Strings essence;
     std::vector<size_t> essence_at;

@@ -129,6 +129,10 @@ void PlanRun::remove_abandoned() const {
             files.push_back(m_state->file(m_context.item(i)));
             files.push_back(m_sample_state->file(m_context.item(i)));
         }
+        if (const auto images = case_images(check, check.essence)) {
+            const Strings named = images->files(unchecked_frame(m_plan, i)).all();
+            files.insert(files.end(), named.begin(), named.end());
+        }
         const Strings drawn = m_pictures->files(run.frame.item());
         files.insert(files.end(), drawn.begin(), drawn.end());
     }

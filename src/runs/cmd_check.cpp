@@ -32,9 +32,22 @@ chain::Rows check_commands() {
             .modifier("digits", "N", "behind the decimal point, in .md and .tex (4)")
             .modifier("methods", "NAME,...", "which, in that order (all)")
             .whole_line(),
+        command(
+            "figure FILE",
+            "Draw named cases for a paper: a row for each name with its reference, a column for "
+            "each method, insets above their error maps, and the first number below")
+            .modifier("names", "NAME,...", "which, in that order (all)")
+            .modifier("methods", "NAME,...", "which, in that order (all)")
+            .modifier("inset", "WxH+X+Y,...", "parts of the picture (whole pictures)")
+            .modifier("scale", "N", "times which pixels of insets are repeated (4)")
+            .modifier("stops", "X", "exposure of all pictures (the middle of the row's)")
+            .whole_line(),
         command("github",
                 "Print what did not pass as annotations of GitHub, and add a summary to the file "
                 "that GITHUB_STEP_SUMMARY names")
+            .whole_line(),
+        command("ctest",
+                "Print numbers, verdict and --images as measurements of CTest, which CDash shows")
             .whole_line(),
         command("summary FILE",
                 "Add a heading, the verdict and a table of what did not pass, as Markdown, to the "
@@ -63,6 +76,11 @@ chain::Rows check_commands() {
             "pictures DIR",
             "Keep the pictures of the report in that folder; with --merge, take them from there")
             .modifier("pixels", "N", "as of --report")
+            .whole_line(),
+        command("images DIR",
+                "Write DIR/NAME.reference.png, .test.png and .error.png of each case or frame that "
+                "did not pass: both at the exposure that has the worst pixel's error, and the map "
+                "in magma; with --merge, take them from there")
             .whole_line(),
         command("state DIR", "Keep each finished frame's result in that folder: a run that was "
                              "killed goes on, and frames whose files have changed are checked anew")

@@ -12,6 +12,7 @@
 #include "runs/check_end.h"
 #include "runs/packed.h"
 #include "sequence/frames/file_stamp.h"
+#include "sequence/results/automatic_limits.h"
 #include "sequence/results/probe.h"
 #include "sequence/results/results_json.h"
 #include "store/sha256.h"
@@ -52,6 +53,17 @@ bool draws_pairs(const chain::ParsedLine& line) {
     };
     return any({"hdrflip", "ldrflip", "flipdiff", "errormap", "biascheck"}) &&
            !any({"if", "while", "for"});
+}
+
+// A command after a comparison may find a fault or warn, and --qc and --against find more at the
+// end.
+bool may_fail_later(const FramePlan& plan) {
+    bool compared = plan.check.has("qc") || plan.check.has("against"), more = compared;
+    for (const chain::Word& word : plan.line.words) {
+        more |= compared && (!word.row || !word.row->whole_line);
+        compared |= word.row && word.row->group == chain::Group::Compare && word.row->pops > 0;
+    }
+    return more;
 }
 
 // Of cases: the folders of their names are made as they are written.
@@ -274,10 +286,10 @@ CheckedFrames::CheckedFrames(const FrameContext& context, const std::optional<St
     : m_context(context),
       m_state(state),
       m_pictures(pictures),
+      m_images(case_images(context.plan.check, context.plan.check.essence)),
       m_results(context.plan.runs.size()) {}
 
-FrameResult CheckedFrames::unchecked(size_t index) const {
-    const FramePlan& plan = m_context.plan;
+FrameResult unchecked_frame(const FramePlan& plan, size_t index) {
     const FrameRun& run = plan.runs[index];
     const auto& inputs = plan.check_of(run).inputs;
     const bool of_inputs = plan.sequences.empty() || (plan.named && inputs.size() == 2);
@@ -296,7 +308,7 @@ FrameResult CheckedFrames::unchecked(size_t index) const {
 
 CheckedFrames::Checked CheckedFrames::not_checked(size_t index, Status status,
                                                   const std::string& why) const {
-    Checked checked{unchecked(index), "", ""};
+    Checked checked{unchecked_frame(m_context.plan, index), "", ""};
     checked.result.status = status;
     checked.result.message = why;
     if (status == Status::Skipped)
@@ -368,14 +380,21 @@ CheckedFrames::Checked CheckedFrames::check_approved(size_t index) const {
 CheckedFrames::Checked CheckedFrames::check_words(size_t index, const Strings& words) const {
     const FramePlan& plan = m_context.plan;
     const FrameRun& run = plan.runs[index];
-    Checked checked{unchecked(index), "", ""};
+    Checked checked{unchecked_frame(plan, index), "", ""};
     FrameResult& result = checked.result;
     std::ostringstream out, err;
     Session session = m_context.session(index, out, err);
     sequence::FramePainter painter{m_pictures, {}};
     painter.pair_comes = draws_pairs(plan.line_of(run));
     session.check.result = &result;
-    session.check.painter = draws(plan.check) ? &painter : nullptr;
+    sequence::CaseDrawing drawing;
+    drawing.worst_asked = m_images.has_value();
+    drawing.worst_always = may_fail_later(plan);
+    drawing.first_asked = is_in_figure(index);
+    drawing.stops = plan.check.figure.stops;
+    painter.for_report = draws(plan.check);
+    painter.beside = drawing.worst_asked || drawing.first_asked ? &drawing : nullptr;
+    session.check.painter = painter.for_report || painter.beside ? &painter : nullptr;
     m_context.run_commands(session, index, words);
     result.warnings = session.outcome.warning_texts;
     if (session.outcome.warnings > int(result.warnings.size()))
@@ -388,6 +407,9 @@ CheckedFrames::Checked CheckedFrames::check_words(size_t index, const Strings& w
         result.message = run.absent;
     if (painter.drawn)
         checked.pictures = m_pictures.texts(result, *painter.drawn);
+    if (drawing.first.test.initialized())
+        checked.figure = sequence::figure_text(drawing.first);
+    write_images(drawing, checked);
     // Warnings are the verdict's matter: whether they count may differ when the result is found.
     const int status = session.exit_status();
     checked.status = status == 2 ? 0 : status;
@@ -398,13 +420,38 @@ CheckedFrames::Checked CheckedFrames::check_words(size_t index, const Strings& w
     return checked;
 }
 
+// Rules over all frames find faults, and limits follow from them.
+bool CheckedFrames::may_fail_at_end(const FrameResult& result) const {
+    const CheckPlan& check = m_context.plan.check;
+    return check.has("qc") || check.has("against") || sequence::has_automatic_limit(result);
+}
+
+bool CheckedFrames::is_in_figure(size_t index) const {
+    const CheckPlan& check = m_context.plan.check;
+    return check.has("figure") && !check.dry_run && check.figure.wants(m_context.item(index));
+}
+
+void CheckedFrames::write_images(const sequence::CaseDrawing& drawing, Checked& checked) const {
+    const FrameResult& result = checked.result;
+    const bool wanted = m_images && drawing.worst.test.initialized() &&
+                        (m_images->wants(result.status) || may_fail_at_end(result));
+    try {
+        if (wanted)
+            m_images->write(result, drawing.worst);
+    } catch (const std::exception& problem) {
+        checked.unkept = std::string("--images: ") + problem.what();
+    }
+}
+
 // What an earlier run has kept, with the pictures where there are to be some.
 std::optional<CheckedFrames::Checked> CheckedFrames::find(size_t index) const {
     auto kept = m_state->find(m_context.item(index), origin(index));
-    if (!kept)
+    if (!kept || is_in_figure(index))
         return std::nullopt;
     FrameResult found = sequence::frame_from_json(kept->result);
     if (draws(m_context.plan.check) && !m_pictures.restore(found))
+        return std::nullopt;
+    if (m_images && m_images->wants(found.status) && !m_images->has(found))
         return std::nullopt;
     return Checked{
         std::move(found),        std::move(kept->out), std::move(kept->err), kept->status, true,
@@ -426,7 +473,7 @@ CheckedFrames::Checked CheckedFrames::check_or_find(size_t index) const {
         const std::string error = keep_in(
             *m_state, m_context.item(index), origin(index), made.files,
             {sequence::to_json(made.result), made.out, made.err, made.status, made.written});
-        if (!error.empty())
+        if (!error.empty() && made.unkept.empty())
             made.unkept = "--state: " + error;
     }
     return made;
@@ -453,16 +500,16 @@ Ran CheckedFrames::run(size_t index, std::ostream& out, std::ostream& err) {
     return {checked.status, in_words(checked.result), false,
             packed({sequence::to_json(checked.result), checked.known ? "known" : "",
                     packed({pictures.begin(), pictures.end()}), packed(checked.written),
-                    checked.unkept})};
+                    checked.unkept, checked.figure})};
 }
 
 Ran CheckedFrames::failed(size_t index, Status status, const std::string& why, std::ostream& err) {
-    FrameResult result = unchecked(index);
+    FrameResult result = unchecked_frame(m_context.plan, index);
     result.status = status;
     result.message = status == Status::Crashed ? crashed(why) : why;
     m_context.print_error(index, result.message, err);
     return {1, in_words(result), false,
-            packed({sequence::to_json(result), "", "", packed({}), ""})};
+            packed({sequence::to_json(result), "", "", packed({}), "", ""})};
 }
 
 void CheckedFrames::claim(const Strings& written, FrameResult& result, Ran& ran) const {
@@ -480,7 +527,7 @@ void CheckedFrames::claim(const Strings& written, FrameResult& result, Ran& ran)
 }
 
 void CheckedFrames::take(size_t index, Ran& ran) {
-    const Strings texts = unpacked(ran.found, 5);
+    Strings texts = unpacked(ran.found, 6);
     m_unkept = m_unkept.empty() ? texts[4] : m_unkept;
     FrameResult& result = m_results[index];
     result = sequence::frame_from_json(texts[0]);
@@ -492,10 +539,14 @@ void CheckedFrames::take(size_t index, Ran& ran) {
     result.of_suite.line = said.line;
     result.of_suite.why = said.why;
     claim(unpacked(texts[3]), result, ran);
+    if (!texts[5].empty())
+        m_pictures.keep_figure(result.item(), std::move(texts[5]));
     if (result.status == Status::Crashed) {
         // What the process had begun to write.
         remove_abandoned_outputs(
             words_at(m_context.plan.runs[index].words, m_context.plan.check.outputs));
+        if (m_images)
+            remove_abandoned_outputs(m_images->files(result).all());
     }
     if (!draws(m_context.plan.check))
         return;

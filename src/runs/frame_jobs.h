@@ -9,6 +9,7 @@
 
 #include "chain/session/session.h"
 #include "runs/loop.h"
+#include "sequence/report/case_images.h"
 #include "sequence/report/report_store.h"
 #include "sequence/results/shot_exposures.h"
 #include "sequence/results/state.h"
@@ -29,6 +30,9 @@ struct FrameContext {
     /// Prints what ended the run of a frame, as its commands' errors are printed.
     void print_error(size_t index, const std::string& error, std::ostream& err) const;
 };
+
+/// The result of a frame before anything is known of it.
+sequence::FrameResult unchecked_frame(const FramePlan& plan, size_t index);
 
 /// A frame whose commands do what they do.
 class PlainFrames final : public FrameJob {
@@ -100,10 +104,10 @@ private:
         Strings written{};  ///< files, by its commands
         std::optional<sequence::PictureTexts> pictures{};
         sequence::FileLog files{}; ///< that its run has opened
+        std::string figure{};      ///< its pictures in --figure
         std::string unkept{};      ///< why its result could not be kept for a later run
     };
 
-    sequence::FrameResult unchecked(size_t index) const;
     Checked check(size_t index) const;
     Checked check_words(size_t index, const Strings& words) const;
     Checked check_approved(size_t index) const;
@@ -115,6 +119,10 @@ private:
     sequence::Origin origin(size_t index) const;
     // Frames of several processes must not write one file either.
     void claim(const Strings& written, sequence::FrameResult& result, Ran& ran) const;
+    bool may_fail_at_end(const sequence::FrameResult& result) const;
+    void write_images(const sequence::CaseDrawing& drawing, Checked& checked) const;
+    // The case is in --figure, which is drawn of its images.
+    bool is_in_figure(size_t index) const;
 
     const FrameContext& m_context;
     const std::optional<sequence::State>& m_state;
@@ -122,6 +130,7 @@ private:
     void keep_pictures(bool known, const sequence::PictureTexts& texts,
                        const sequence::FrameResult& result);
 
+    std::optional<sequence::CaseImages> m_images; ///< of --images
     std::vector<sequence::FrameResult> m_results;
     std::string m_unkept;
 };

@@ -225,6 +225,14 @@ def test_dry_run_prints_the_scripts_and_does_nothing(program, shot):
     assert sorted(os.listdir(shot)) == before
 
 
+def test_images_are_of_tasks_and_of_the_merge(program, shot):
+    ran = farm(program, shot, os.environ, "--dry-run", "--", *words("shot", "--images", "looks"))
+    tasks, merge = ran.stdout.split("# merge.sh")
+    assert ran.returncode == 0 and "--images looks" in tasks and "--images looks" in merge
+    ran = farm(program, shot, os.environ, "--dry-run", "--", *words("shot", "--figure", "f.png"))
+    assert ran.returncode == 1 and "--figure is drawn of images" in ran.stderr
+
+
 # Runs the tasks of a job at once, one after the other.
 FAKE_SBATCH = """#!/bin/bash
 script="${!#}"

@@ -249,3 +249,67 @@ def test_other_version_is_refused(tree, tmp_path):
     text = run(CMAKE, "-S", tmp_path / "source", "-B", tmp_path / "build",
                f"-DCMAKE_PREFIX_PATH={tree}", status=1)
     assert 'compatible with requested version "99.0"' in text
+
+
+# ---- images as tests of CTest
+
+@pytest.fixture(scope="session")
+def renderer(tree, tmp_path_factory):
+    """Configures the project of tests/package/images; `line` is added to it."""
+    source = HERE / "images"
+    pair = PAIR[0].removesuffix("_ref.exr")
+
+    def configure(line="", status=0):
+        build = tmp_path_factory.mktemp("renderer")
+        text = run(CMAKE, "-S", source, "-B", build, f"-DCMAKE_PREFIX_PATH={tree}", f"-DPAIR={pair}",
+                   f"-DRELATIVE={os.path.relpath(pair, source)}", f"-DLINE={line}", status=status)
+        return build, " ".join(text.split())
+
+    return configure
+
+
+def test_images_are_tests_of_ctest(renderer):
+    build, _ = renderer()
+    done = subprocess.run([str(Path(CMAKE).with_name("ctest")) if "/" in CMAKE else "ctest", "-L",
+                           "looks", "--output-on-failure"],
+                          cwd=build, capture_output=True, text=True, timeout=120, check=False)
+    told = {name: rest.strip(" .*") for name, rest in
+            re.findall(r"Test +#\d+: (\S+) ([. *A-Za-z()]+)", done.stdout)}
+    assert {name: re.sub(r"\W", "", text) for name, text in told.items()} == {
+        "render_cornell": "Passed", "looks/cornell": "Failed", "looks/same": "Passed",
+        "render_broken": "Failed", "looks/broken": "NotRun"}, done.stdout
+    assert 'name="hdrflip.mean">' in done.stdout and "looks/broken (Not Run)" in done.stdout
+    images = {str(path.relative_to(build / "tonetool")) for path in (build / "tonetool").rglob("*.png")}
+    assert images == {f"looks/cornell/c#1.{kind}.png" for kind in ("reference", "test", "error")}
+
+
+def test_properties_of_image_tests(renderer):
+    build, _ = renderer()
+    tests = json.loads(run("ctest", "--show-only=json-v1", cwd=build))["tests"]
+    properties = {one["name"]: {p["name"]: p["value"] for p in one["properties"]} for one in tests}
+    words = {one["name"]: one["command"] for one in tests}
+    assert properties["looks/cornell"]["FIXTURES_REQUIRED"] == ["tonetool.render_cornell"]
+    assert properties["lookdev"]["FIXTURES_REQUIRED"] == ["tonetool.render_cornell"]
+    assert set(properties["render_cornell"]["FIXTURES_SETUP"]) == {"tonetool.render_cornell"}
+    assert properties["looks/cornell"]["TIMEOUT"] == 60
+    assert properties["looks/same"]["LABELS"] == ["fast", "looks"]
+    assert words["lookdev"][1:] == ["--suite", str(HERE / "images/suite.toml"), "--ctest", "--images",
+                                    str(build / "tonetool/lookdev")]
+    for found in properties.values():
+        assert not {"SKIP_RETURN_CODE", "WILL_FAIL"} & set(found)
+
+
+@pytest.mark.parametrize("arguments, told", [
+    ("TEST a.exr REFERENCE b.exr CHECK --hdrflip", "CHECK has no limit, so it could not fail"),
+    ("TEST a.exr REFERENCE b.exr CHECK --hdrflip:warn=0.2", "CHECK has no limit"),
+    ("TEST a.exr REFERENCE b.exr CHECK --hdrflip:fail= --resize:x=1 9", "CHECK has no limit"),
+    ("TEST a.exr REFERENCE b.exr CHECK --qc", "CHECK has no limit"),
+    ("TEST a.exr CHECK --hdrflip:fail=0.2", "REFERENCE is missing"),
+    ("TEST a.exr REFERENCE b.exr CHECK --diff MASK", None),
+    ("TEST a.exr REFERENCE b.exr CHECK --hdrflip:print=0:fail=0.2 DEPENDS nothing",
+     'DEPENDS "nothing" is no test of this folder'),
+    ("TEST a.exr REFERENCE b.exr CHECK --diff LABELS", "nothing behind LABELS"),
+])
+def test_image_tests_that_are_refused(renderer, arguments, told):
+    _, text = renderer(f"tonetool_add_image_test(NAME x {arguments})", status=1 if told else 0)
+    assert told is None or f"tonetool_add_image_test(x): {told}" in text

@@ -11,7 +11,10 @@ namespace {
 
 bool colormap(Op& op) {
     const std::string& map = op.call.argument(0);
-    op.dst = op.session.settings.compat ? linear_colored(op.a(), map) : colored(op.a(), map);
+    const bool bar = op.call.flag("bar", false);
+    op.dst = op.session.settings.compat ? linear_colored(op.a(), map)
+             : bar                      ? colored_with_bar(op.a(), map)
+                                        : colored(op.a(), map);
     return !op.dst.has_error();
 }
 
@@ -27,7 +30,8 @@ void run_colorconfig(Session& session, const Call& call) {
 Rows color_commands() {
     const std::string maps = join(ToneAlgo::color_maps(), ", ");
     return {on_pixels("colormap MAPNAME", 1, "Show values as colours: " + maps + ", or RGB triples",
-                      colormap),
+                      colormap)
+                .modifier("bar", "0|1", "with a bar of the colours from 0 to 1 at the right"),
             command("colorconfig FILE",
                     "OpenColorIO configuration of the commands that follow ($OCIO)",
                     run_colorconfig)

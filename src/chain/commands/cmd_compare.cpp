@@ -356,7 +356,7 @@ void run_errormap(Session& session, const Call& call) {
         request.look.pixels = options.pixels;
         request.look.size = options.size;
         request.exposures = summary.exposures;
-        request.error = metric.has(metrics::kBounded) ? &maps[i] : nullptr;
+        (metric.has(metrics::kBounded) ? request.error : request.unbounded) = &maps[i];
         show(session, call, std::move(request));
         push_map(session, call, std::move(maps[i]));
     }

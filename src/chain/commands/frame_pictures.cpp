@@ -63,6 +63,14 @@ void show(Session& session, const Call& call, sequence::PictureRequest request) 
     static_cast<IgnoreOptions&>(request.look) = {}; // the images are shown as they are
     sequence::FrameResult so_far = *session.check.result;
     sequence::judge(so_far);
+    try {
+        if (painter.beside)
+            painter.beside->take(request, so_far, session.outcome.warnings > 0);
+    } catch (const std::exception& problem) {
+        session.report(call.row().label() + ": no images: " + problem.what());
+    }
+    if (!painter.for_report)
+        return;
     ask_for_worst(request, painter, so_far);
     for (const sequence::Measurement& measured : so_far.measurements)
         if (measured.worst && request.full)

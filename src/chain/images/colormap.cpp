@@ -3,8 +3,11 @@
 
 #include <OpenImageIO/imagebufalgo.h>
 #include <OpenImageIO/strutil.h>
+#include <algorithm>
+#include <utility>
 
 #include "chain/language/values.h"
+#include "imagebuf/pixels/canvas.h"
 #include "imagebuf/pixels/upright.h"
 #include "text/error.h"
 #include "tonetool/display.h"
@@ -47,6 +50,18 @@ OIIO::ImageBuf colored(const OIIO::ImageBuf& pixels, const std::string& map) {
         throw CommandError(result.geterror());
     lie_as(pixels.spec(), result);
     return result;
+}
+
+OIIO::ImageBuf colored_with_bar(const OIIO::ImageBuf& pixels, const std::string& map) {
+    OIIO::ImageBuf picture = upright(colored(pixels, map), orientation_of(pixels.spec()));
+    const OIIO::ROI roi = picture.roi();
+    const int text = std::clamp(roi.height() / 20, 10, 32), margin = text / 2;
+    const int height = std::max(roi.height(), 2 * text + margin);
+    Canvas canvas(roi.width() + 2 * margin + bar_width(text), height, font_of_labels());
+    canvas.paste(picture, 0, 0);
+    const OIIO::ImageBuf bar = colored(ramp_of_values(text, height, true), map);
+    draw_bar(canvas, bar, roi.width() + margin, 0, text);
+    return std::move(canvas.image());
 }
 
 OIIO::ImageBuf linear_colored(const OIIO::ImageBuf& pixels, const std::string& map) {

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "imagebuf/pixels/canvas.h"
 #include "imagebuf/pixels/guard.h"
 #include "imagebuf/pixels/label_font.h"
 #include "imagebuf/pixels/oiio_compat.h"
@@ -25,8 +26,6 @@ using ToneAlgo::FilmstripOptions;
 namespace IBA = OIIO::ImageBufAlgo;
 
 constexpr double kMostPixels = 1 << 28;
-constexpr float kBackground[3] = {0.13f, 0.13f, 0.13f};
-constexpr float kInk[3] = {0.9f, 0.9f, 0.9f};
 
 std::string find_font(const std::string& asked) {
     if (asked.empty())
@@ -62,42 +61,6 @@ struct Layout {
     int height() const { return std::max(row_y(3), wide_y(1) + wide_h + row_gap()) + margin; }
 };
 
-class Canvas {
-public:
-    Canvas(int width, int height, const std::string& font)
-        : m_image(make_spec(width, height)),
-          m_font(font) {
-        check(IBA::fill(m_image, kBackground));
-    }
-
-    void paste(const ImageBuf& picture, int x, int y) {
-        check(IBA::paste(m_image, x, y, 0, 0, picture));
-    }
-
-    void write(int x, int y, const std::string& text, int size,
-               IBA::TextAlignX align = IBA::TextAlignX::Left) {
-        if (!m_font.empty())
-            check(IBA::render_text(m_image, x, y, text, size, m_font, kInk, align,
-                                   IBA::TextAlignY::Top));
-    }
-
-    ImageBuf& image() { return m_image; }
-
-private:
-    static OIIO::ImageSpec make_spec(int width, int height) {
-        OIIO::ImageSpec spec(width, height, 3, OIIO::TypeFloat);
-        spec.attribute("oiio:ColorSpace", "sRGB");
-        return spec;
-    }
-    void check(bool done) const {
-        if (!done)
-            throw std::runtime_error(m_image.geterror());
-    }
-
-    ImageBuf m_image;
-    std::string m_font;
-};
-
 // The display window of an image alone, upright, at the origin, `width` x `height`.
 ImageBuf thumbnail(const ImageBuf& image, int orientation, int width, int height, int nthreads) {
     ImageBuf shown = upright(IBA::crop(image, image.roi_full(), nthreads), orientation);
@@ -127,10 +90,7 @@ ImageBuf colored(const ImageBuf& map, const char* name, float scale = 1.0f) {
 
 // A bar of the colours from 0 to 1.
 ImageBuf legend(const char* name, int width, int height) {
-    ImageBuf ramp(OIIO::ImageSpec(width, height, 1, OIIO::TypeFloat));
-    const float from[1] = {0.0f}, to[1] = {1.0f};
-    IBA::fill(ramp, from, to, from, to);
-    return colored(ramp, name);
+    return colored(ramp_of_values(width, height, false), name);
 }
 
 class Filmstrip {

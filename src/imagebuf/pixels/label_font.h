@@ -20,4 +20,10 @@ inline std::string label_font_file() {
     return "";
 }
 
+/// Where it is not installed, OpenImageIO may find it in folders of OPENIMAGEIO_FONTS.
+inline std::string font_of_labels() {
+    const std::string file = label_font_file();
+    return file.empty() ? kLabelFont : file;
+}
+
 } // namespace tonetool

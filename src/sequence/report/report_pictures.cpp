@@ -12,6 +12,7 @@
 #include "sequence/report/encoded.h"
 #include "sequence/report/reduced.h"
 #include "sequence/report/scene_pixels.h"
+#include "sequence/report/shown_pair.h"
 
 namespace tonetool::sequence {
 
@@ -24,35 +25,18 @@ constexpr uint16_t kOne = 0x3c00; // as a half float
 constexpr int kLogQuality = 88, kReducedQuality = 82, kMapQuality = 60, kStopsQuality = 40,
               kSmallQuality = 72;
 
-struct Shown {
-    ImageBuf reference, test; ///< 8 bits, sRGB-encoded
-};
-
 class Painter {
 public:
     Painter(const PictureRequest& request, int nthreads)
         : m_request(request),
-          m_nthreads(nthreads),
-          m_look(request.look),
-          m_whole(request.error  ? request.error->roi()
-                  : request.bias ? request.bias->roi()
-                                 : request.test->roi_full()),
-          m_orientation(orientation_of(request.test->spec())) {
-        m_look.pixels.layer.clear();
-        if (!says_space_again(m_look.pixels))
-            m_look.pixels.from.clear();
-        m_look.alpha = AlphaPolicy::Ignore;
-        m_look.size = SizePolicy::Match;
-        m_look.memory = 0;
-        m_whole.chbegin = 0;
-        m_whole.chend = 1;
-    }
+          m_pair(request, nthreads),
+          m_whole(m_pair.whole()) {}
 
     FramePictures draw() {
         FramePictures pictures;
         const PixelSize small = fitted(m_whole, kThumbnailSide);
-        const Linear linear = read(m_whole, small);
-        const double middle = middle_exposure(linear);
+        const ShownPair::Linear linear = m_pair.read(m_whole, small);
+        const double middle = m_pair.middle_exposure(linear);
         draw_small(pictures, linear, middle, small);
         if (m_request.full)
             draw_large(pictures, middle);
@@ -63,73 +47,13 @@ public:
     }
 
 private:
-    struct Linear {
-        ImageBuf reference, test; ///< three channels, as they are stored
-    };
-
-    Linear read(const ROI& region, const PixelSize& side) const {
-        Linear linear;
-        const auto part = [&](const ImageBuf& image) {
-            return reduced_color(image, m_request.look.pixels, region_of(image, region), side);
-        };
-        linear.test = part(*m_request.test);
-        if (m_request.reference)
-            linear.reference = part(*m_request.reference);
-        return linear;
-    }
-
-    // Where the test was resized for the comparison, the whole test corresponds to the whole
-    // reference.
-    ROI region_of(const ImageBuf& image, const ROI& region) const {
-        return m_request.look.size == SizePolicy::Resize && &image == m_request.test
-                   ? scaled(region, m_whole, image.roi_full())
-                   : region;
-    }
-
-    double middle_exposure(const Linear& linear) const {
-        if (!m_request.hdr)
-            return 0;
-        const std::vector<double>& compared = m_request.exposures;
-        if (!compared.empty())
-            return (compared.front() + compared.back()) / 2;
-        std::vector<FlipExposure> found;
-        std::string error;
-        const ROI one_pixel(0, 1, 0, 1);
-        const bool done = ToneAlgo::flip_exposed(found, linear.test, linear.test, error, m_look, {},
-                                                 one_pixel, m_nthreads);
-        return done && !found.empty() ? (found.front().stops + found.back().stops) / 2 : 0;
-    }
-
-    // The pair as it is compared at one exposure.
-    Shown show(const Linear& linear, double stops) const {
-        const ImageBuf& reference = m_request.reference ? linear.reference : linear.test;
-        if (!m_request.hdr)
-            return {displayed(reference), displayed(linear.test)};
-        std::vector<FlipExposure> exposed;
-        std::string error;
-        if (!ToneAlgo::flip_exposed(exposed, reference, linear.test, error, m_look, {stops}, {},
-                                    m_nthreads))
-            throw std::runtime_error(error);
-        return {srgb_bytes(exposed.at(0).reference), srgb_bytes(exposed.at(0).test)};
-    }
-
     std::string uri(ImageBuf picture, Encoding encoding, int quality = kMapQuality) const {
-        return data_uri(upright(std::move(picture), m_orientation), encoding, quality);
+        return data_uri(upright(std::move(picture), m_pair.orientation()), encoding, quality);
     }
 
-    ImageBuf displayed(const ImageBuf& linear) const {
-        TonemapOptions options;
-        options.curve.name = "linear";
-        options.encode = "none";
-        ImageBuf result;
-        if (!ToneAlgo::tonemap(result, linear, options, nullptr, {}, m_nthreads))
-            throw std::runtime_error(result.geterror());
-        return srgb_bytes(result);
-    }
-
-    void draw_small(FramePictures& pictures, const Linear& linear, double stops,
+    void draw_small(FramePictures& pictures, const ShownPair::Linear& linear, double stops,
                     const PixelSize& side) const {
-        const Shown shown = show(linear, stops);
+        const ShownPair::Shown shown = m_pair.show(linear, stops);
         pictures.small_test = uri(resized(shown.test, side), Encoding::Jpeg, kSmallQuality);
         if (m_request.error) {
             const ImageBuf error = reduced_maps(*m_request.error, nullptr, side).error;
@@ -143,10 +67,10 @@ private:
         pictures.y = m_whole.ybegin;
         pictures.width = m_whole.width();
         pictures.height = m_whole.height();
-        pictures.orientation = m_orientation;
+        pictures.orientation = m_pair.orientation();
         pictures.space = space_name();
         const bool worst = m_request.stops && !m_request.spots.empty();
-        pictures.start = worst ? stops_at(m_request.spots.front(), middle) : middle;
+        pictures.start = worst ? m_pair.stops_at(m_request.spots.front(), middle) : middle;
         if (m_request.error)
             draw_maps(pictures, fitted(m_whole, kPictureSide));
         draw_side(*m_request.test, pictures, &PairTexts::test, &NumberPictures::test);
@@ -168,7 +92,7 @@ private:
     void draw_side(const ImageBuf& image, FramePictures& pictures, std::string PairTexts::*side,
                    NumberTexts NumberPictures::*numbers) const {
         const PixelOptions& options = m_request.look.pixels;
-        const ROI region = region_of(image, m_whole);
+        const ROI region = m_pair.region_of(image, m_whole);
         const PixelSize side_reduced = fitted(m_whole, kPictureSide);
         const bool resized =
             region.width() != m_whole.width() || region.height() != m_whole.height();
@@ -293,7 +217,7 @@ private:
                                                     m_whole);
             const bool inside = near.width() > 0 && near.height() > 0;
             if (inside && pictures.spots.size() < kMostSpots)
-                pictures.spots.push_back(spot(at, near, stops_at(at, stops)));
+                pictures.spots.push_back(spot(at, near, m_pair.stops_at(at, stops)));
         }
     }
 
@@ -304,35 +228,21 @@ private:
                 Encoding::Png);
     }
 
-    // The exposure of the largest error at this pixel.
-    double stops_at(const Position& at, double otherwise) const {
-        return m_request.stops ? double(m_request.stops->getchannel(at.x, at.y, 0, 0)) : otherwise;
-    }
-
     SpotPictures spot(const Position& at, const ROI& near, double stops) const {
-        const PixelSize side{near.width(), near.height()};
-        const Linear linear = read(near, side);
-        Shown shown = show(linear, stops);
+        const ShownPair::Shown shown = m_pair.show_region(near, stops);
         SpotPictures result;
         result.at = at;
-        mark_nonfinite(shown.test, *m_request.test, m_request.look.pixels, near);
         result.test = uri(shown.test, Encoding::Png);
-        if (m_request.reference) {
-            mark_nonfinite(shown.reference, *m_request.reference, m_request.look.pixels, near);
+        if (m_request.reference)
             result.reference = uri(shown.reference, Encoding::Png);
-        }
-        if (m_request.error) {
-            const ImageBuf error = OIIO::ImageBufAlgo::cut(*m_request.error, near);
-            result.error = uri(colored_bytes(error, "magma"), Encoding::Png);
-        }
+        if (m_request.error)
+            result.error = uri(m_pair.colored_error(near), Encoding::Png);
         return result;
     }
 
     const PictureRequest& m_request;
-    int m_nthreads;
-    HdrFlipOptions m_look;
+    ShownPair m_pair;
     ROI m_whole;
-    int m_orientation; ///< orientation of both images
 };
 
 } // namespace

@@ -18,10 +18,11 @@ struct PictureRequest {
     const OIIO::ImageBuf* test = nullptr;
     /// By a command whose map a person looks at: another before it leaves the pair to it.
     bool compared = true;
-    const OIIO::ImageBuf* error = nullptr; ///< a map of errors from 0 to 1; gives the region
-    const OIIO::ImageBuf* stops = nullptr; ///< FlipResult::exposure_stops
-    const OIIO::ImageBuf* bias = nullptr;  ///< bias_check()'s map "all"; gives the region, too
-    double within = 0;                     ///< the margin of that check
+    const OIIO::ImageBuf* error = nullptr;     ///< a map of errors from 0 to 1; gives the region
+    const OIIO::ImageBuf* unbounded = nullptr; ///< one of errors without a bound
+    const OIIO::ImageBuf* stops = nullptr;     ///< FlipResult::exposure_stops
+    const OIIO::ImageBuf* bias = nullptr;      ///< bias_check()'s map "all"; gives the region, too
+    double within = 0;                         ///< the margin of that check
     /// Exposures that were compared, ascending; empty: the image's own.
     std::vector<double> exposures;
     HdrFlipOptions look; ///< how the images were compared, and so how thumbnails are shown

@@ -1,15 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sequence/report/report_sheet.h"
 
-#include <OpenImageIO/imagebufalgo.h>
 #include <OpenImageIO/strutil.h>
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <optional>
 #include <stdexcept>
 
-#include "imagebuf/pixels/label_font.h"
+#include "imagebuf/pixels/canvas.h"
 #include "sequence/report/encoded.h"
 #include "sequence/results/json_text.h"
 
@@ -20,14 +18,12 @@ namespace {
 using OIIO::ImageBuf;
 using OIIO::ROI;
 using OIIO::Strutil::fmt::format;
-namespace IBA = OIIO::ImageBufAlgo;
 
 constexpr int kMargin = 10, kEdge = 4, kTextSize = 13, kLabel = 22;
-constexpr std::array<float, 3> kBackground{0.13f, 0.13f, 0.13f}, kInk{0.92f, 0.92f, 0.92f},
-    kEmpty{0.05f, 0.05f, 0.05f};
+constexpr SheetColor kEmpty{0.05f, 0.05f, 0.05f};
 
 // Colours that are safe for colour-blind readers; the label has the word as well.
-std::array<float, 3> color_of(Status status) {
+SheetColor color_of(Status status) {
     switch (status) {
     case Status::Passed:
     case Status::Measured:
@@ -68,12 +64,6 @@ std::optional<ImageBuf> thumbnail(const FrameResult& frame, const PictureStore& 
     return picture_of(json["test"].get<std::string>());
 }
 
-// Where it is not installed, OpenImageIO may find it in folders of OPENIMAGEIO_FONTS.
-std::string font_of_labels() {
-    const std::string file = label_font_file();
-    return file.empty() ? kLabelFont : file;
-}
-
 std::string label_of(const FrameResult& frame) {
     const std::string test = frame.test_frame ? "/" + std::to_string(*frame.test_frame) : "";
     return frame.item().named()
@@ -83,58 +73,36 @@ std::string label_of(const FrameResult& frame) {
 
 class Sheet {
 public:
-    Sheet(size_t count, int height) : m_cell_height(height + kLabel + 2 * kEdge + kMargin) {
-        m_columns = std::max(1, int(std::ceil(std::sqrt(double(count)))));
-        const int rows = (int(count) + m_columns - 1) / m_columns;
-        OIIO::ImageSpec spec(m_columns * cell_width + kMargin, rows * m_cell_height + kMargin, 3,
-                             OIIO::TypeDesc::UINT8);
-        spec.attribute("oiio:ColorSpace", "sRGB");
-        m_image = ImageBuf(spec);
-        check(IBA::fill(m_image, kBackground));
-    }
+    Sheet(size_t count, int height)
+        : m_cell_height(height + kLabel + 2 * kEdge + kMargin),
+          m_columns(std::max(1, int(std::ceil(std::sqrt(double(count)))))),
+          m_canvas(m_columns * cell_width + kMargin,
+                   (int(count) + m_columns - 1) / m_columns * m_cell_height + kMargin,
+                   font_of_labels(), OIIO::TypeDesc::UINT8) {}
 
     void put(size_t place, const FrameResult& frame, const std::optional<ImageBuf>& picture,
              int height) {
         const int x = kMargin + int(place) % m_columns * cell_width;
         const int y = kMargin + int(place) / m_columns * m_cell_height;
-        rectangle(x, y, kThumbnailSide + 2 * kEdge, height + 2 * kEdge, color_of(frame.status));
-        rectangle(x + kEdge, y + kEdge, kThumbnailSide, height, kEmpty);
+        m_canvas.rectangle(x, y, kThumbnailSide + 2 * kEdge, height + 2 * kEdge,
+                           color_of(frame.status));
+        m_canvas.rectangle(x + kEdge, y + kEdge, kThumbnailSide, height, kEmpty);
         if (picture) {
             const ROI roi = picture->roi();
-            check(IBA::paste(m_image, x + kEdge + (kThumbnailSide - roi.width()) / 2,
-                             y + kEdge + (height - roi.height()) / 2, 0, 0, *picture));
+            m_canvas.paste(*picture, x + kEdge + (kThumbnailSide - roi.width()) / 2,
+                           y + kEdge + (height - roi.height()) / 2);
         }
-        write(x, y + height + 2 * kEdge + 4,
-              format("{}  {}", label_of(frame), status_name(frame.status)));
+        m_canvas.write(x, y + height + 2 * kEdge + 4,
+                       format("{}  {}", label_of(frame), status_name(frame.status)), kTextSize);
     }
 
-    bool labelled() const { return m_labelled; }
-    ImageBuf& image() { return m_image; }
+    Canvas& canvas() { return m_canvas; }
 
 private:
     static constexpr int cell_width = kThumbnailSide + 2 * kEdge + kMargin;
 
-    void check(bool done) const {
-        if (!done)
-            throw std::runtime_error(m_image.geterror());
-    }
-
-    void rectangle(int x, int y, int width, int height, const std::array<float, 3>& color) {
-        check(IBA::fill(m_image, color, ROI(x, x + width, y, y + height)));
-    }
-
-    void write(int x, int y, const std::string& text) {
-        if (m_labelled && !IBA::render_text(m_image, x, y, text, kTextSize, m_font, kInk,
-                                            IBA::TextAlignX::Left, IBA::TextAlignY::Top)) {
-            (void)m_image.geterror();
-            m_labelled = false;
-        }
-    }
-
-    int m_cell_height, m_columns = 1;
-    bool m_labelled = true;
-    std::string m_font = font_of_labels();
-    ImageBuf m_image;
+    int m_cell_height, m_columns;
+    Canvas m_canvas;
 };
 
 } // namespace
@@ -153,12 +121,12 @@ ImageBuf contact_sheet(const ShotResult& shot, const PictureStore& pictures, std
     Sheet sheet(frames.size(), height);
     for (size_t i = 0; i < frames.size(); ++i)
         sheet.put(i, shot.frames[frames[i]], thumbnails[i], height);
-    if (!sheet.labelled()) {
+    if (!sheet.canvas().labelled()) {
         warning += warning.empty() ? "" : "; ";
         warning +=
             std::string("no font \"") + kLabelFont + "\" found: the contact sheet has no labels";
     }
-    return std::move(sheet.image());
+    return std::move(sheet.canvas().image());
 }
 
 } // namespace tonetool::sequence

@@ -223,6 +223,17 @@ std::string PictureStore::text(PictureSize size, const FrameResult& frame) const
     return text.rfind(beginning(frame), 0) == 0 ? text : "";
 }
 
+void PictureStore::keep_figure(const Item& item, std::string text) {
+    const std::lock_guard<std::mutex> lock(m_mutex);
+    m_figures[item] = std::move(text);
+}
+
+std::string PictureStore::figure(const Item& item) const {
+    const std::lock_guard<std::mutex> lock(m_mutex);
+    const auto found = m_figures.find(item);
+    return found == m_figures.end() ? "" : found->second;
+}
+
 void FramePainter::take(FramePictures pictures, const PictureRequest& request) {
     const bool wanted = wants(request);
     if (!drawn || wanted) {

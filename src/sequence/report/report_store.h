@@ -12,6 +12,7 @@
 #include <tuple>
 #include <vector>
 
+#include "sequence/report/case_pictures.h"
 #include "sequence/report/report_pictures.h"
 #include "sequence/results/results.h"
 
@@ -77,6 +78,10 @@ public:
     /// What was kept of a frame; empty where there is nothing.
     std::string text(PictureSize size, const FrameResult& frame) const;
 
+    /// A case of the figure, as text (figure.h); it stays in memory.
+    void keep_figure(const Item& item, std::string text);
+    std::string figure(const Item& item) const;
+
     /// What is wrong with what is in the folder, in words; empty: nothing is.
     const std::string& complaint() const { return m_complaint; }
 
@@ -99,6 +104,7 @@ private:
     Ranks m_worst; ///< the frames that are kept
     Ranks m_known; ///< the worst frames of those that were drawn
     std::map<std::string, std::string> m_texts;
+    std::map<Item, std::string> m_figures;
 };
 
 /// Collects the images of one frame while its commands run: of the first compared pair, else of the
@@ -109,6 +115,8 @@ struct FramePainter {
     bool pair = false; ///< a pair was drawn as it was compared, not an image
     /// A later command draws a pair: of an image before it only thumbnails and spots are needed.
     bool pair_comes = false;
+    bool for_report = true;        ///< else `drawn` stays empty
+    CaseDrawing* beside = nullptr; ///< what is drawn for --images and --figure
 
     bool wants(const PictureRequest& request) const {
         return !drawn || (!pair && request.reference);

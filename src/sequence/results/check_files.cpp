@@ -24,10 +24,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-using Text = std::string (*)(const ShotResult&);
+using Text = std::string (*)(const ShotResult&, const CaseFiles&);
 
 const std::map<std::string, Text>& texts() {
-    static const std::map<std::string, Text> all = {{"csv", csv_text}, {"junit", junit_text}};
+    static const std::map<std::string, Text> all = {
+        {"csv", [](const ShotResult& shot, const CaseFiles&) { return csv_text(shot); }},
+        {"junit", junit_text}};
     return all;
 }
 
@@ -63,7 +65,7 @@ void check_standard_output(const std::string& start, const std::string& command,
 }
 
 bool is_folder(const std::string& command) {
-    return command == "state" || command == "pictures";
+    return command == "state" || command == "pictures" || command == "images";
 }
 
 // Of a file that may be a link to one elsewhere, which need not be there yet.
@@ -153,7 +155,7 @@ void try_places(const CheckFiles& files) {
 }
 
 std::vector<std::string> write_results(const ShotResult& shot, const CheckFiles& files,
-                                       bool records) {
+                                       bool records, const CaseFiles& images) {
     std::vector<std::string> errors;
     for (const auto& item : files) {
         const std::string& file = item.second;
@@ -161,7 +163,7 @@ std::vector<std::string> write_results(const ShotResult& shot, const CheckFiles&
         if (item.first == "json")
             attempt(errors, [&] { write_json(shot, file, records); });
         else if (text != texts().end())
-            attempt(errors, [&] { write_text(text->second(shot), file); });
+            attempt(errors, [&] { write_text(text->second(shot, images), file); });
     }
     return errors;
 }

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "sequence/results/case_files.h"
 #include "sequence/results/results.h"
 
 namespace tonetool::sequence {
@@ -24,10 +25,10 @@ void try_places(const CheckFiles& files);
 /// The same in one folder, or where it will be made; `what` begins the error.
 void try_folder(const std::string& folder, const std::string& what);
 
-/// Writes each file whole or not at all; `records`: the JSON has those of --qc. Returns why some
-/// files could not be written.
+/// Writes each file whole or not at all; `records`: the JSON has those of --qc; `images`: of
+/// --images. Returns why some files could not be written.
 std::vector<std::string> write_results(const ShotResult& shot, const CheckFiles& files,
-                                       bool records);
+                                       bool records, const CaseFiles& images = {});
 
 /// Runs `write` and adds the exception that it throws to the errors.
 void attempt(std::vector<std::string>& errors, const std::function<void()>& write);

@@ -6,6 +6,7 @@
 #include <cerrno>
 #include <cstring>
 #include <fcntl.h>
+#include <filesystem>
 #include <map>
 #include <stdexcept>
 #include <unistd.h>
@@ -160,7 +161,69 @@ std::string summary_row(const FrameResult& frame) {
            cell(markdown_cell(OIIO::Strutil::join(why, "; "))) + "\n";
 }
 
+// ---- measurements
+
+std::string xml(const std::string& text) {
+    return replaced(
+        printable_lines(valid_utf8(text)),
+        {{'<', "&lt;"}, {'>', "&gt;"}, {'&', "&amp;"}, {'"', "&quot;"}, {'\n', " "}, {'\r', " "}});
+}
+
+std::string number_line(const std::string& name, double value) {
+    return format("<CTestMeasurement type=\"numeric/double\" name=\"{}\">{:.6g}"
+                  "</CTestMeasurement>\n",
+                  xml(name), value);
+}
+
+std::string number_lines(const FrameResult& frame, const std::string& start) {
+    std::map<std::string, int> seen;
+    std::string text;
+    for (const Measurement& measured : frame.measurements) {
+        const int number = ++seen[measured.command];
+        const std::string name =
+            start + measured.command + (number > 1 ? "#" + std::to_string(number) : "") + ".";
+        for (const Threshold& one : measured.thresholds)
+            text += number_line(name + one.quantity, one.value);
+        if (measured.thresholds.empty() && !measured.quantities.empty())
+            text += number_line(name + measured.quantities.front().first,
+                                measured.quantities.front().second);
+    }
+    return text;
+}
+
+std::string verdict_line(const FrameResult& frame, const std::string& start) {
+    return format(
+        "<CTestMeasurement type=\"text/string\" name=\"{}\">{}</CTestMeasurement>\n",
+        xml(start + "verdict"),
+        xml(status_name(frame.status) + (frame.message.empty() ? "" : ": " + frame.message)));
+}
+
+std::string image_line(const char* name, const std::string& file) {
+    return file.empty()
+               ? ""
+               : format("<CTestMeasurementFile type=\"image/png\" name=\"{}\">{}"
+                        "</CTestMeasurementFile>\n",
+                        name, xml(std::filesystem::absolute(file).lexically_normal().string()));
+}
+
 } // namespace
+
+std::string ctest_text(const ShotResult& shot, const CaseFiles& images) {
+    std::string text;
+    for (const FrameResult& frame : shot.frames) {
+        const std::string start = shot.frames.size() > 1 ? ci_name(frame) + "/" : "";
+        text += number_lines(frame, start) + verdict_line(frame, start);
+    }
+    for (const size_t index : shot.worst) {
+        const CaseFiles::Of of = images.find(shot.frames.at(index).item());
+        if (of.any()) {
+            return text + image_line("TestImage", of.test) +
+                   image_line("ValidImage", of.reference) +
+                   image_line("DifferenceImage2", of.error);
+        }
+    }
+    return text;
+}
 
 std::string github_text(const ShotResult& shot) {
     return annotations("error", shot, bad_frames_of(shot, Status::Failed, Status::Crashed)) +

@@ -4,6 +4,7 @@
 
 #include <string>
 
+#include "sequence/results/case_files.h"
 #include "sequence/results/results.h"
 
 namespace tonetool::sequence {
@@ -22,6 +23,12 @@ std::string summary_text(const ShotResult& shot, const std::string& json);
 /// The command line that approves the cases of a suite that failed; empty where nothing can be
 /// approved.
 std::string approve_command(const ShotResult& shot, const std::string& json);
+
+/// --ctest: a line for each number that has a limit (or the first where none has), for the verdict
+/// and for each image, as CTest finds them in what a test prints. Of several cases the names begin
+/// with the case's, and only the worst has images: CDash compares what is called TestImage,
+/// ValidImage and DifferenceImage2.
+std::string ctest_text(const ShotResult& shot, const CaseFiles& images);
 
 /// Adds the text to the end of a file, which may hold others' already. Throws a runtime_error where
 /// it cannot be written.

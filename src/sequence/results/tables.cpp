@@ -7,6 +7,7 @@
 #include <cstring>
 #include <map>
 #include <set>
+#include <tuple>
 
 #include "imagebuf/pixels/utf8.h"
 #include "sequence/frames/frame_range.h"
@@ -121,12 +122,27 @@ std::string faults_text(const FrameResult& frame) {
     return text;
 }
 
-std::string outcome(const FrameResult& frame) {
+// GitLab and Jenkins read each of its lines that is an attachment as a whole.
+std::string system_out(const std::vector<std::string>& lines) {
+    return lines.empty() ? ""
+                         : "<system-out>" + OIIO::Strutil::join(lines, "&#10;") + "</system-out>";
+}
+
+std::vector<std::string> attachments(const CaseFiles::Of& images) {
+    std::vector<std::string> lines;
+    for (const std::string& file : {images.error, images.test, images.reference})
+        if (!file.empty())
+            lines.push_back("[[ATTACHMENT|" + escaped(file) + "]]");
+    return lines;
+}
+
+std::string outcome(const FrameResult& frame, const CaseFiles::Of& images) {
+    std::vector<std::string> lines = attachments(images);
     const std::string message = escaped(frame.message);
     const std::string name = status_name(frame.status);
     const std::string details = escaped(faults_text(frame));
     if (is_undecided(frame))
-        return format("<skipped message=\"{}\"/>", message);
+        return format("<skipped message=\"{}\"/>", message) + system_out(lines);
     switch (frame.status) {
     case Status::Passed:
         return "";
@@ -135,17 +151,20 @@ std::string outcome(const FrameResult& frame) {
     case Status::Skipped:
         return format("<skipped message=\"{}\"/>", message);
     case Status::Warning:
-        return format("<system-out>warning: {}&#10;{}</system-out>", message, details);
+        return format("<system-out>warning: {}&#10;{}{}</system-out>", message, details,
+                      OIIO::Strutil::join(lines, "&#10;"));
     case Status::Failed:
-        return format("<failure type=\"{}\" message=\"{}\">{}</failure>", name, message, details);
+        return format("<failure type=\"{}\" message=\"{}\">{}</failure>", name, message, details) +
+               system_out(lines);
     default:
-        return format("<error type=\"{}\" message=\"{}\">{}</error>", name, message, details);
+        return format("<error type=\"{}\" message=\"{}\">{}</error>", name, message, details) +
+               system_out(lines);
     }
 }
 
 // Of a case the message is in the text, too: a person reads one of them.
-std::string outcome_of_case(const FrameResult& frame) {
-    const std::string inside = outcome(frame);
+std::string outcome_of_case(const FrameResult& frame, const CaseFiles::Of& images) {
+    const std::string inside = outcome(frame, images);
     const size_t end = frame.status == Status::Failed ? inside.find("\">") : std::string::npos;
     if (end == std::string::npos)
         return inside;
@@ -156,25 +175,34 @@ std::string outcome_of_case(const FrameResult& frame) {
     return inside.substr(0, end + 2) + escaped(text) + inside.substr(end + 2);
 }
 
-std::string named_case(const FrameResult& frame, const std::string& check) {
+// What a test case is known by, as it stands in XML.
+struct CaseName {
+    std::string classname, name;
+    bool operator<(const CaseName& o) const {
+        return std::tie(classname, name) < std::tie(o.classname, o.name);
+    }
+};
+
+CaseName junit_name(const FrameResult& frame, const std::string& check) {
+    if (!frame.item().named()) {
+        const std::string file = escaped(frame.test);
+        const std::string test =
+            frame.test_frame ? format(" (test {:04d})", *frame.test_frame) : "";
+        return {file.empty() ? "check" : file,
+                format("frame {:04d}{}{}{}", frame.frame, frame.view.empty() ? "" : " ",
+                       escaped(frame.view), test)};
+    }
     const std::string method = frame.method.empty() ? "" : " [" + frame.method + "]";
     const std::string number = frame.frame == 0 ? "" : format(" frame {:04d}", frame.frame);
     const std::string view = frame.view.empty() ? "" : " " + frame.view;
-    const std::string inside = outcome_of_case(frame);
-    return format("  <testcase classname=\"{}\" name=\"{}\" file=\"{}\"", escaped(check),
-                  escaped(frame.name + method + number + view), escaped(frame.test)) +
-           (inside.empty() ? "/>\n" : ">" + inside + "</testcase>\n");
+    return {escaped(check), escaped(frame.name + method + number + view)};
 }
 
-std::string test_case(const FrameResult& frame, const std::string& check) {
-    if (frame.item().named())
-        return named_case(frame, check);
-    const std::string name = format(
-        "frame {:04d}{}{}{}", frame.frame, frame.view.empty() ? "" : " ", escaped(frame.view),
-        frame.test_frame ? format(" (test {:04d})", *frame.test_frame) : "");
-    const std::string file = escaped(frame.test);
-    const std::string inside = outcome(frame);
-    return format("  <testcase classname=\"{}\" name=\"{}\"", file.empty() ? "check" : file, name) +
+std::string test_case(const FrameResult& frame, const CaseName& name, const CaseFiles::Of& images) {
+    const bool named = frame.item().named();
+    const std::string file = named ? format(" file=\"{}\"", escaped(frame.test)) : "";
+    const std::string inside = named ? outcome_of_case(frame, images) : outcome(frame, images);
+    return format("  <testcase classname=\"{}\" name=\"{}\"{}", name.classname, name.name, file) +
            (inside.empty() ? "/>\n" : ">" + inside + "</testcase>\n");
 }
 
@@ -197,7 +225,8 @@ std::string csv_text(const ShotResult& shot) {
     return text;
 }
 
-std::string junit_text(const ShotResult& shot) {
+std::string junit_text(const ShotResult& shot, const CaseFiles& images) {
+    std::map<CaseName, int> seen; // names that XML cannot tell apart
     size_t failures = 0, errors = 0, skipped = 0;
     std::string cases;
     for (const FrameResult& frame : shot.frames) {
@@ -207,7 +236,10 @@ std::string junit_text(const ShotResult& shot) {
                            is_undecided(frame)
                        ? 1
                        : 0;
-        cases += test_case(frame, check_name(shot));
+        CaseName name = junit_name(frame, check_name(shot));
+        if (const int before = seen[name]++; before > 0)
+            name.name += format(" ({})", before + 1);
+        cases += test_case(frame, name, images.find(frame.item()));
     }
     const std::string counts =
         format("name=\"{}\" tests=\"{}\" failures=\"{}\" errors=\"{}\" skipped=\"{}\"",

@@ -4,6 +4,7 @@
 
 #include <string>
 
+#include "sequence/results/case_files.h"
 #include "sequence/results/results.h"
 
 namespace tonetool::sequence {
@@ -16,8 +17,9 @@ namespace tonetool::sequence {
 std::string csv_text(const ShotResult& shot);
 
 /// A test case per frame: failed frames are failures, frames that could not be checked errors, and
-/// frames that were measured without a threshold are skipped, not passed.
-std::string junit_text(const ShotResult& shot);
+/// frames that were measured without a threshold are skipped, not passed. The images of a frame are
+/// its attachments. No two test cases have the same names: GitLab reads only the first of those.
+std::string junit_text(const ShotResult& shot, const CaseFiles& images = {});
 
 /// The numbers of the frames to render again, those of the tests, in one line:
 /// "1004,1006,1009-1011"; empty where there is none. `from`: the least status that counts, Warning
