@@ -178,83 +178,99 @@ Ran PlainFrames::failed(size_t index, Status status, const std::string& why, std
     return {1, "error", true};
 }
 
-// ---- exposures of the shot
+// ---- what is measured before
 
-ExposureFrames::ExposureFrames(const FrameContext& context, const std::optional<State>& state)
+MeasuredFrames::MeasuredFrames(const FrameContext& context, std::string what,
+                               const std::optional<State>* state)
     : m_context(context),
+      m_what(std::move(what)),
       m_state(state),
-      m_samples(context.plan.runs.size()),
+      m_texts(context.plan.runs.size()),
       m_errors(context.plan.runs.size()) {}
 
-ExposureFrames::Measured ExposureFrames::measure(size_t index, std::ostream& err) const {
-    const FrameRun& run = m_context.plan.runs[index];
+MeasuredFrames::Measured MeasuredFrames::measure(size_t index, std::ostream& err) const {
     const sequence::Item item = m_context.item(index);
-    if (m_state) {
-        if (const auto kept = m_state->find(item, origin(index)))
-            return {sequence::samples_from_json(kept->result).at(0), ""};
+    if (keeps()) {
+        if (auto kept = (*m_state)->find(item, origin(index)))
+            return {std::move(kept->result), ""};
     }
-    sequence::ExposureSample found{run.frame.number, run.frame.view, -1, 0};
     std::ostringstream nowhere;
     Session session = m_context.session(index, nowhere, err);
-    session.check.sample = &found;
     session.settings.dry_run = true;
-    m_context.run_commands(session, index);
-    if (session.outcome.errors > 0 || found.max_luminance < 0)
+    const auto found = run_words(index, session);
+    if (session.outcome.errors > 0 || !found)
         return {std::nullopt, session.outcome.first_error};
     Measured measured{found, ""};
-    if (m_state) {
-        measured.error = keep_in(*m_state, item, origin(index), session.files,
-                                 {sequence::to_json({found}), "", ""});
+    if (keeps()) {
+        measured.error = keep_in(**m_state, item, origin(index), session.files, {*found, "", ""});
         if (!measured.error.empty())
             m_context.print_error(index, measured.error, err);
     }
     return measured;
 }
 
-Ran ExposureFrames::run(size_t index, std::ostream&, std::ostream& err) {
+Ran MeasuredFrames::run(size_t index, std::ostream&, std::ostream& err) {
     const Measured measured = measure(index, err);
-    const bool found = measured.sample.has_value();
-    return {found && measured.error.empty() ? 0 : 1, found ? "exposures" : "no exposures", false,
-            packed({found ? sequence::to_json({*measured.sample}) : "", measured.error})};
+    const bool found = measured.text.has_value();
+    return {found && measured.error.empty() ? 0 : 1, (found ? "" : "no ") + m_what, false,
+            packed({found ? *measured.text : "", measured.error})};
 }
 
-Ran ExposureFrames::failed(size_t index, Status status, const std::string& why, std::ostream& err) {
+Ran MeasuredFrames::failed(size_t index, Status status, const std::string& why, std::ostream& err) {
     const std::string error = status == Status::Crashed ? crashed(why) : why;
     m_context.print_error(index, error, err);
-    return {1, "no exposures", false, packed({"", error})};
+    return {1, "no " + m_what, false, packed({"", error})};
 }
 
-void ExposureFrames::take(size_t index, Ran& ran) {
-    const Strings texts = unpacked(ran.found, 2);
+void MeasuredFrames::take(size_t index, Ran& ran) {
+    Strings texts = unpacked(ran.found, 2);
     if (!texts[0].empty())
-        m_samples[index] = sequence::samples_from_json(texts[0]).at(0);
+        m_texts[index] = std::move(texts[0]);
     m_errors[index] = texts[1];
 }
 
-sequence::Origin ExposureFrames::origin(size_t index) const {
+sequence::Origin MeasuredFrames::origin(size_t index) const {
     const FramePlan& plan = m_context.plan;
-    return {words_at(plan.runs[index].words, plan.check.essence_at), "exposures"};
+    return {words_at(plan.runs[index].words, plan.check.essence_at), m_what};
 }
 
-std::string ExposureFrames::kept() const {
-    const std::string text = kept_in(m_state, m_context.plan, [this](size_t index) {
-        return m_state->find(m_context.item(index), origin(index)).has_value();
-    });
-    return text.empty() ? "" : "the exposures of " + text;
+std::string MeasuredFrames::kept() const {
+    if (!keeps())
+        return "";
+    return "the " + m_what + " of " + kept_in(*m_state, m_context.plan, [this](size_t index) {
+               return (*m_state)->find(m_context.item(index), origin(index)).has_value();
+           });
 }
 
-sequence::ExposureSamples ExposureFrames::samples() const {
-    sequence::ExposureSamples all;
-    for (const auto& found : m_samples)
+Strings MeasuredFrames::texts() const {
+    Strings all;
+    for (const auto& found : m_texts)
         if (found)
             all.push_back(*found);
     return all;
 }
 
-std::string ExposureFrames::first_error() const {
+std::string MeasuredFrames::first_error() const {
     const auto first = std::find_if(m_errors.begin(), m_errors.end(),
                                     [](const std::string& error) { return !error.empty(); });
     return first == m_errors.end() ? "" : *first;
+}
+
+std::optional<std::string> ExposureFrames::run_words(size_t index, Session& session) const {
+    const Frame& frame = m_context.plan.runs[index].frame;
+    sequence::ExposureSample found{frame.number, frame.view, -1, 0};
+    session.check.sample = &found;
+    m_context.run_commands(session, index);
+    if (found.max_luminance < 0)
+        return std::nullopt;
+    return sequence::to_json({found});
+}
+
+sequence::ExposureSamples ExposureFrames::samples() const {
+    sequence::ExposureSamples all;
+    for (const std::string& text : texts())
+        all.push_back(sequence::samples_from_json(text).at(0));
+    return all;
 }
 
 // ---- the check

@@ -43,34 +43,60 @@ private:
     const FrameContext& m_context;
 };
 
-/// Measures what exposures=shot needs.
-class ExposureFrames final : public FrameJob {
+/// Measures something of each frame before the frames run: a text of each, in the form that it has
+/// in a file.
+class MeasuredFrames : public FrameJob {
 public:
-    ExposureFrames(const FrameContext& context, const std::optional<sequence::State>& state);
-    Ran run(size_t index, std::ostream& out, std::ostream& err) override;
+    /// `what`: "exposures", as results are called. A state keeps them for the next run.
+    MeasuredFrames(const FrameContext& context, std::string what,
+                   const std::optional<sequence::State>* state = nullptr);
+    Ran run(size_t index, std::ostream& out, std::ostream& err) final;
     Ran failed(size_t index, sequence::Status status, const std::string& why,
-               std::ostream& err) override;
-    void take(size_t index, Ran& ran) override;
+               std::ostream& err) final;
+    void take(size_t index, Ran& ran) final;
 
-    std::string kept() const override;
+    std::string kept() const final;
 
-    sequence::ExposureSamples samples() const;
     /// Of the first frame that could not be measured; empty where all could.
     std::string first_error() const;
+    /// Of a frame; empty where it could be measured.
+    const std::string& error_of(size_t index) const { return m_errors[index]; }
+
+protected:
+    /// Of the frames that were measured, in their order.
+    Strings texts() const;
 
 private:
-    // A frame's exposures, if it has any, and what was wrong with it.
+    // A frame's text, if it has any, and what was wrong with it.
     struct Measured {
-        std::optional<sequence::ExposureSample> sample;
+        std::optional<std::string> text;
         std::string error;
     };
     Measured measure(size_t index, std::ostream& err) const;
     sequence::Origin origin(size_t index) const;
+    bool keeps() const { return m_state && *m_state; }
+    /// Runs the words of the frame in a session that is to measure; nothing if they have not.
+    virtual std::optional<std::string> run_words(size_t index, chain::Session& session) const = 0;
 
     const FrameContext& m_context;
-    const std::optional<sequence::State>& m_state;
-    std::vector<std::optional<sequence::ExposureSample>> m_samples;
+    std::string m_what;
+    const std::optional<sequence::State>* m_state;
+    std::vector<std::optional<std::string>> m_texts;
     Strings m_errors; ///< one for each frame
+};
+
+/// Measures what exposures=shot needs.
+class ExposureFrames final : public MeasuredFrames {
+public:
+    ExposureFrames(const FrameContext& context, const std::optional<sequence::State>& state)
+        : MeasuredFrames(context, "exposures", &state),
+          m_context(context) {}
+    sequence::ExposureSamples samples() const;
+
+private:
+    std::optional<std::string> run_words(size_t index, chain::Session& session) const override;
+
+    const FrameContext& m_context;
 };
 
 /// Checks frames: what is wrong with one is its result.
