@@ -3,11 +3,13 @@
 
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/sysutil.h>
+#include <algorithm>
 #include <filesystem>
 #include <ostream>
 
 #include "runs/loop.h"
 #include "runs/rehearsal.h"
+#include "runs/shots.h"
 #include "sequence/frames/file_stamp.h"
 #include "sequence/report/report_files.h"
 #include "sequence/results/check_files.h"
@@ -229,7 +231,9 @@ Strings parts_of(const FramePlan& plan) {
 }
 
 void merge_exposures(const FramePlan& plan, const Strings& parts, std::ostream& out) {
-    const std::string text = sequence::merged_exposures(parts);
+    const bool shots = std::any_of(parts.begin(), parts.end(), is_shot_file);
+    const std::string text =
+        shots ? merged_shots(parts, plan.check.expected) : sequence::merged_exposures(parts);
     if (plan.check.only_validates)
         out << places_text(plan);
     else

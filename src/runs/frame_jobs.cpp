@@ -11,6 +11,7 @@
 #include "chain/session/runner.h"
 #include "runs/check_end.h"
 #include "runs/packed.h"
+#include "runs/shots.h"
 #include "sequence/results/probe.h"
 #include "sequence/results/results_json.h"
 #include "text/error.h"
@@ -126,6 +127,7 @@ Session FrameContext::session(size_t index, std::ostream& out, std::ostream& err
         return names;
     };
     session.check.shot = shot ? &*shot : nullptr;
+    session.shot = lights;
     session.written = written;
     session.settings.parallel = plan.parallel;
     session.settings.memory = share_of_memory(plan.parallel);
@@ -273,6 +275,22 @@ sequence::ExposureSamples ExposureFrames::samples() const {
     return all;
 }
 
+// A frame that does not come to the command has no part in its shot.
+std::optional<std::string> LightFrames::run_words(size_t index, Session& session) const {
+    FrameLight light;
+    session.shot.at = m_at;
+    session.shot.light = &light;
+    m_context.run_commands(session, index);
+    return light.histogram.empty() ? std::nullopt : std::optional(shot_text({"shot", {light}}));
+}
+
+std::vector<FrameLight> LightFrames::lights() const {
+    std::vector<FrameLight> all;
+    for (const std::string& text : texts())
+        all.push_back(shot_of_text(text).frames.at(0));
+    return all;
+}
+
 // ---- the check
 
 CheckedFrames::CheckedFrames(const FrameContext& context, const std::optional<State>& state,
@@ -362,8 +380,10 @@ CheckedFrames::Checked CheckedFrames::check_or_find(size_t index) const {
 
 sequence::Origin CheckedFrames::origin(size_t index) const {
     const FramePlan& plan = m_context.plan;
-    return {words_at(plan.runs[index].words, plan.check.essence_at),
-            m_context.shot ? sequence::exposures_text(*m_context.shot) : ""};
+    std::string rest = m_context.shot ? sequence::exposures_text(*m_context.shot) : "";
+    for (const auto& [at, light] : m_context.lights.measured)
+        rest += shot_text(light);
+    return {words_at(plan.runs[index].words, plan.check.essence_at), rest};
 }
 
 std::string CheckedFrames::kept() const {

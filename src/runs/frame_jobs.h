@@ -19,6 +19,7 @@ namespace tonetool::runs {
 struct FrameContext {
     const FramePlan& plan;
     std::optional<sequence::ShotExposures> shot; ///< of exposures=
+    chain::ShotPart lights{};                    ///< of adapt=
     std::shared_ptr<chain::WrittenFiles> written = std::make_shared<chain::WrittenFiles>();
 
     chain::Session session(size_t index, std::ostream& out, std::ostream& err) const;
@@ -97,6 +98,22 @@ private:
     std::optional<std::string> run_words(size_t index, chain::Session& session) const override;
 
     const FrameContext& m_context;
+};
+
+/// Measures what adapt=shot needs, for one command; those before it have theirs.
+class LightFrames final : public MeasuredFrames {
+public:
+    LightFrames(const FrameContext& context, size_t at)
+        : MeasuredFrames(context, "light"),
+          m_context(context),
+          m_at(at) {}
+    std::vector<FrameLight> lights() const;
+
+private:
+    std::optional<std::string> run_words(size_t index, chain::Session& session) const override;
+
+    const FrameContext& m_context;
+    size_t m_at;
 };
 
 /// Checks frames: what is wrong with one is its result.
