@@ -171,6 +171,8 @@ ShotStatistics shot_from_text(const std::string& text) {
         return shot;
     } catch (const nlohmann::json::exception& problem) {
         throw Refusal(reason_of(problem));
+    } catch (const std::runtime_error& problem) { // of json_reading.h
+        throw Refusal(problem.what());
     }
 }
 
