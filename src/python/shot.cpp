@@ -67,6 +67,12 @@ py::object shot_text(std::vector<py::object>& arguments) {
     return to_str(text);
 }
 
+py::object shot_likeness(std::vector<py::object>& arguments) {
+    const auto a = Python<FrameLight>::from(arguments[0], "shot_likeness: a");
+    const auto b = Python<FrameLight>::from(arguments[1], "shot_likeness: b");
+    return py::float_(ToneAlgo::shot_likeness(a, b));
+}
+
 py::object shot_exposure(std::vector<py::object>& arguments, const AdaptOptions& given) {
     AdaptOptions options = given;
     options.statistics = Python<ShotStatistics>::from(arguments[0], "shot_exposure: statistics");
@@ -112,6 +118,15 @@ void add_results(Module& module) {
         .finish();
 }
 
+// What says how a shot is followed, without what says which one.
+Fields<AdaptOptions> fields_beside_statistics() {
+    Fields<AdaptOptions> fields;
+    for (const Field<AdaptOptions>& row : table_of<AdaptOptions>().fields)
+        if (row.name != "adapt" && row.name != "statistics")
+            fields.push_back(row);
+    return fields;
+}
+
 void add_functions(Module& module) {
     const Parameter statistics{"statistics", "ShotStatistics | Sequence[FrameLight]",
                                "Of all frames of the shot, in any order.", ""};
@@ -146,7 +161,18 @@ void add_functions(Module& module) {
                        "No frames, no light in any, a frame that is not there, a value out of "
                        "range.",
                        kSource},
-           table_of<AdaptOptions>().fields, shot_exposure);
+           fields_beside_statistics(), shot_exposure);
+    define(module,
+           Description{
+               "shot_likeness",
+               "How alike two frames are, whatever their light.",
+               {{"a", "FrameLight", "One of them.", ""}, {"b", "FrameLight", "The other.", ""}},
+               "float",
+               "The largest correlation of their thumbnails over shifts of up to two cells.",
+               "Units: -1 to 1; below 0.6 there is a cut between neighbours.",
+               "Another type.",
+               kSource},
+           shot_likeness);
     define(module,
            Description{"read_shot",
                        "Read the statistics of a shot.",
