@@ -350,6 +350,25 @@ def test_masked_renders_are_exposed_by_what_they_show(tonetool, write):
     assert lwa[0] == pytest.approx(lwa[1], rel=0.2), "not the black around it"
 
 
+def test_a_check_follows_the_shot_and_so_does_its_state(tonetool, shot, write, tmp_path):
+    for number in range(1, 7):
+        write(number, 1, name="t")
+    line = ["--frames", "1-6", "-i", shot, "--calibrate:method=mean", "-i", "t.#.exr",
+            "--calibrate:method=mean", "--errormap:metric=mse"]
+
+    def means(*more):
+        tonetool(*line, "--json", "c.json", *more)
+        frames = json.loads((tmp_path / "c.json").read_text())["frames"]
+        return [frame["measurements"][0]["quantities"]["mse"] for frame in frames]
+
+    before = means("--state", "st")
+    assert means("--state", "st") == before == means("--parallel-frames", "3")
+    assert before[2] == before[4] > 0 and before[0] != before[1], "one exposure a side"
+    write(6, 200)
+    after = means("--state", "st")
+    assert after == means() and all(a != b for a, b in zip(after, before))
+
+
 # ---- what is wrong
 
 
