@@ -42,6 +42,60 @@ double correlation(const std::vector<double>& a, const std::vector<double>& b, i
     return ab / std::sqrt(aa * bb);
 }
 
+// ---- views
+
+// A mean of logarithms; of one value it is that value, to the bit.
+class GeometricMean {
+public:
+    void add(double value) {
+        m_first = m_count == 0 ? value : m_first;
+        m_logs += std::log(value);
+        ++m_count;
+    }
+    double value() const {
+        return m_count == 0 ? 0 : m_count == 1 ? m_first : std::exp(m_logs / m_count);
+    }
+
+private:
+    double m_first = 0, m_logs = 0, m_count = 0;
+};
+
+// Those of one frame.
+class Views {
+public:
+    void add(const FrameLight& light) {
+        m_frame.number = light.frame;
+        m_frame.light = m_frame.light ? m_frame.light : &light;
+        m_frame.unit = std::max(m_frame.unit, light.unit);
+        m_frame.fps = std::max(m_frame.fps, light.fps);
+        m_frame.lmax = std::max(m_frame.lmax, light.lmax);
+        m_maximum = std::max(m_maximum, light.maximum);
+        m_frame.counted += light.counted;
+        m_frame.histogram.resize(kLightBins, 0);
+        for (size_t i = 0; i < light.histogram.size() && i < m_frame.histogram.size(); ++i)
+            m_frame.histogram[i] += light.histogram[i];
+        if (light.lwa > 0) {
+            m_lwa.add(light.lwa);
+            m_geometric.add(light.lwa_geometric);
+        }
+    }
+    ShotFrame together(std::optional<double> white_percentile) const {
+        ShotFrame frame = m_frame;
+        frame.lwa = m_lwa.value();
+        frame.lwa_geometric = m_geometric.value();
+        if (white_percentile)
+            frame.white = *white_percentile >= 100
+                              ? m_maximum
+                              : percentile_of(frame.histogram, *white_percentile);
+        return frame;
+    }
+
+private:
+    ShotFrame m_frame;
+    GeometricMean m_lwa, m_geometric;
+    double m_maximum = 0;
+};
+
 // ---- time
 
 using Values = std::array<double, 4>;
@@ -193,50 +247,15 @@ double percentile_of(const std::vector<int64_t>& histogram, double percentile) {
 
 std::vector<ShotFrame> frames_of(const std::vector<FrameLight>& lights,
                                  std::optional<double> white_percentile) {
-    struct Sums {
-        ShotFrame frame;
-        double logs = 0, geometric_logs = 0, lit = 0, maximum = 0;
-    };
     std::map<std::pair<int, std::string>, const FrameLight*> sorted;
     for (const FrameLight& light : lights)
         sorted[{light.frame, light.view}] = &light;
-    std::map<int, Sums> numbers;
-    for (const auto& [key, light] : sorted) {
-        Sums& sums = numbers[light->frame];
-        ShotFrame& frame = sums.frame;
-        frame.number = light->frame;
-        frame.light = frame.light ? frame.light : light;
-        frame.unit = std::max(frame.unit, light->unit);
-        frame.fps = std::max(frame.fps, light->fps);
-        frame.lmax = std::max(frame.lmax, light->lmax);
-        sums.maximum = std::max(sums.maximum, light->maximum);
-        frame.counted += light->counted;
-        frame.histogram.resize(kLightBins, 0);
-        for (size_t i = 0; i < light->histogram.size() && i < frame.histogram.size(); ++i)
-            frame.histogram[i] += light->histogram[i];
-        if (light->lwa > 0) {
-            sums.logs += std::log(light->lwa);
-            sums.geometric_logs += std::log(light->lwa_geometric);
-            ++sums.lit;
-        }
-    }
+    std::map<int, Views> numbers;
+    for (const auto& [key, light] : sorted)
+        numbers[light->frame].add(*light);
     std::vector<ShotFrame> frames;
-    for (auto& [number, sums] : numbers) {
-        // A mean of one value is that value, to the bit.
-        const bool alone = sums.lit == 1;
-        ShotFrame& frame = sums.frame;
-        frame.lwa = sums.lit > 0 ? std::exp(sums.logs / sums.lit) : 0;
-        frame.lwa_geometric = sums.lit > 0 ? std::exp(sums.geometric_logs / sums.lit) : 0;
-        if (alone && frame.light->lwa > 0) {
-            frame.lwa = frame.light->lwa;
-            frame.lwa_geometric = frame.light->lwa_geometric;
-        }
-        if (white_percentile)
-            frame.white = *white_percentile >= 100
-                              ? sums.maximum
-                              : percentile_of(frame.histogram, *white_percentile);
-        frames.push_back(std::move(frame));
-    }
+    for (auto& [number, views] : numbers)
+        frames.push_back(views.together(white_percentile));
     return frames;
 }
 
