@@ -7,6 +7,7 @@
 #include "imagebuf/options/cgtmo_options.h"
 #include "python/families.h"
 #include "python/lights.h"
+#include "python/shot.h"
 
 namespace tonetool::python {
 
@@ -22,8 +23,10 @@ Fields<O> cgtmo_fields() {
                    {roi_field<O>(), threads_field<O>()}});
     const auto place = std::find_if(fields.begin(), fields.end(),
                                     [](const auto& row) { return row.name == "bias"; });
-    fields.insert(place, field<O>("lights", &O::lights,
-                                  "The table of lights, and where they are told apart."));
+    fields.insert(
+        place,
+        {field<O>("lights", &O::lights, "The table of lights, and where they are told apart."),
+         field<O>("adapt", &O::adapt, "The shot that it is exposed by; None: by itself.")});
     return fields;
 }
 
@@ -46,9 +49,10 @@ void add_results(Module& module) {
         .field("depth", &S::depth, "Layer that was used; \"\": none.")
         .field("adaptation", &S::adaptation, "Lwa.")
         .field("maximum", &S::maximum, "Lmax.")
-        .field("adaptation_from", &S::adaptation_from, "\"lwa\", \"env\", \"image\".")
+        .field("adaptation_from", &S::adaptation_from, "\"lwa\", \"env\", \"shot\", \"image\".")
         .field("maximum_from", &S::maximum_from,
-               "\"lmax\", \"lights\", \"groups\", \"env\", \"image\".")
+               "\"lmax\", \"lights\", \"groups\", \"env\", \"shot\", \"image\".")
+        .field("adapted", &S::adapted, "Which shot that is; \"\": none.")
         .field("maximum_light", &S::maximum_light, "Whose maximum it is, of lights and groups.")
         .field("light_index", &S::light_index, "Where lights were told apart; \"\": nowhere.")
         .field("footprint", &S::footprint, "Median, in the unit of positions; 0: unknown.")

@@ -32,6 +32,7 @@ void add_everything(Module& module) {
     add_bias(module);
     add_errors(module);
     add_tmqi(module);
+    add_shot(module);
     add_tonemap(module);
     add_curves(module);
     add_cgtmo(module);

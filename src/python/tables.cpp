@@ -2,6 +2,7 @@
 // Tables of the structs of options that several functions take.
 #include "imagebuf/options/tone_options.h"
 #include "python/options.h"
+#include "python/shot.h"
 
 namespace tonetool::python {
 
@@ -66,7 +67,8 @@ const Table<CalibrationOptions>& table_of<CalibrationOptions>() {
              described<O, CalibrationOptions>(),
              {field<O>("white_percentile", &O::white_percentile,
                        "The curve's parameter `white` from this percentile of the calibrated "
-                       "luminance; 100: the maximum.")}})};
+                       "luminance; 100: the maximum."),
+              field<O>("adapt", &O::adapt, "The shot that is measured; None: the image.")}})};
     return table;
 }
 

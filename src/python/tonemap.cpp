@@ -74,6 +74,9 @@ void add_results(Module& module) {
         .field("exposure", &C::exposure, "Stops, of the whole image.")
         .field("white", &C::white, "0: none was asked for.")
         .field("pixels", &C::pixels, "That the statistics are of.")
+        .field("adapted", &C::adapted, "Which shot it was measured on; \"\": on the image.")
+        .field("warnings", &C::warnings, "What a user must know, one sentence each.")
+        .field("notes", &C::notes, "What was assumed.")
         .finish();
     using S = TonemapSummary;
     ResultClass<S> result(module, "TonemapSummary", "What a picture was tone mapped with.");

@@ -12,6 +12,7 @@
 #include "runs/frame_jobs.h"
 #include "runs/loop.h"
 #include "runs/rehearsal.h"
+#include "runs/shots.h"
 #include "sequence/frames/file_sequence.h"
 #include "sequence/frames/file_stamp.h"
 #include "sequence/report/report_files.h"
@@ -188,7 +189,7 @@ void refuse_images(const FramePlan& plan) {
         return;
     std::set<std::string> read;
     for (const FrameRun& run : plan.runs)
-        for (const std::string& file : files_read(plan, run.words))
+        for (const std::string& file : files_read(plan.line_of(run), plan.check_of(run), run.words))
             read.insert(normal(file));
     for (size_t i = 0; i < plan.runs.size(); ++i) {
         const sequence::CaseFiles::Of files = images->files(unchecked_frame(plan, i));
@@ -338,7 +339,9 @@ Strings parts_of(const FramePlan& plan) {
 }
 
 void merge_exposures(const FramePlan& plan, const Strings& parts, std::ostream& out) {
-    const std::string text = sequence::merged_exposures(parts);
+    const bool shots = std::any_of(parts.begin(), parts.end(), is_shot_file);
+    const std::string text =
+        shots ? merged_shots(parts, plan.check.expected) : sequence::merged_exposures(parts);
     if (plan.check.only_validates)
         out << places_text(plan);
     else

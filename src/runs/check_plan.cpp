@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "chain/language/values.h"
+#include "chain/session/call.h"
 #include "sequence/results/limits_file.h"
 #include "sequence/results/measuring.h"
 #include "text/error.h"
@@ -52,6 +53,7 @@ private:
         m_plan.dry_run |= word.is("n");
         m_plan.only_validates |= word.is("dry-run");
         note_what_is_judged(word);
+        note_shot(word);
         if (!manner)
             keep(word.at, with_numbers(word.row->names.front(), with_shot_exposures(word.token)));
         // What these look for is part of what comes of the line.
@@ -78,6 +80,25 @@ private:
             m_plan.has_limits |= key == "fail" || key == "warn";
             if (row.writes_to(key) && m_depth == 0)
                 m_plan.always_written.push_back(word.at);
+        }
+    }
+
+    // What is wrong with its modifiers is told when it runs; expressions have a value then.
+    void note_shot(const Word& word) {
+        if (!word.row->shot_need)
+            return;
+        Token token = word.token;
+        auto& all = token.modifiers;
+        all.erase(std::remove_if(
+                      all.begin(), all.end(),
+                      [](const auto& one) { return one.second.find('{') != std::string::npos; }),
+                  all.end());
+        try {
+            const chain::ShotNeed need =
+                word.row->shot_need(chain::Call(*word.row, std::move(token), {}));
+            if (!need.mode.empty())
+                m_plan.shots.push_back({word.at, need});
+        } catch (const CommandError&) {
         }
     }
 
@@ -292,9 +313,18 @@ private:
                 "--figure is drawn of images, which results do not have (valid: with "
                 "the comparison, without --merge)");
         }
-        if (m_plan.has("statistics") && !m_plan.has("merge") && m_plan.exposures != "shot") {
-            throw CommandError("--statistics measures what exposures=shot needs: no command has it "
-                               "(valid: --hdrflip:exposures=shot)");
+        if (!m_plan.has("statistics") || m_plan.has("merge") || m_plan.exposures == "shot")
+            return;
+        if (m_plan.shots.empty()) {
+            throw CommandError("--statistics measures what exposures=shot and adapt=shot need: no "
+                               "command has it (valid: --hdrflip:exposures=shot; --cgtmo, or "
+                               "--tonemap and --calibrate with a method or a white that measures)");
+        }
+        if (m_plan.shots.size() > 1) {
+            throw CommandError("--statistics: \"" + text(m_plan.shots[0].at) + "\" and \"" +
+                               text(m_plan.shots[1].at) +
+                               "\" both measure a shot (valid: one of them, adapt=frame or "
+                               "adapt=FILE of the other)");
         }
     }
 

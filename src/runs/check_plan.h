@@ -20,15 +20,24 @@ namespace tonetool::runs {
 /// and done after the last one (check_run.h).
 chain::Rows check_commands();
 
+/// A command whose exposure is that of the shot.
+struct ShotCommand {
+    size_t at; ///< the place of its word
+    chain::ShotNeed need;
+};
+
 struct CheckPlan {
     std::map<std::string, std::string> words; ///< of Group::Check, with their arguments: "json"
     std::string exposures;                    ///< of exposures=; empty: each frame has its own
-    std::vector<size_t> inputs, outputs;      ///< indices of the words that name files
-    std::vector<size_t> always_written;       ///< and of those that write one in every frame
-    bool compares = false;                    ///< a command compares images
-    bool has_limits = false;                  ///< one has fail= or warn=, or is --diff
-    bool dry_run = false;                     ///< -n: no file is written
-    bool only_validates = false;              ///< --dry-run: no frame is read either
+    /// The commands that measure a shot, one after the other: what a later one measures may follow
+    /// from what an earlier one does.
+    std::vector<ShotCommand> shots;
+    std::vector<size_t> inputs, outputs; ///< indices of the words that name files
+    std::vector<size_t> always_written;  ///< and of those that write one in every frame
+    bool compares = false;               ///< a command compares images
+    bool has_limits = false;             ///< one has fail= or warn=, or is --diff
+    bool dry_run = false;                ///< -n: no file is written
+    bool only_validates = false;         ///< --dry-run: no frame is read either
     sequence::Status bad_from = sequence::Status::Failed; ///< of --bad-frames
     bool json_records = true;                             ///< --json has what --qc measured
     Strings part_lists;                                   ///< files of --merge-list

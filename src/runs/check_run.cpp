@@ -12,8 +12,10 @@
 #include "runs/frame_jobs.h"
 #include "runs/interruption.h"
 #include "runs/rehearsal.h"
+#include "runs/shots.h"
 #include "sequence/results/check_files.h"
 #include "text/error.h"
+#include "text/printable.h"
 #include "tonetool/write.h"
 
 namespace tonetool::runs {
@@ -38,6 +40,9 @@ private:
     int loop(std::ostream& err, FrameJob& job, bool goes_on);
     void read_exposures();
     int find_exposures();
+    bool measure_shots();
+    std::vector<FrameLight> measure_shot(const ShotCommand& command, bool alone);
+    void tell_unmeasured(const LightFrames& frames);
     int check();
     /// The line ends with a verdict of its frames.
     bool judges_frames() const {
@@ -51,7 +56,8 @@ private:
     std::ostream& m_err;
     bool m_workers;
     Place m_place;
-    int m_threads = 0; ///< of --threads
+    int m_threads = 0;  ///< of --threads
+    int m_measured = 0; ///< the status of what was measured before
     FrameContext m_context{m_plan, {}};
     std::optional<State> m_state, m_sample_state;
     std::vector<sequence::Acceptance> m_accepted; ///< of --accept
@@ -73,13 +79,14 @@ int PlanRun::run() {
         return 0;
     }
     prepare();
-    const int found = find_exposures();
+    const bool ended = measure_shots();
+    const int found = ended ? m_measured : worse(m_measured, find_exposures());
     if (m_plan.check.has("statistics"))
         return found;
     if (judges_frames())
         return check();
     PlainFrames frames(m_context);
-    return loop(m_err, frames, m_plan.skip_bad);
+    return worse(m_measured, loop(m_err, frames, m_plan.skip_bad));
 }
 
 int PlanRun::check() {
@@ -174,6 +181,50 @@ int PlanRun::find_exposures() {
         throw CommandError("no exposures of the shot: " + frames.first_error());
     m_context.shot = sequence::shot_exposures(samples);
     return 0;
+}
+
+// One pass over the frames for each command that follows the shot. True: the statistics were all
+// that was asked for.
+bool PlanRun::measure_shots() {
+    for (const ShotCommand& command : shots_to_measure(m_plan)) {
+        const bool alone = m_plan.check.has("statistics") && m_plan.check.exposures != "shot";
+        ShotStatistics shot{command.need.mode, measure_shot(command, alone)};
+        if (alone) {
+            write_statistics(m_plan.check, shot_text(shot));
+            return true;
+        }
+        // No frame comes to it.
+        if (!shot.frames.empty())
+            m_context.lights.measured[command.at] = std::move(shot);
+    }
+    return false;
+}
+
+std::vector<FrameLight> PlanRun::measure_shot(const ShotCommand& command, bool alone) {
+    std::ostringstream nowhere;
+    LightFrames frames(m_context, command.at);
+    const int status = loop(alone ? m_err : nowhere, frames, true);
+    if (alone)
+        m_measured = worse(m_measured, status);
+    else
+        tell_unmeasured(frames);
+    return frames.lights();
+}
+
+// A frame that has no part in the exposure of the shot changes that of all others.
+void PlanRun::tell_unmeasured(const LightFrames& frames) {
+    std::vector<size_t> failed;
+    for (size_t i = 0; i < m_plan.runs.size(); ++i)
+        if (!frames.error_of(i).empty())
+            failed.push_back(i);
+    if (failed.empty())
+        return;
+    const std::string text = unmeasured_text(m_plan, failed, frames.first_error());
+    if (!m_plan.skip_bad && !judges_frames())
+        throw CommandError(text + " (valid: all frames, --skip-bad-frames for a shot without them, "
+                                  "adapt=FILE of --statistics, adapt=frame)");
+    m_err << "tonetool WARNING: " << printable(text) << std::endl;
+    m_measured = worse(m_measured, m_plan.warnings_exit ? 2 : 0);
 }
 
 } // namespace

@@ -86,7 +86,8 @@ chain::Rows check_commands() {
                              "killed goes on, and frames whose files have changed are checked anew")
             .whole_line(),
         command("statistics FILE",
-                "Only measure the range of exposures=shot and write it, for exposures=FILE")
+                "Only measure what exposures=shot or adapt=shot need and write it, for "
+                "exposures=FILE or adapt=FILE")
             .whole_line(),
         command("exit-zero", "For tasks of a farm: status 0 when all results that were asked for "
                              "are written, whatever they are; needs --json, which --merge judges")

@@ -11,6 +11,7 @@
 #include "chain/session/runner.h"
 #include "runs/check_end.h"
 #include "runs/packed.h"
+#include "runs/shots.h"
 #include "sequence/frames/file_stamp.h"
 #include "sequence/results/automatic_limits.h"
 #include "sequence/results/probe.h"
@@ -148,6 +149,7 @@ Session FrameContext::session(size_t index, std::ostream& out, std::ostream& err
         return names;
     };
     session.check.shot = shot ? &*shot : nullptr;
+    session.shot = lights;
     session.written = written;
     session.settings.parallel = plan.parallel;
     session.settings.memory = share_of_memory(plan.parallel);
@@ -200,83 +202,115 @@ Ran PlainFrames::failed(size_t index, Status status, const std::string& why, std
     return {1, "error", true};
 }
 
-// ---- exposures of the shot
+// ---- what is measured before
 
-ExposureFrames::ExposureFrames(const FrameContext& context, const std::optional<State>& state)
+MeasuredFrames::MeasuredFrames(const FrameContext& context, std::string what,
+                               const std::optional<State>* state)
     : m_context(context),
+      m_what(std::move(what)),
       m_state(state),
-      m_samples(context.plan.runs.size()),
+      m_texts(context.plan.runs.size()),
       m_errors(context.plan.runs.size()) {}
 
-ExposureFrames::Measured ExposureFrames::measure(size_t index, std::ostream& err) const {
-    const FrameRun& run = m_context.plan.runs[index];
+MeasuredFrames::Measured MeasuredFrames::measure(size_t index, std::ostream& err) const {
     const sequence::Item item = m_context.item(index);
-    if (m_state) {
-        if (const auto kept = m_state->find(item, origin(index)))
-            return {sequence::samples_from_json(kept->result).at(0), ""};
+    if (keeps()) {
+        if (auto kept = (*m_state)->find(item, origin(index)))
+            return {std::move(kept->result), ""};
     }
-    sequence::ExposureSample found{run.frame.number, run.frame.view, -1, 0};
     std::ostringstream nowhere;
     Session session = m_context.session(index, nowhere, err);
-    session.check.sample = &found;
     session.settings.dry_run = true;
-    m_context.run_commands(session, index, run.words);
-    if (session.outcome.errors > 0 || found.max_luminance < 0)
+    const auto found = run_words(index, session);
+    if (session.outcome.errors > 0 || !found)
         return {std::nullopt, session.outcome.first_error};
     Measured measured{found, ""};
-    if (m_state) {
-        measured.error = keep_in(*m_state, item, origin(index), session.files,
-                                 {sequence::to_json({found}), "", ""});
+    if (keeps()) {
+        measured.error = keep_in(**m_state, item, origin(index), session.files, {*found, "", ""});
         if (!measured.error.empty())
             m_context.print_error(index, measured.error, err);
     }
     return measured;
 }
 
-Ran ExposureFrames::run(size_t index, std::ostream&, std::ostream& err) {
+Ran MeasuredFrames::run(size_t index, std::ostream&, std::ostream& err) {
     const Measured measured = measure(index, err);
-    const bool found = measured.sample.has_value();
-    return {found && measured.error.empty() ? 0 : 1, found ? "exposures" : "no exposures", false,
-            packed({found ? sequence::to_json({*measured.sample}) : "", measured.error})};
+    const bool found = measured.text.has_value();
+    return {found && measured.error.empty() ? 0 : 1, (found ? "" : "no ") + m_what, false,
+            packed({found ? *measured.text : "", measured.error})};
 }
 
-Ran ExposureFrames::failed(size_t index, Status status, const std::string& why, std::ostream& err) {
+Ran MeasuredFrames::failed(size_t index, Status status, const std::string& why, std::ostream& err) {
     const std::string error = status == Status::Crashed ? crashed(why) : why;
     m_context.print_error(index, error, err);
-    return {1, "no exposures", false, packed({"", error})};
+    return {1, "no " + m_what, false, packed({"", error})};
 }
 
-void ExposureFrames::take(size_t index, Ran& ran) {
-    const Strings texts = unpacked(ran.found, 2);
+void MeasuredFrames::take(size_t index, Ran& ran) {
+    Strings texts = unpacked(ran.found, 2);
     if (!texts[0].empty())
-        m_samples[index] = sequence::samples_from_json(texts[0]).at(0);
+        m_texts[index] = std::move(texts[0]);
     m_errors[index] = texts[1];
 }
 
-sequence::Origin ExposureFrames::origin(size_t index) const {
+sequence::Origin MeasuredFrames::origin(size_t index) const {
     const FramePlan& plan = m_context.plan;
-    return {words_at(plan.runs[index].words, plan.check.essence_at), "exposures"};
+    return {words_at(plan.runs[index].words, plan.check.essence_at), m_what};
 }
 
-std::string ExposureFrames::kept() const {
-    const std::string text = kept_in(m_state, m_context.plan, [this](size_t index) {
-        return m_state->find(m_context.item(index), origin(index)).has_value();
-    });
-    return text.empty() ? "" : "the exposures of " + text;
+std::string MeasuredFrames::kept() const {
+    if (!keeps())
+        return "";
+    return "the " + m_what + " of " + kept_in(*m_state, m_context.plan, [this](size_t index) {
+               return (*m_state)->find(m_context.item(index), origin(index)).has_value();
+           });
 }
 
-sequence::ExposureSamples ExposureFrames::samples() const {
-    sequence::ExposureSamples all;
-    for (const auto& found : m_samples)
+Strings MeasuredFrames::texts() const {
+    Strings all;
+    for (const auto& found : m_texts)
         if (found)
             all.push_back(*found);
     return all;
 }
 
-std::string ExposureFrames::first_error() const {
+std::string MeasuredFrames::first_error() const {
     const auto first = std::find_if(m_errors.begin(), m_errors.end(),
                                     [](const std::string& error) { return !error.empty(); });
     return first == m_errors.end() ? "" : *first;
+}
+
+std::optional<std::string> ExposureFrames::run_words(size_t index, Session& session) const {
+    const Frame& frame = m_context.plan.runs[index].frame;
+    sequence::ExposureSample found{frame.number, frame.view, -1, 0};
+    session.check.sample = &found;
+    m_context.run_commands(session, index, m_context.plan.runs[index].words);
+    if (found.max_luminance < 0)
+        return std::nullopt;
+    return sequence::to_json({found});
+}
+
+sequence::ExposureSamples ExposureFrames::samples() const {
+    sequence::ExposureSamples all;
+    for (const std::string& text : texts())
+        all.push_back(sequence::samples_from_json(text).at(0));
+    return all;
+}
+
+// A frame that does not come to the command has no part in its shot.
+std::optional<std::string> LightFrames::run_words(size_t index, Session& session) const {
+    FrameLight light;
+    session.shot.at = m_at;
+    session.shot.light = &light;
+    m_context.run_commands(session, index, m_context.plan.runs[index].words);
+    return light.histogram.empty() ? std::nullopt : std::optional(shot_text({"shot", {light}}));
+}
+
+std::vector<FrameLight> LightFrames::lights() const {
+    std::vector<FrameLight> all;
+    for (const std::string& text : texts())
+        all.push_back(shot_of_text(text).frames.at(0));
+    return all;
 }
 
 // ---- the check
@@ -335,9 +369,10 @@ std::string CheckedFrames::approval_problem(const FrameRun& run) const {
 CheckedFrames::Checked CheckedFrames::check(size_t index) const {
     const FramePlan& plan = m_context.plan;
     const FrameRun& run = plan.runs[index];
-    if (!run.of_suite.images.empty())
-        return check_approved(index);
-    return check_words(index, run.words);
+    Checked checked =
+        run.of_suite.images.empty() ? check_words(index, run.words) : check_approved(index);
+    write_images(checked);
+    return checked;
 }
 
 // With each of the images: the one that fits best is the result.
@@ -387,7 +422,7 @@ CheckedFrames::Checked CheckedFrames::check_words(size_t index, const Strings& w
     sequence::FramePainter painter{m_pictures, {}};
     painter.pair_comes = draws_pairs(plan.line_of(run));
     session.check.result = &result;
-    sequence::CaseDrawing drawing;
+    sequence::CaseDrawing& drawing = checked.drawing;
     drawing.worst_asked = m_images.has_value();
     drawing.worst_always = may_fail_later(plan);
     drawing.first_asked = is_in_figure(index);
@@ -409,7 +444,6 @@ CheckedFrames::Checked CheckedFrames::check_words(size_t index, const Strings& w
         checked.pictures = m_pictures.texts(result, *painter.drawn);
     if (drawing.first.test.initialized())
         checked.figure = sequence::figure_text(drawing.first);
-    write_images(drawing, checked);
     // Warnings are the verdict's matter: whether they count may differ when the result is found.
     const int status = session.exit_status();
     checked.status = status == 2 ? 0 : status;
@@ -431,8 +465,9 @@ bool CheckedFrames::is_in_figure(size_t index) const {
     return check.has("figure") && !check.dry_run && check.figure.wants(m_context.item(index));
 }
 
-void CheckedFrames::write_images(const sequence::CaseDrawing& drawing, Checked& checked) const {
+void CheckedFrames::write_images(Checked& checked) const {
     const FrameResult& result = checked.result;
+    const sequence::CaseDrawing& drawing = checked.drawing;
     const bool wanted = m_images && drawing.worst.test.initialized() &&
                         (m_images->wants(result.status) || may_fail_at_end(result));
     try {
@@ -484,7 +519,10 @@ sequence::Origin CheckedFrames::origin(size_t index) const {
     Strings words = words_at(run.words, m_context.plan.check_of(run).essence_at);
     for (const store::ApprovedImage& image : run.of_suite.images)
         words.push_back(image.sha256);
-    return {words, m_context.shot ? sequence::exposures_text(*m_context.shot) : ""};
+    std::string rest = m_context.shot ? sequence::exposures_text(*m_context.shot) : "";
+    for (const auto& [at, light] : m_context.lights.measured)
+        rest += shot_text(light);
+    return {words, rest};
 }
 
 std::string CheckedFrames::kept() const {

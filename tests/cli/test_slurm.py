@@ -391,6 +391,12 @@ def test_folder_with_a_line_break(program, fake_slurm, tmp_path):
     (["--", "--frames", "1-4", "a.#.exr", "b.#.exr", "--hdrflip"], "no result"),
     (["--", "--frames", "x", "a.#.exr", "--json", "c.json"], "no frame range"),
     (["--", "--frames", "1-4", "a.#.exr", "--merge", "--json", "c.json"], "program's own"),
+    (["--", "--frames", "1-4", "a.#.exr", "--cgtmo", "b.#.exr", "--hdrflip", "--json", "c.json"],
+     "valid: adapt=FILE"),
+    (["--", "--frames", "1-4", "a.#.exr", "--tonemap:adapt=eye:method=mean", "--json", "c.json"],
+     "valid: adapt=FILE"),
+    (["--", "--frames", "1-4", "a.#.exr", "--tonemap:method=mean:adapt=s.json", "--cgtmo:adapt=frame",
+      "--tonemap"], "no result"),
     (["--chunk", "0", "--", "x"], "at least 1"),
 ])
 def test_errors(program, tmp_path, line, text):

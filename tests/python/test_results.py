@@ -5,6 +5,7 @@ import copy
 import inspect
 import pickle
 import tempfile
+from pathlib import Path
 
 import numpy as np
 import OpenImageIO as oiio
@@ -78,6 +79,18 @@ def matted(key, names):
     return image
 
 
+def shot():
+    lights = [tonetool.frame_light(picture, frame=number) for number, picture in enumerate(cornell())]
+    return tonetool.shot_text(lights)
+
+
+def read_shot():
+    with tempfile.TemporaryDirectory() as folder:
+        file = Path(folder) / "shot.json"
+        file.write_text(shot(), encoding="utf-8")
+        return tonetool.read_shot(file)
+
+
 MAKERS = {
     "hdr_flip of arrays": hdr_of_arrays,
     "hdr_flip of images": lambda: tonetool.hdr_flip(*cornell(), want_exposure_map=True),
@@ -90,6 +103,8 @@ MAKERS = {
     "bias_check": lambda: tonetool.bias_check(*cornell()),
     "noise_floor": lambda: tonetool.noise_floor([0.1, 0.11, 0.12, 0.13, 0.14]),
     "tmqi": lambda: tonetool.tmqi(cornell()[0], tonetool.tonemap(cornell()[0]).image),
+    "read_shot": read_shot,
+    "shot_exposure": lambda: tonetool.shot_exposure(read_shot(), mode="smooth", frame=1),
     "tonemap": lambda: tonetool.tonemap(cornell()[0], curve="agx", calibration="mean"),
     "calibrate": lambda: tonetool.calibrate(cornell()[0], method="mean"),
     "cg_tmo": lambda: tonetool.cg_tmo(cornell()[0]),

@@ -2,12 +2,14 @@
 // The local tone mapper of rendered images.
 #include <algorithm>
 
+#include "chain/commands/adapt_args.h"
 #include "chain/commands/color_input.h"
 #include "chain/commands/commands.h"
 #include "chain/commands/flip_args.h"
 #include "chain/commands/light_args.h"
 #include "chain/commands/options.h"
 #include "imagebuf/options/cgtmo_options.h"
+#include "imagebuf/options/shot_options.h"
 #include "imagebuf/options/tone_options.h"
 #include "imagebuf/pixels/layer_name.h"
 #include "text/error.h"
@@ -22,6 +24,7 @@ CgTmoOptions options_of(const Call& call) {
     options.lights = light_options(call);
     options.lights.layer = call.text("lightindex").value_or("");
     read_options(call, options);
+    read_options(call, options.adapt);
     return options;
 }
 
@@ -46,6 +49,8 @@ void report_summary(Session& session, const std::string& label, const CgTmoSumma
     line("maximum", format_number(found.maximum));
     line("maximum-from",
          found.maximum_from + (found.maximum_light.empty() ? "" : " " + found.maximum_light));
+    if (!found.adapted.empty())
+        line("adapted", found.adapted);
 }
 
 void run_cgtmo(Session& session, const Call& call) {
@@ -53,6 +58,7 @@ void run_cgtmo(Session& session, const Call& call) {
     const std::string label = call.row().label();
     CgTmoOptions options = options_of(call);
     OIIO::ImageBuf source = color_source(session, call, image, options.pixels);
+    adapt_to_shot(session, call, source, options.pixels, options.adapt);
     CgTmoSummary found;
     OIIO::ImageBuf result;
     if (!ToneAlgo::cg_tmo(result, source, options, &found))
@@ -73,17 +79,19 @@ Modifiers cgtmo_modifiers() {
     const auto maximum = std::find_if(
         all.begin(), all.end(), [](const Modifier& row) { return row.key == "maxpercentile"; });
     all.insert(maximum + 1, of_lights.begin(), of_lights.end());
-    return all;
+    return concatenated({all, modifiers_of<AdaptOptions>()});
 }
 
 } // namespace
 
 Rows cgtmo_commands() {
-    return {command("cgtmo",
-                    "HDR to a display locally, guided by the render's position, normal and albedo",
-                    run_cgtmo)
-                .images(1, 1)
-                .modifiers(cgtmo_modifiers(), pixel_modifiers())};
+    return {
+        command("cgtmo",
+                "HDR to a display locally, guided by the render's position, normal and albedo",
+                run_cgtmo)
+            .images(1, 1)
+            .modifiers(cgtmo_modifiers(), pixel_modifiers())
+            .measures_shots([](const Call& call) { return shot_need(call, options_of(call)); })};
 }
 
 } // namespace tonetool::chain

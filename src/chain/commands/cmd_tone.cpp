@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "chain/commands/adapt_args.h"
 #include "chain/commands/color_input.h"
 #include "chain/commands/commands.h"
 #include "chain/commands/flip_args.h"
 #include "chain/commands/options.h"
 #include "chain/commands/tone_args.h"
+#include "imagebuf/options/shot_options.h"
 #include "imagebuf/options/tone_options.h"
 #include "text/error.h"
 
@@ -22,19 +24,32 @@ void add_calibration(Lines& lines, const CalibrationSummary& found) {
     }
     lines.add("exposure", found.exposure);
     lines.add_positive("white", found.white);
+    if (!found.adapted.empty())
+        lines.add("adapted", found.adapted);
+}
+
+void add_notes(Lines& lines, const Session& session, const CalibrationSummary& found) {
+    if (session.settings.verbose)
+        for (const std::string& note : found.notes)
+            lines.add("note", note);
 }
 
 void run_calibrate(Session& session, const Call& call) {
     const Image& image = *call.images[0];
     PixelOptions pixels = pixel_options(call);
     OIIO::ImageBuf source = color_input(session, call, image, pixels);
+    CalibrationOptions options = calibration_options(call);
+    adapt_to_shot(session, call, source, pixels, options.adapt);
     CalibrationSummary found;
     OIIO::ImageBuf result;
-    if (!ToneAlgo::calibrate(result, source, calibration_options(call), pixels, &found))
+    if (!ToneAlgo::calibrate(result, source, options, pixels, &found))
         throw CommandError(result.geterror());
     Lines lines(call.row().label());
     add_calibration(lines, found);
+    add_notes(lines, session, found);
     session.report(lines.text);
+    for (const std::string& warning : found.warnings)
+        session.warning(call.row().label(), image.name() + ": " + warning);
     session.stack.push(Image::derived(image, std::move(result)));
 }
 
@@ -60,6 +75,7 @@ void run_tonemap(Session& session, const Call& call) {
     PixelOptions checked = options.pixels;
     checked.from = options.view ? "rec709" : checked.from;
     OIIO::ImageBuf source = color_input(session, call, image, checked);
+    adapt_to_shot(session, call, source, options.pixels, options.calibration.adapt);
     TonemapSummary found;
     OIIO::ImageBuf result;
     if (!ToneAlgo::tonemap(result, source, options, &found))
@@ -69,6 +85,7 @@ void run_tonemap(Session& session, const Call& call) {
     for (const auto& [name, value] : found.parameters)
         lines.add(name, value);
     add_calibration(lines, found.calibration);
+    add_notes(lines, session, found.calibration);
     session.report(lines.text);
     for (const std::string& warning : found.warnings)
         session.warning(label, image.name() + ": " + warning);
@@ -166,7 +183,18 @@ Modifiers method_modifiers() {
     return concatenated({{{"method", "manual|mean|auto",
                            "exposure: stops alone, from the geometric mean, with a key from the "
                            "mean (manual)"}},
-                         modifiers_of<CalibrationOptions>()});
+                         modifiers_of<CalibrationOptions>(),
+                         modifiers_of<AdaptOptions>()});
+}
+
+ShotNeed need_of_calibration(const Call& call) {
+    return shot_need(call, calibration_options(call));
+}
+
+ShotNeed need_of_tonemap(const Call& call) {
+    CalibrationOptions options = calibration_options(call);
+    options.white_percentile = white_percentile(call);
+    return shot_need(call, options);
 }
 
 } // namespace
@@ -176,11 +204,13 @@ Rows tone_commands() {
         command("calibrate", "Multiply the colour by an exposure that is measured", run_calibrate)
             .images(1, 1)
             .modifiers(method_modifiers(), pixel_modifiers())
+            .measures_shots(need_of_calibration)
             .keeps_header(),
         command("tonemap", "HDR to a display, by a tone curve or an OpenColorIO view", run_tonemap)
             .images(1, 1)
             .modifiers(display_modifiers(true), method_modifiers(), modifiers_of<TonemapOptions>(),
                        pixel_modifiers())
+            .measures_shots(need_of_tonemap)
             .frequent("curve,stops,method,display,view,encode,layer,from")
             .keeps_header(),
         command("exportlut FILE",

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "chain/commands/options.h"
+#include "imagebuf/options/shot_options.h"
 #include "imagebuf/options/tone_options.h"
 #include "text/error.h"
 
@@ -124,6 +125,7 @@ CalibrationOptions calibration_options(const Call& call) {
     if (call.has("key") && options.method != CalibrationMethod::Mean)
         throw CommandError("key= is of a calibration by mean, this one is " + method);
     read_options(call, options);
+    read_options(call, options.adapt);
     return options;
 }
 

@@ -56,6 +56,12 @@ std::string group_title(Group group);
 
 using Run = std::function<void(Session&, const Call&)>;
 using Count = int (*)(const Call&);
+/// What a command measures of all frames of a shot before it runs in one of them.
+struct ShotNeed {
+    std::string mode;   ///< "shot", "eye", "smooth"; empty: nothing
+    bool asked = false; ///< by name; else where there are several frames
+};
+using ShotNeedOf = ShotNeed (*)(const Call&);
 inline void do_nothing(Session&, const Call&) {}
 inline constexpr int kAnyNumber = -1;
 
@@ -74,6 +80,7 @@ struct Command {
     /// Where the numbers of images depend on a modifier; else nullptr.
     Count pops_of = nullptr;
     Count pushes_of = nullptr;
+    ShotNeedOf shot_need = nullptr; ///< nullptr: it measures nothing of shots
     /// --if and the like: seen also where commands are skipped.
     bool control = false;
     std::string operation = {}; ///< of oiiotool's on pixels: see Call::operation
@@ -140,6 +147,7 @@ public:
         return *this;
     }
     Row& operation(std::string name) { return set(&Command::operation, std::move(name)); }
+    Row& measures_shots(ShotNeedOf need) { return set(&Command::shot_need, need); }
     Row& at_once() { return set(&Command::postponable, false); }
     Row& control() { return set(&Command::control, true); }
     Row& of_process() { return set(&Command::of_process, true); }

@@ -39,6 +39,8 @@ public:
     int pops() const;
     int pushes() const;
 
+    /// The place of its word on the command line.
+    size_t at = 0;
     /// The images popped, the deepest first.
     std::vector<ImagePtr> images;
 

@@ -96,6 +96,7 @@ void Runner::run_command_word(Word word) {
     locate_files(m_session, row, word.token, arguments);
     if (m_session.flow.running() || row.control) {
         Call call(row, std::move(word.token), std::move(arguments), m_session.settings.compat);
+        call.at = m_session.flow.command;
         for (const std::string& modifier : call.dropped()) {
             m_session.warning(m_where, "\"" + modifier +
                                            "\" is no modifier of this command, it has "

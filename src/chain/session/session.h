@@ -17,6 +17,7 @@
 #include "chain/session/stack.h"
 #include "sequence/frames/file_stamp.h"
 #include "sequence/frames/item.h"
+#include "tonetool/shot_numbers.h"
 
 namespace tonetool::sequence {
 struct ExposureSample;
@@ -79,6 +80,15 @@ struct CheckPart {
     sequence::ExposureSample* sample = nullptr;
 };
 
+/// What is known of all frames when one of them runs.
+struct ShotPart {
+    /// The statistics that commands have measured, by the places of their words.
+    std::map<size_t, ShotStatistics> measured;
+    /// While a command still measures: where it is, and the place for the frame's light.
+    size_t at = 0;
+    FrameLight* light = nullptr;
+};
+
 struct Session {
     Session(std::ostream& out_stream, std::ostream& err_stream, std::string command)
         : out(out_stream),
@@ -103,6 +113,7 @@ struct Session {
     /// What was not compared must not be passed: an image that no command used is an error.
     bool judges = false;
     CheckPart check;
+    ShotPart shot;
     /// Which frame has written which file, of all frames of the command line in this process.
     std::shared_ptr<WrittenFiles> written;
 

@@ -13,6 +13,7 @@
 #include "imagebuf/pixels/parallel.h"
 #include "imagebuf/pixels/row_source.h"
 #include "imagebuf/tone/counted_pixels.h"
+#include "imagebuf/tone/shot_statistics.h"
 #include "metrics/order_statistics.h"
 #include "metrics/refusal.h"
 #include "tonemap/cell_mean.h"
@@ -66,10 +67,38 @@ void Calibration::make(const ImageBuf& image, const PixelOptions& pixels,
     check(options, image);
     m_summary.exposure = options.stops;
     m_factor = float(std::exp2(options.stops));
-    const bool measured =
-        options.method != CalibrationMethod::Manual || options.white_percentile.has_value();
-    if (measured)
+    const bool measured = ToneAlgo::measures(options);
+    if (adapts(options.adapt) && !measured)
+        throw Refusal(
+            "adapt: nothing is measured (valid: method mean or auto, or a white that is)");
+    if (adapts(options.adapt))
+        take_shot();
+    else if (measured)
         measure(image, pixels, nthreads);
+}
+
+// The shot's light instead of the image's.
+void Calibration::take_shot() {
+    if (const std::string why = ToneAlgo::not_of_shots(m_options); !why.empty())
+        throw Refusal("adapt: " + why + ", or adapt=frame");
+    const ShotLight shot = light_of_shot(m_options.adapt, m_options.white_percentile);
+    const ShotExposure& light = shot.exposure;
+    m_summary.pixels = light.counted;
+    m_summary.adapted = shot_words(light);
+    m_summary.warnings = light.warnings;
+    m_summary.notes = light.notes;
+    if (m_options.method != CalibrationMethod::Manual)
+        expose(m_options.means == "cells" ? light.lwa : light.lwa_geometric);
+    if (m_options.white_percentile)
+        m_summary.white = shot.white * m_factor;
+}
+
+void Calibration::expose(double mean) {
+    m_summary.mean = mean;
+    m_summary.key =
+        m_options.method == CalibrationMethod::Mean ? m_options.key : tonemap::auto_key(mean);
+    m_summary.exposure = std::log2(factor_of(mean));
+    m_factor = float(factor_of(mean));
 }
 
 double Calibration::factor_of(double mean) const {
@@ -100,14 +129,8 @@ void Calibration::measure(const ImageBuf& image, const PixelOptions& pixels, int
         throw Refusal(
             "no pixel is left for the statistics (non-finite, black and transparent ones are "
             "left out as asked)");
-    if (m_options.method != CalibrationMethod::Manual) {
-        m_summary.mean = m_options.means == "cells" ? of_cells : means->mean();
-        m_summary.key = m_options.method == CalibrationMethod::Mean
-                            ? m_options.key
-                            : tonemap::auto_key(m_summary.mean);
-        m_summary.exposure = std::log2(factor_of(m_summary.mean));
-        m_factor = float(factor_of(m_summary.mean));
-    }
+    if (m_options.method != CalibrationMethod::Manual)
+        expose(m_options.means == "cells" ? of_cells : means->mean());
     if (m_options.level > 0)
         m_means = std::move(means);
     if (m_options.white_percentile)

@@ -29,6 +29,8 @@ public:
 
 private:
     void measure(const OIIO::ImageBuf& image, const PixelOptions& pixels, int nthreads);
+    void take_shot();
+    void expose(double mean);
     double factor_of(double mean) const;
     double cells_of(const float* plane, int nthreads) const;
     double keep_lit(const OIIO::ImageBuf& image, const ColorPlanes& planes,

@@ -109,8 +109,10 @@ private:
         summary.maximum_from = scene.maximum_from;
         summary.maximum_light = scene.maximum_light;
         summary.light_index = scene.light_index;
+        summary.adapted = scene.adapted;
         summary.warnings.insert(summary.warnings.end(), scene.warnings.begin(),
                                 scene.warnings.end());
+        summary.notes.insert(summary.notes.end(), scene.notes.begin(), scene.notes.end());
         m_luminance = std::move(scene.luminance);
     }
 
@@ -233,7 +235,8 @@ private:
             {"tonemap:albedo", summary.albedo},
             {"tonemap:adaptation_from", summary.adaptation_from},
             {"tonemap:maximum_from", summary.maximum_from},
-            {"tonemap:maximum_light", summary.maximum_light}};
+            {"tonemap:maximum_light", summary.maximum_light},
+            {"tonemap:adapted", summary.adapted}};
         for (const auto& [name, text] : texts)
             if (!text.empty())
                 spec.attribute(name, text);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "imagebuf/tone/counted_pixels.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -54,6 +55,13 @@ CountedPixels counted_pixels(const float* luminance, int width, int height,
     out = count(luminance, width, height, {nullptr, shown.background}, parallel);
     out.alpha_tells = out.lit == 0;
     return out;
+}
+
+metrics::Wanted maximum_of_lit(double percentile, int64_t counted) {
+    constexpr double rounding = 1e-6; // a little less than a pixel is none
+    const double above = (100 - percentile) / 100 * double(counted);
+    const auto passed = std::max<int64_t>(1, int64_t(std::ceil(above - rounding)));
+    return metrics::Wanted::rank(counted - 1 - passed);
 }
 
 std::vector<uint8_t> background_of(const OIIO::ImageBuf& image, const std::string& layer,

@@ -9,6 +9,7 @@
 
 #include "imagebuf/pixels/paged_array.h"
 #include "kernels/views.h"
+#include "metrics/order_statistics.h"
 
 namespace tonetool {
 
@@ -32,6 +33,10 @@ struct ShownPixels {
 /// alpha that would leave no light at all says nothing.
 CountedPixels counted_pixels(const float* luminance, int width, int height,
                              const ShownPixels& shown, const kernels::ParallelFor& parallel);
+
+/// What stands for the largest of so many luminances: all that are above the percentile are passed
+/// over, at least one.
+metrics::Wanted maximum_of_lit(double percentile, int64_t counted);
 
 /// 1 where an image shows no surface, by its depth and position; empty where it has neither.
 /// `layer` is that of the picture.

@@ -11,6 +11,7 @@
 #include "imagebuf/pixels/checks.h"
 #include "imagebuf/pixels/parallel.h"
 #include "imagebuf/tone/counted_pixels.h"
+#include "imagebuf/tone/shot_statistics.h"
 #include "metrics/order_statistics.h"
 #include "metrics/refusal.h"
 #include "tonemap/cell_mean.h"
@@ -49,6 +50,7 @@ public:
 
     void measure(ColorReader& reader, ColorPlanes& planes, const uint8_t* background) {
         check();
+        find_shot();
         m_lights.read_table();
         read_panorama();
         m_out.luminance = read_luminance(reader, planes, m_nthreads);
@@ -72,12 +74,16 @@ private:
     void count(const ShownPixels& shown);
     void say() const;
     void check();
+    void find_shot();
     void read_panorama();
     void find_maximum();
     void maximum_from(Source source, std::string& why);
     void take_lights(Source source, std::string& why);
     void find_adaptation();
     double image_mean() const;
+    double shot_mean() const {
+        return m_options.lwa == "geometric" ? m_shot->lwa_geometric : m_shot->lwa;
+    }
     double panorama_mean() const;
     double image_maximum() const;
     metrics::OrderStatistics order() const {
@@ -93,6 +99,7 @@ private:
     int m_nthreads;
     SceneStats& m_out;
     LightMaximum m_lights;
+    std::optional<ShotExposure> m_shot; ///< what stands for the image
     std::optional<PanoramaStats> m_panorama;
     std::string m_no_panorama; ///< why it is not used
     OIIO::ROI m_region;
@@ -130,6 +137,20 @@ void SceneMeasure::check() {
                    o.maximum));
     if (o.env.empty() && o.maximum == "env")
         throw Refusal("maximum=env needs a panorama (env=)");
+}
+
+void SceneMeasure::find_shot() {
+    if (!adapts(m_options.adapt))
+        return;
+    if (!ToneAlgo::measures(m_options))
+        throw Refusal("adapt: nothing is measured of the image (valid: without lwa=X, lmax=X and "
+                      "what stands for them)");
+    if (const std::string why = ToneAlgo::not_of_shots(m_options); !why.empty())
+        throw Refusal("adapt: " + why + ", or adapt=frame");
+    m_shot = light_of_shot(m_options.adapt).exposure;
+    m_out.adapted = shot_words(*m_shot);
+    m_out.notes = m_shot->notes;
+    m_out.warnings = m_shot->warnings;
 }
 
 void SceneMeasure::read_panorama() {
@@ -210,8 +231,8 @@ void SceneMeasure::maximum_from(Source source, std::string& why) {
     if (source == Env && !m_panorama)
         why = m_no_panorama;
     else
-        m_out.maximum = source == Env ? m_panorama->max : image_maximum();
-    m_out.maximum_from = kSourceNames[source];
+        m_out.maximum = source == Env ? m_panorama->max : m_shot ? m_shot->lmax : image_maximum();
+    m_out.maximum_from = source == Image && m_shot ? "shot" : kSourceNames[source];
 }
 
 void SceneMeasure::take_lights(Source source, std::string& why) {
@@ -244,13 +265,8 @@ double SceneMeasure::image_percentile(metrics::Wanted wanted) const {
 double SceneMeasure::image_maximum() const {
     if (*m_options.max_percentile >= 100)
         return m_means.max;
-    if (!lit())
-        return image_percentile(metrics::Wanted::percentile(*m_options.max_percentile / 100));
-    // All that are above the percentile are passed over; a little less than a pixel is none.
-    constexpr double rounding = 1e-6;
-    const double above = (100 - *m_options.max_percentile) / 100 * double(m_means.counted);
-    const auto passed = std::max<int64_t>(1, int64_t(std::ceil(above - rounding)));
-    return image_percentile(metrics::Wanted::rank(m_means.counted - 1 - passed));
+    return image_percentile(lit() ? maximum_of_lit(*m_options.max_percentile, m_means.counted)
+                                  : metrics::Wanted::percentile(*m_options.max_percentile / 100));
 }
 
 double SceneMeasure::image_mean() const {
@@ -275,8 +291,11 @@ double SceneMeasure::panorama_mean() const {
 
 void SceneMeasure::find_adaptation() {
     const auto given = number_of(m_options.lwa);
-    m_out.adaptation_from = given ? "lwa" : m_panorama ? "env" : "image";
-    m_out.adaptation = given ? *given : m_panorama ? panorama_mean() : image_mean();
+    m_out.adaptation_from = given ? "lwa" : m_panorama ? "env" : m_shot ? "shot" : "image";
+    m_out.adaptation = given        ? *given
+                       : m_panorama ? panorama_mean()
+                       : m_shot     ? shot_mean()
+                                    : image_mean();
     if (!(m_out.adaptation > 0 && std::isfinite(m_out.adaptation)))
         throw Refusal(format("the adaptation luminance (lwa={}) is {}: must be positive and finite",
                              m_options.lwa, m_out.adaptation));

@@ -16,7 +16,8 @@ struct SceneStats {
     double adaptation = 0, maximum = 0;
     std::string adaptation_from, maximum_from, maximum_light, light_index;
     int64_t counted = 0; ///< pixels whose light was measured
-    std::vector<std::string> warnings;
+    std::string adapted; ///< of which frames the shot is that stands for the image; empty: of none
+    std::vector<std::string> warnings, notes;
     PagedArray<float> luminance; ///< packed; NaN where the colour was not finite
 };
 

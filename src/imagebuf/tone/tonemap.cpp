@@ -236,10 +236,13 @@ private:
         if (!parameters.empty())
             spec.attribute("tonemap:parameters", OIIO::Strutil::join(parameters, " "));
         spec.attribute("tonemap:on", summary.on);
+        if (!summary.calibration.adapted.empty())
+            spec.attribute("tonemap:adapted", summary.calibration.adapted);
         spec.attribute("tonemap:exposure", float(summary.calibration.exposure));
     }
 
     void warn() {
+        summary.warnings = summary.calibration.warnings;
         if (summary.nonfinite > 0)
             summary.warnings.push_back(
                 format("{} pixel(s) are not finite: NaN and -Inf became 0, +Inf {}",

@@ -14,6 +14,7 @@
 #include "tonetool/export.h"
 #include "tonetool/lights.h"
 #include "tonetool/pixels.h"
+#include "tonetool/shot_numbers.h"
 
 namespace tonetool {
 
@@ -88,6 +89,10 @@ struct CgTmoOptions {
     /// larger luminances of the image are passed over, at least one below 100. Unset: the preset's.
     std::optional<double> max_percentile;
     LightOptions lights;
+    /// The shot that Lwa and Lmax are of, where they would be the image's: as it is exposed, so are
+    /// its other frames. Its statistics are those of count "lit", lwa "cells" or "geometric",
+    /// max_percentile 99.99.
+    AdaptOptions adapt;
     double bias = 0.85;          ///< of Drago's curve, 0.01 to 1
     double ldmax = 100;          ///< cd/m2 of the display, 1 to 10000; 100 counts as 1
     double saturation = 1;       ///< C' = (C / L)^saturation Ld, 0 to 4
@@ -105,9 +110,10 @@ struct CgTmoSummary {
     std::string layer, space;
     std::string position, normal, albedo, depth; ///< the layers that were used; empty: none
     double adaptation = 0, maximum = 0;          ///< Lwa and Lmax
-    std::string adaptation_from;                 ///< "lwa", "env", "image"
-    std::string maximum_from;                    ///< "lmax", "lights", "groups", "env", "image"
-    std::string maximum_light;                   ///< the light or light group with that maximum
+    std::string adaptation_from;                 ///< "lwa", "env", "shot", "image"
+    std::string maximum_from;  ///< "lmax", "lights", "groups", "env", "shot", "image"
+    std::string adapted;       ///< "shot of frames 1 to 8", if "shot" is one of these; else empty
+    std::string maximum_light; ///< the light or light group with that maximum
     /// Where the index of a pixel's light came from: a layer, "groups"; empty: no index.
     std::string light_index;
     double footprint = 0;   ///< median, in the unit of positions; 0: unknown

@@ -15,6 +15,7 @@
 
 #include "tonetool/export.h"
 #include "tonetool/pixels.h"
+#include "tonetool/shot_numbers.h"
 
 namespace tonetool {
 
@@ -70,6 +71,10 @@ struct CalibrationOptions {
     /// Set the curve's parameter `white` to this percentile of the calibrated luminance: above 0 to
     /// 100, which is the maximum.
     std::optional<double> white_percentile;
+    /// The shot that the mean and the white are of, instead of the image. The mean is then of
+    /// pixels with light, without an epsilon; a percentile below 100 is read from a histogram, by
+    /// interpolation within half a stop.
+    AdaptOptions adapt;
 };
 
 /// What was measured and chosen.
@@ -79,6 +84,8 @@ struct CalibrationSummary {
     double exposure = 0; ///< stops that brought the mean of the whole image to the key
     double white = 0;    ///< the measured white; 0 where it was not asked for
     int64_t pixels = 0;  ///< pixels in the statistics
+    std::string adapted; ///< "shot of frames 1 to 8"; empty: measured on the image
+    std::vector<std::string> warnings, notes;
 };
 
 struct TonemapOptions {

@@ -19,6 +19,7 @@
 #include "tonetool/parts.h"
 #include "tonetool/pixels.h"
 #include "tonetool/qc.h"
+#include "tonetool/shot.h"
 #include "tonetool/texture.h"
 #include "tonetool/tmqi.h"
 #include "tonetool/tonemap.h"

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The exposure of an image by the shot that it is in.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "tonetool/shot.h"
+
+namespace tonetool {
+
+/// Of Lmax in the statistics of a shot.
+inline constexpr double kShotPercentile = 99.99;
+/// Thumbnails are kept in thousandths.
+inline constexpr double kThumbnailSteps = 1000;
+
+/// The exposure of an image follows from the shot's statistics, not from the image.
+inline bool adapts(const AdaptOptions& options) {
+    return !options.statistics.frames.empty() || options.adapt != "frame";
+}
+
+struct ShotLight {
+    ShotExposure exposure;
+    double white = 0; ///< 0: no percentile was asked for
+};
+
+/// Refuses what is wrong with the options, the file or the frame.
+ShotLight light_of_shot(const AdaptOptions& options, std::optional<double> white_percentile = {});
+
+/// "eye of frames 1 to 8".
+std::string shot_words(const ShotExposure& exposure);
+
+/// As the public functions, but that errors are thrown.
+std::string text_of_shot(ShotStatistics shot);
+ShotStatistics shot_from_text(const std::string& text);
+ShotStatistics shot_from_file(const std::string& file);
+
+} // namespace tonetool
