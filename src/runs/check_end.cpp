@@ -301,8 +301,10 @@ int conclude_check(const sequence::ShotResult& shot, const FramePlan& plan,
         errors.push_back(unkept);
     for (const std::string& complaint : sequence::unused_acceptances(shot))
         err << "tonetool WARNING: --accept: " << printable(complaint) << '\n';
+    sequence::PageLimits page = plan.check.page;
+    page.json = plan.check.argument("json");
     for (const std::string& complaint :
-         sequence::write_reports(shot, pictures, files, plan.check.page, errors))
+         sequence::write_reports(shot, pictures, files, page, errors))
         err << "tonetool WARNING: " << printable(complaint) << '\n';
     for (const std::string& error : errors)
         err << "tonetool ERROR: " << printable(error) << '\n';

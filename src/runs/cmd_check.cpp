@@ -18,6 +18,17 @@ chain::Rows check_commands() {
         command("key NAME", "Compare with the approved images that have that key, where there are "
                             "such; else with those without one")
             .whole_line(),
+        command("approve FILE",
+                "Approve images of the cases that follow ('hair/*' glass), as the JSON of a run of "
+                "--suite has seen them: a line of its own, with --reason; --add keeps what is "
+                "approved beside them")
+            .whole_line(),
+        command("reason TEXT", "Of --approve: why").whole_line(),
+        command("by TEXT", "Of --approve: who (GIT_AUTHOR_NAME, else the login)").whole_line(),
+        command("again", "Of --approve: also cases that passed").whole_line(),
+        command("retire", "Of --approve: remove what is approved of these cases").whole_line(),
+        command("approved DIR", "List the approved images of a folder and verify each")
+            .whole_line(),
         command("json FILE", "Write what was found in all frames, at the end, as JSON")
             .modifier("records", "0|1",
                       "with what --qc measured (1), which --merge needs: most of the file")

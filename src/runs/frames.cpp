@@ -6,6 +6,7 @@
 #include <map>
 #include <set>
 
+#include "runs/check_end.h"
 #include "runs/frame_scan.h"
 #include "runs/uncompared.h"
 #include "text/error.h"

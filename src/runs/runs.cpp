@@ -11,11 +11,13 @@
 #include "chain/manual/help.h"
 #include "chain/manual/licenses.h"
 #include "chain/session/runner.h"
+#include "runs/approve.h"
 #include "runs/check_run.h"
 #include "runs/frames.h"
 #include "runs/interruption.h"
 #include "runs/loop.h"
 #include "sequence/results/check_files.h"
+#include "text/error.h"
 #include "text/printable.h"
 
 namespace tonetool::runs {
@@ -52,6 +54,13 @@ int run(const Strings& given, std::ostream& out, std::ostream& err, bool workers
     chain::Session whole(out, err, line.compat ? "" : full_command_line(line, line.texts, false));
     whole.settings.compat = line.compat;
     try {
+        if (is_of_store(line)) {
+            const int done = run_store_line(line, out);
+            out.flush();
+            if (!out)
+                throw CommandError("cannot write to the standard output");
+            return done;
+        }
         const FramePlan plan = plan_frames(line);
         std::ostream& told = sequence::has_standard_output(plan.check.words) ? err : out;
         status = run_plan(plan, told, err, workers);

@@ -145,7 +145,7 @@ Strings SuitePlan::title() const {
 }
 
 sequence::SuiteOrigin SuitePlan::origin() const {
-    return {m_suite.name, m_suite.file, m_sha256, m_store_folder, m_suite.test_line};
+    return {m_suite.name, m_suite.file, m_sha256, m_store_folder, m_key, m_suite.test_line};
 }
 
 chain::ParsedLine SuitePlan::line_with(const Strings& check) const {

@@ -3,7 +3,7 @@
 # the page's Content-Security-Policy lets them, and nothing else, run; and what THIRD_PARTY says of
 # Chart.js, as HTML.
 cmake_minimum_required(VERSION 3.25)
-set(scripts model.js pixels.js curve.js panes.js values.js viewer.js decisions.js attribution.js facts.js lists.js page.js)
+set(scripts model.js pixels.js curve.js panes.js values.js viewer.js decisions.js approve.js attribution.js facts.js lists.js page.js)
 
 include(${CMAKE_CURRENT_LIST_DIR}/../../cmake/embed_text.cmake)
 

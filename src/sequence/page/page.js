@@ -101,6 +101,7 @@ function start() {
   const hasFrames = frames.length > 0;
   for (const part of document.querySelectorAll(".columns, .all, .curve")) part.hidden = !hasFrames;
   startDecisions();
+  startApproving();
   drawAbout();
   drawWorst();
   drawBadFrames();

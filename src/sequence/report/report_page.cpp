@@ -16,6 +16,8 @@
 #include "sequence/report/scene_pixels.h"
 #include "sequence/results/json_text.h"
 #include "sequence/results/results_json.h"
+#include "sequence/suite/approvable.h"
+#include "text/text.h"
 #include "tonetool/tonetool.h"
 
 namespace tonetool::sequence {
@@ -293,15 +295,29 @@ ordered_json trimmed(const ShotResult& shot, const PictureStore& pictures,
     return result;
 }
 
+// What --approve could approve.
+ordered_json approve_json(const ShotResult& shot, const PageLimits& limits) {
+    ordered_json cases = ordered_json::array();
+    for (const FrameResult* frame : approvable_cases(shot)) {
+        cases.push_back({{"index", frame - shot.frames.data()},
+                         {"name", item_name(frame->item())},
+                         {"quoted", shell_quoted(frame->name)},
+                         {"status", status_name(frame->status)}});
+    }
+    return {{"start", approve_start(limits.json)}, {"cases", cases}};
+}
+
 std::string data_of(const ShotResult& shot, ordered_json result, const Kept& kept,
                     const PageLimits& limits) {
-    const ordered_json page{{"shot", std::move(result)},
-                            {"legends",
-                             {{"error", legend_uri("magma")},
-                              {"stops", legend_uri("viridis")},
-                              {"bias", bias_legend_uri()}}},
-                            {"pictures", captions()},
-                            {"about", about(shot, kept, limits)}};
+    ordered_json page{{"shot", std::move(result)},
+                      {"legends",
+                       {{"error", legend_uri("magma")},
+                        {"stops", legend_uri("viridis")},
+                        {"bias", bias_legend_uri()}}},
+                      {"pictures", captions()},
+                      {"about", about(shot, kept, limits)}};
+    if (!approvable_cases(shot).empty())
+        page["approve"] = approve_json(shot, limits);
     return one_line(page);
 }
 
@@ -320,12 +336,20 @@ std::string counts_html(const ShotResult& shot) {
     return html;
 }
 
-std::string list_html(const ShotResult& shot) {
+std::string list_html(const ShotResult& shot, const PageLimits& limits) {
     std::string html = format("<table><tr><th>{}</th>", is_named(shot) ? "Case" : "Frame") +
                        "<th>Status</th><th>What</th></tr>\n";
+    const bool suite = shot.suite && !shot.suite->store.empty();
     for (const FrameResult& frame : shot.frames) {
-        html += format("<tr><td>{}</td><td>{}</td><td>{}</td></tr>\n", escaped(name_of(frame)),
-                       status_name(frame.status), escaped(frame.message));
+        const bool approvable = suite && approval_refusal(frame, false).empty();
+        const std::string command =
+            approvable ? "<br><code>" +
+                             escaped(approve_start(limits.json) + " " + shell_quoted(frame.name) +
+                                     " --reason 'WHY'") +
+                             "</code>"
+                       : "";
+        html += format("<tr><td>{}</td><td>{}</td><td>{}{}</td></tr>\n", escaped(name_of(frame)),
+                       status_name(frame.status), escaped(frame.message), command);
     }
     return html + "</table>";
 }
@@ -352,7 +376,7 @@ std::string report_page(const ShotResult& shot, const PictureStore& pictures,
     ordered_json result = trimmed(shot, pictures, limits);
     const std::string look = look_sentence(shot, result);
     // The plain list has each frame again, and the page itself takes less than a megabyte.
-    const std::string list = list_html(shot);
+    const std::string list = list_html(shot, limits);
     const size_t taken = one_line(result).size() + list.size() + (size_t(1) << 20);
     const Kept found =
         kept(shot, pictures, limits, limits.bytes > taken ? limits.bytes - taken : 0);

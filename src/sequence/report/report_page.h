@@ -16,6 +16,7 @@ namespace tonetool::sequence {
 struct PageLimits {
     size_t small_bytes = size_t(20) << 20; ///< size of all thumbnails
     size_t bytes = size_t(50) << 20;       ///< size of the page
+    std::string json;                      ///< the file of --json, for --approve
     size_t detailed_frames = 2000; ///< in larger shots frames without full images have no histogram
 };
 

@@ -14,8 +14,8 @@
 
 #include "imagebuf/pixels/utf8.h"
 #include "sequence/results/attribution.h"
+#include "sequence/suite/approvable.h"
 #include "text/printable.h"
-#include "text/text.h"
 
 namespace tonetool::sequence {
 
@@ -239,16 +239,6 @@ std::string approve_text(const ShotResult& shot, const std::string& json) {
 }
 
 } // namespace
-
-std::string approve_command(const ShotResult& shot, const std::string& json) {
-    std::string names;
-    for (const FrameResult& frame : shot.frames)
-        if (frame.status == Status::Failed && shot.suite && !shot.suite->store.empty())
-            names += " " + shell_quoted(frame.name);
-    return names.empty() ? ""
-                         : "tonetool --approve " + shell_quoted(json.empty() ? "run.json" : json) +
-                               names + " --reason 'WHY'";
-}
 
 std::string summary_text(const ShotResult& shot, const std::string& json) {
     constexpr size_t most_rows = 200, most_bytes = 900000;

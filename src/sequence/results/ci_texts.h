@@ -20,10 +20,6 @@ std::string github_text(const ShotResult& shot);
 /// 900 kB, with a line that counts the rest. `json`: the file that --approve is to read.
 std::string summary_text(const ShotResult& shot, const std::string& json);
 
-/// The command line that approves the cases of a suite that failed; empty where nothing can be
-/// approved.
-std::string approve_command(const ShotResult& shot, const std::string& json);
-
 /// --ctest: a line for each number that has a limit (or the first where none has), for the verdict
 /// and for each image, as CTest finds them in what a test prints. Of several cases the names begin
 /// with the case's, and only the worst has images: CDash compares what is called TestImage,

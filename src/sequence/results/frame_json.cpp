@@ -347,13 +347,15 @@ ordered_json suite_json(const SuiteOrigin& suite) {
     put(to, "file", suite.file);
     put(to, "sha256", suite.sha256);
     put(to, "store", suite.store);
+    put(to, "key", suite.key);
     to["test_line"] = suite.test_line;
     return to;
 }
 
 SuiteOrigin suite_from_json(const ordered_json& from) {
-    return {text(from, "name"), text(from, "file"), text(from, "sha256"), text(from, "store"),
-            whole_number<int>(from.at("test_line"), "test_line")};
+    return {text(from, "name"),   text(from, "file"),
+            text(from, "sha256"), text(from, "store"),
+            text(from, "key"),    whole_number<int>(from.at("test_line"), "test_line")};
 }
 
 ordered_json exposures_json(const ShotExposures& exposures) {

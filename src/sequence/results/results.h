@@ -133,6 +133,7 @@ struct SuiteOrigin {
     std::string file;   ///< as it was opened
     std::string sha256; ///< of its text
     std::string store;  ///< the folder of its approved images; empty: it has none
+    std::string key;    ///< of --key
     int test_line = 0;  ///< where it says which images are tested
 };
 
