@@ -51,9 +51,17 @@ class Block:
         return f"{self.page}:{self.line}"
 
     def commands(self):
-        """One command a line; a line that ends in a backslash goes on."""
-        joined = self.text.replace("\\\n", "")
-        return [line for line in joined.splitlines() if line.strip() and line.strip()[0] != "#"]
+        """One command a line; a line that ends in a backslash goes on, and one with <<'END' to that word."""
+        commands, end = [], None
+        for line in self.text.replace("\\\n", "").splitlines():
+            if end:
+                commands[-1] += f"\n{line}"
+                end = None if line == end else end
+            elif line.strip() and line.strip()[0] != "#":
+                commands.append(line)
+                here = re.search(r"<<'(\w+)'", line)
+                end = here and here[1]
+        return commands
 
 
 def fenced(lines, kind):
