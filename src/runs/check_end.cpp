@@ -21,6 +21,7 @@
 #include "sequence/results/method_table.h"
 #include "sequence/results/shot_exposures.h"
 #include "sequence/results/tables.h"
+#include "sequence/suite/approvable.h"
 #include "sequence/verdict/accepted.h"
 #include "sequence/verdict/fault_lines.h"
 #include "sequence/verdict/merge.h"
@@ -203,6 +204,21 @@ void refuse_images(const FramePlan& plan) {
     }
 }
 
+// What a person types next, after a look.
+std::string approve_hint(const sequence::ShotResult& shot, const CheckPlan& check) {
+    constexpr size_t most = 8;
+    const auto cases = approvable_cases(shot);
+    if (cases.empty())
+        return "";
+    if (check.written().count("json") == 0)
+        return "to approve images: the same with --json run.json\n";
+    std::string names;
+    for (const sequence::FrameResult* frame : cases)
+        names += " " + printable(shell_quoted(frame->name));
+    return "to approve, after a look: " + sequence::approve_start(check.argument("json")) +
+           (cases.size() > most ? " CASE..." : names) + " --reason 'WHY'\n";
+}
+
 } // namespace
 
 void refuse_to_write_over(const FramePlan& plan, const Strings& parts) {
@@ -284,6 +300,7 @@ int conclude_check(const sequence::ShotResult& shot, const FramePlan& plan,
         const std::string text = sequence::bad_frames_text(shot, plan.check.bad_from);
         sequence::attempt(errors, [&] { sequence::write_text(text, bad->second); });
     }
+    out << approve_hint(shot, plan.check);
     write_for_others(shot, plan.check, out, errors);
     if (const auto figure = files.find("figure"); figure != files.end()) {
         const auto draw = [&] { write_figure(shot, plan.check, pictures, figure->second, err); };

@@ -138,7 +138,9 @@ sequence::Item FrameContext::item(size_t index) const {
 
 Session FrameContext::session(size_t index, std::ostream& out, std::ostream& err) const {
     const FrameRun& run = plan.runs[index];
-    Session session(out, err, full_command_line(plan.line_of(run), run.words, plan.line.compat));
+    Session session(out, err,
+                    plan.suite ? plan.suite->case_line(run.frame.item())
+                               : full_command_line(plan.line, run.words, plan.line.compat));
     set_for_line(session, plan);
     session.frame = run.frame;
     session.in_all_frames = [this](size_t at) {
@@ -371,8 +373,26 @@ CheckedFrames::Checked CheckedFrames::check(size_t index) const {
     const FrameRun& run = plan.runs[index];
     Checked checked = plan.suite && plan.suite->has_store() ? check_approved(index)
                                                             : check_words(index, run.words);
+    if (plan.suite && checked.result.status == Status::Failed)
+        attribute(index, checked);
     write_images(checked);
     return checked;
+}
+
+// Whose error it is, of a case that failed: it is compared once more.
+void CheckedFrames::attribute(size_t index, Checked& checked) const {
+    const FramePlan& plan = m_context.plan;
+    Strings words = plan.suite->attributing(plan.runs[index].words);
+    if (words.empty())
+        return;
+    const FrameResult& first = checked.result;
+    if (plan.suite->has_store()) // with the image that fits best
+        words.at(plan.suite->reference_at()) = first.reference;
+    Checked again = check_words(index, words);
+    again.result.reference = first.reference;
+    again.result.of_suite = first.of_suite;
+    if (again.result.status == first.status) // and not where a layer cannot be read
+        checked = std::move(again);
 }
 
 // With each of the images: the one that fits best is the result.

@@ -155,6 +155,7 @@ private:
     Checked check(size_t index) const;
     Checked check_words(size_t index, const Strings& words) const;
     Checked check_approved(size_t index) const;
+    void attribute(size_t index, Checked& checked) const;
     Checked not_checked(size_t index, sequence::Status status, const std::string& why) const;
     // Why it cannot be compared with an image that was approved; empty: it can.
     std::string approval_problem(const FrameRun& run) const;

@@ -97,6 +97,13 @@ SuitePlan::SuitePlan(const chain::ParsedLine& line, const Word& word) : m_given(
     } catch (const std::runtime_error& problem) {
         throw CommandError(std::string("--suite: ") + problem.what());
     }
+    if (sequence::is_pattern(m_suite.folder) || sequence::has_names(m_suite.folder))
+        throw CommandError("--suite: the folder \"" + m_suite.folder +
+                           "\" has wildcards in its name (valid: a link to it, or the line in it)");
+    if (!sequence::has_names(m_suite.test))
+        throw CommandError(place(m_suite.test_line) + "\"" + m_suite.test +
+                           "\" has no %N: a suite is of images with names (valid: "
+                           "\"renders/%N.exr\")");
     m_sha256 = store::sha256_of(m_text);
     for (const auto& [key, value] : word.token.modifiers)
         if (key == "sha256" && value != m_sha256)
@@ -133,6 +140,12 @@ SuitePlan::SuitePlan(const chain::ParsedLine& line, const Word& word) : m_given(
 
 std::string SuitePlan::place(int line) const {
     return "\"" + m_suite.file + "\"" + (line > 0 ? ", line " + std::to_string(line) : "") + ": ";
+}
+
+std::string SuitePlan::case_line(const sequence::Item& item) const {
+    return "tonetool --suite " + shell_quoted(m_suite.file) +
+           (m_key.empty() ? "" : " --key " + shell_quoted(m_key)) +
+           (item.name.empty() ? "" : " --only " + shell_quoted(item.name));
 }
 
 Strings SuitePlan::title() const {
@@ -318,6 +331,14 @@ SuiteCasePlan SuitePlan::plan_case(const sequence::Item& item, Strings& words,
         }
     }
     return plan;
+}
+
+Strings SuitePlan::attributing(const Strings& words) const {
+    Strings asking = words;
+    for (const Word& word : chain::parse_line(words).words)
+        if (measures(word) && has_modifier(word, "attribute") && m_suite.attribute)
+            asking[word.at] = with_modifier(word.token, "attribute", "1");
+    return asking == words ? Strings() : asking;
 }
 
 std::shared_ptr<SuitePlan> suite_of(const chain::ParsedLine& line) {

@@ -53,12 +53,19 @@ public:
     /// The approved images that --key asks for, as the files of the reference.
     sequence::Files approved_files() const;
 
+    /// The line that checks that case alone, for messages.
+    std::string case_line(const sequence::Item& item) const;
+
     /// Throws a CommandError where a row matches none of the cases.
     void check_rows(const std::vector<sequence::Item>& cases) const;
     /// What is said of a case. `files`: the words of its run, which are replaced where it has a
     /// check of its own.
     SuiteCasePlan plan_case(const sequence::Item& item, Strings& words,
                             const sequence::PatternOptions& options);
+
+    /// The words of a case that failed, with attribute=1; empty where the suite does not ask for
+    /// it, or no command of the check has it.
+    Strings attributing(const Strings& words) const;
 
 private:
     Strings words_of(const sequence::SuiteSettings& settings) const;

@@ -183,6 +183,20 @@ std::string of_text(const ShotResult& shot) {
     return shot.cases > count ? format("{} of {}", count, shot.cases) : format("{}", count);
 }
 
+// Cases that were compared with an image of any machine, where --key asks for another.
+std::string other_key_text(const ShotResult& shot) {
+    if (!shot.suite || shot.suite->key.empty())
+        return "";
+    const auto count =
+        std::count_if(shot.frames.begin(), shot.frames.end(), [&](const FrameResult& frame) {
+            return frame.of_suite.key != shot.suite->key && !frame.of_suite.sha256.empty() &&
+                   frame.status <= Status::Failed;
+        });
+    return count == 0
+               ? ""
+               : format("; {} compared with images without the key {}", count, shot.suite->key);
+}
+
 std::string sentence_of(const ShotResult& shot) {
     if (std::all_of(shot.frames.begin(), shot.frames.end(),
                     [](const FrameResult& frame) { return frame.status == Status::Skipped; }))
@@ -197,7 +211,7 @@ std::string sentence_of(const ShotResult& shot) {
     const size_t all = std::max(shot.cases, shot.frames.size());
     std::string text = format("{} {}{}: {}", of_text(shot), named ? "case" : "frame",
                               all == 1 ? "" : "s", counts_text(shot));
-    text += false_alarms_text(shot);
+    text += other_key_text(shot) + false_alarms_text(shot);
     if (std::any_of(shot.frames.begin(), shot.frames.end(), has_automatic_limit))
         text += "; fail=auto finds frames unlike the others, not what all of them have";
     if (has_problem(shot.verdict) || (shot.frames.size() > 1 && !why.empty()))

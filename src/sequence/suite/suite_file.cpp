@@ -110,7 +110,8 @@ void check_format(const Value& from, const std::string& file) {
 
 Suite suite_of(const Value& from, const std::string& file) {
     check_format(from, file);
-    refuse_unknown_keys(from, {kFormatKey, "name", "reference", "test", "check", "case"});
+    refuse_unknown_keys(from,
+                        {kFormatKey, "name", "reference", "test", "check", "attribute", "case"});
     Suite suite;
     suite.file = file;
     suite.folder = file.substr(0, file.rfind('/') + 1);
@@ -122,6 +123,12 @@ Suite suite_of(const Value& from, const std::string& file) {
         if (!from.contains(key))
             throw std::runtime_error("\"" + file + "\" has no " + key);
     suite.test_line = line_of(from.at("test"));
+    if (from.contains("attribute")) {
+        const Value& attribute = from.at("attribute");
+        if (!attribute.is_boolean())
+            refuse("attribute is true or false", attribute, "attribute = true");
+        suite.attribute = attribute.as_boolean();
+    }
     if (!from.contains("case"))
         return suite;
     const Value& rows = from.at("case");

@@ -27,6 +27,7 @@ struct Suite {
     std::string file, folder; ///< `folder` ends with a / or is empty
     std::string name, reference, test, check;
     int test_line = 0;
+    bool attribute = false; ///< of what fails, find out whose error it is
     std::vector<SuiteRow> rows;
 
     /// The keys that hold for a case: every row that matches it holds, later ones win.

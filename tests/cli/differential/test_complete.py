@@ -14,12 +14,12 @@ from stock_surface import (EXPRESSIONS, HIDDEN, SHARED, all_commands, all_modifi
 from versions import not_taken
 
 # Only tonetool has these; tests/cli/test_*.py run them.
-OWN_COMMANDS = set("""accept against dry-run merge-list bad-frames exit-zero table github summary images ctest figure biascheck noisefloor hdrflip ldrflip flipdiff exposure calibrate tonemap cgtmo lightindex errormap
+OWN_COMMANDS = set("""suite only key approve reason by again retire approved accept against dry-run merge-list bad-frames exit-zero table github summary images ctest figure biascheck noisefloor hdrflip ldrflip flipdiff exposure calibrate tonemap cgtmo lightindex errormap
     tmqi luminancestats qc exportlut report json csv junit contactsheet pictures state statistics
     merge doctor licenses h compat progress parallel-frames memory warnings-exit filmstrip tonecurves""".split())
 
 # Only tonetool has these of a command that both have.
-OWN_MODIFIERS = {("colormap", "bar")}
+OWN_MODIFIERS = {("colormap", "bar"), ("diff", "ignore"), ("diff", "mask"), ("pdiff", "ignore"), ("pdiff", "mask")}
 
 OWN_TEXT = {"help"}     # each program's help is its own
 

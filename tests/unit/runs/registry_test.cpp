@@ -106,8 +106,8 @@ TEST_F(Registry, WholeLinesAreSetByWhatMakesNoImage) {
         if (row.whole_line) {
             EXPECT_EQ(row.pops + row.pushes, 0) << row.names.front();
             // No call reads them: who has some checks them himself, in the plan of the line.
-            const std::set<std::string> with = {"bad-frames", "figure", "json",
-                                                "pictures",   "report", "table"};
+            const std::set<std::string> with = {"bad-frames", "figure", "json", "pictures",
+                                                "report",     "suite",  "table"};
             EXPECT_EQ(!row.modifiers.empty(), with.count(row.names.front()) > 0)
                 << row.names.front();
         }

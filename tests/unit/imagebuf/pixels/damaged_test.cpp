@@ -156,6 +156,11 @@ std::vector<Function> numbers_and_files() {
              LuminanceStats stats;
              return luminance_stats(stats, c.bad, c.error, kLinear);
          }},
+        {"frame_light", "",
+         [](const Call& c) {
+             FrameLight light;
+             return frame_light(light, c.bad, c.error, kLinear);
+         }},
         {"panorama_stats", "",
          [](const Call& c) {
              PanoramaStats stats;
