@@ -170,13 +170,17 @@ chain::ParsedLine SuitePlan::line_with(const Strings& check) const {
 // The words of a check, file names as the program opens them.
 Strings SuitePlan::check_words(const std::string& text, const std::string& where) const {
     chain::ParsedLine line = chain::parse_line(split_words(text, where));
+    Strings labels;
     for (const Word& word : line.words) {
         std::string& typed = line.texts[word.at];
+        const bool labelled = std::find(labels.begin(), labels.end(), typed) != labels.end();
         if (!word.row) {
-            if (!word.token.is_command)
+            if (!word.token.is_command && !labelled)
                 typed = m_suite.path(typed);
             continue;
         }
+        if (word.is("label") && !word.arguments.empty())
+            labels.push_back(line.texts[word.arguments.front()]);
         if (word.row->outlives_chain() || word.row->group == Group::Check || word.row->manner ||
             word.row->whole_line || word.is("n") || word.is("compat"))
             throw CommandError(where + "\"" + typed +
