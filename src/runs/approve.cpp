@@ -93,6 +93,12 @@ bool is_glob(const std::string& name) {
     return name.find_first_of("*?[") != std::string::npos;
 }
 
+// A case that is still made is not retired.
+std::string retire_refusal(const FrameResult& frame, bool again) {
+    const bool gone = frame.status == Status::Missing && frame.of_suite.sha256.empty();
+    return gone || again ? "" : "its image is there (--again retires it anyhow)";
+}
+
 // The cases that the globs name, each once.
 std::vector<const FrameResult*> chosen(const ShotResult& shot, const Order& order) {
     const bool retire = order.has("retire");
@@ -110,9 +116,9 @@ std::vector<const FrameResult*> chosen(const ShotResult& shot, const Order& orde
                 glob != frame.name) // a name may have the signs of a glob
                 continue;
             any = true;
-            const std::string why =
-                retire ? "" : sequence::approval_refusal(frame, order.has("again"));
-            const bool leaves = is_glob(glob) && frame.status == Status::Passed;
+            const std::string why = retire ? retire_refusal(frame, order.has("again"))
+                                           : sequence::approval_refusal(frame, order.has("again"));
+            const bool leaves = is_glob(glob) && (retire || frame.status == Status::Passed);
             if (!why.empty() && !leaves)
                 throw CommandError("--approve: " + printable(frame.name) +
                                    " is not approved: " + why);
@@ -167,9 +173,10 @@ std::string key_of(const ShotResult& shot, const Order& order) {
 
 int approve(const Order& order, std::ostream& out) {
     const ShotResult shot = run_of(order.text("approve"));
-    const auto cases = chosen(shot, order);
-    if (order.text("reason").find_first_not_of(" \t\n") == std::string::npos)
+    const bool blank = order.text("reason").find_first_not_of(" \t\n") == std::string::npos;
+    if (blank && !order.globs.empty())
         throw CommandError("--approve: why? (valid: --reason 'new hair shader')");
+    const auto cases = chosen(shot, order);
     const std::string key = key_of(shot, order);
     store::Store store(shot.suite->store);
     if (order.has("retire")) {

@@ -120,7 +120,7 @@ SuitePlan::SuitePlan(const chain::ParsedLine& line, const Word& word) : m_given(
         m_store_folder = reference;
         while (m_store_folder.size() > 1 && m_store_folder.back() == '/')
             m_store_folder.pop_back();
-        reference = m_store_folder + "/%N" + store::kRecordEnding;
+        reference = m_store_folder + "/%N.approved"; // of a case without an image: no such file
         if (sequence::is_pattern(m_suite.test) || m_suite.test.find("%N") == std::string::npos)
             throw CommandError(place(m_suite.test_line) + "\"" + m_suite.test +
                                "\" is compared with the approved images in \"" + m_store_folder +

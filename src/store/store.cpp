@@ -203,6 +203,19 @@ void clear_folder(const Store& store, const std::string& root, const std::string
     }
 }
 
+// What was approved holds already. Of a folder with a record that cannot be read nobody knows which
+// images are named: it stays as it is, and problems() tells of it.
+void clear_folders(const Store& store, const std::string& root,
+                   const std::set<std::string>& folders) {
+    for (const std::string& below : folders) {
+        try {
+            clear_folder(store, root, below);
+        } catch (const std::runtime_error&) {
+            continue;
+        }
+    }
+}
+
 void take(ApprovedRecord& record, const Approval& approval) {
     ApprovedImage image{
         approval.key, image_name(approval), approval.sha256, fs::file_size(approval.file),
@@ -230,14 +243,16 @@ void Store::approve(const std::vector<Approval>& approvals) {
                                      "\" has changed since the run that was looked at");
     }
     const StoreLock lock(m_folder);
+    std::set<std::string> folders;
     for (const Approval& approval : approvals) {
         ApprovedRecord record = find(approval.name).value_or(ApprovedRecord{});
         const std::string below = approval.name.substr(0, approval.name.rfind('/') + 1);
         copy_whole(approval.file, m_folder + "/" + below + image_name(approval), approval.sha256);
         take(record, approval);
         write_whole(record_file(approval.name), record_text(record)); // from here on it holds
-        clear_folder(*this, m_folder, below);
+        folders.insert(below);
     }
+    clear_folders(*this, m_folder, folders);
 }
 
 void Store::retire(const std::vector<std::string>& names) {
@@ -247,10 +262,12 @@ void Store::retire(const std::vector<std::string>& names) {
         if (!find(name))
             throw std::runtime_error("nothing is approved for \"" + name + "\"");
     }
+    std::set<std::string> folders;
     for (const std::string& name : names) {
         remove_file(record_file(name));
-        clear_folder(*this, m_folder, name.substr(0, name.rfind('/') + 1));
+        folders.insert(name.substr(0, name.rfind('/') + 1));
     }
+    clear_folders(*this, m_folder, folders);
 }
 
 } // namespace tonetool::store
