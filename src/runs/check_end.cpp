@@ -212,11 +212,13 @@ std::string approve_hint(const sequence::ShotResult& shot, const CheckPlan& chec
         return "";
     if (check.written().count("json") == 0)
         return "to approve images: the same with --json run.json\n";
-    std::string names;
+    Strings names;
     for (const sequence::FrameResult* frame : cases)
-        names += " " + printable(shell_quoted(frame->name));
-    return "to approve, after a look: " + sequence::approve_start(check.argument("json")) +
-           (cases.size() > most ? " CASE..." : names) + " --reason 'WHY'\n";
+        names.push_back(printable(shell_quoted(frame->name)));
+    return "to approve, after a look: " +
+           sequence::approve_line(check.argument("json"),
+                                  cases.size() > most ? "CASE..." : join(names, " ")) +
+           "\n";
 }
 
 } // namespace

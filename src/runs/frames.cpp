@@ -233,24 +233,23 @@ void choose_cases(FramePlan& plan) {
                            " chooses named cases, and the line has none (valid: %N in the names "
                            "of the images, or --frames)");
     }
-    std::vector<FrameRun> chosen;
+    const size_t all = plan.runs.size();
+    std::vector<bool> chosen(all);
     for (const std::string& glob : only) {
-        const bool any = std::any_of(plan.runs.begin(), plan.runs.end(), [&](const FrameRun& run) {
-            return sequence::fits_glob(glob, run.frame.name);
-        });
+        bool any = false;
+        for (size_t i = 0; i < all; ++i)
+            if (sequence::fits_glob(glob, plan.runs[i].frame.name))
+                chosen[i] = any = true;
         if (!any)
-            throw CommandError("--only " + glob + " names none of the " +
-                               std::to_string(plan.runs.size()) + " cases");
+            throw CommandError("--only " + glob + " names none of the " + std::to_string(all) +
+                               " cases");
     }
-    for (FrameRun& run : plan.runs) {
-        const bool named = std::any_of(only.begin(), only.end(), [&](const std::string& glob) {
-            return sequence::fits_glob(glob, run.frame.name);
-        });
-        if (named)
-            chosen.push_back(std::move(run));
-    }
-    plan.cases = chosen.size() < plan.runs.size() ? plan.runs.size() : 0;
-    plan.runs = std::move(chosen);
+    std::vector<FrameRun> runs;
+    for (size_t i = 0; i < all; ++i)
+        if (chosen[i])
+            runs.push_back(std::move(plan.runs[i]));
+    plan.cases = runs.size() < all ? all : 0;
+    plan.runs = std::move(runs);
 }
 
 // What the rows of the suite say of its cases.

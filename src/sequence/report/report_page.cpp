@@ -339,15 +339,12 @@ std::string counts_html(const ShotResult& shot) {
 std::string list_html(const ShotResult& shot, const PageLimits& limits) {
     std::string html = format("<table><tr><th>{}</th>", is_named(shot) ? "Case" : "Frame") +
                        "<th>Status</th><th>What</th></tr>\n";
-    const bool suite = shot.suite && !shot.suite->store.empty();
     for (const FrameResult& frame : shot.frames) {
-        const bool approvable = suite && approval_refusal(frame, false).empty();
         const std::string command =
-            approvable ? "<br><code>" +
-                             escaped(approve_start(limits.json) + " " + shell_quoted(frame.name) +
-                                     " --reason 'WHY'") +
-                             "</code>"
-                       : "";
+            is_approvable(shot, frame)
+                ? "<br><code>" + escaped(approve_line(limits.json, shell_quoted(frame.name))) +
+                      "</code>"
+                : "";
         html += format("<tr><td>{}</td><td>{}</td><td>{}{}</td></tr>\n", escaped(name_of(frame)),
                        status_name(frame.status), escaped(frame.message), command);
     }
