@@ -311,9 +311,13 @@ SuiteCasePlan SuitePlan::plan_case(const sequence::Item& item, Strings& words,
     for (const char* key : {"check", "fail", "warn"}) // what exceeds it is said of that row
         if (const auto found = settings.find(key); found != settings.end())
             plan.line = found->second.line;
-    const Strings check = words_of(settings);
+    const bool changes = std::any_of(settings.begin(), settings.end(), [](const auto& setting) {
+        return setting.first != "skip" && setting.first != "why";
+    });
     const size_t first = m_reference_at + (m_suite.reference.empty() ? 1 : 2);
-    if (check != Strings(m_line.texts.begin() + std::ptrdiff_t(first), m_line.texts.end())) {
+    const Strings check = changes ? words_of(settings) : Strings();
+    if (changes &&
+        check != Strings(m_line.texts.begin() + std::ptrdiff_t(first), m_line.texts.end())) {
         auto& own = m_own[check];
         if (!own) {
             chain::ParsedLine line = line_with(check);
