@@ -13,6 +13,6 @@ add_library(tonetool_flags INTERFACE)
 target_compile_options(tonetool_flags INTERFACE -ffp-contract=off)
 
 include(../cmake/rooms.cmake)
-foreach(room text sequence chain runs)
+foreach(room text store sequence chain runs)
   add_subdirectory(../${room} ${room})
 endforeach()
