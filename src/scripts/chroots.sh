@@ -2,6 +2,7 @@
 # Debian systems in folders, for matrix.sh and package.sh, which source this file.
 #   TONETOOL_CHROOTS   where they are kept (build/chroots); a few GB for each suite
 #   TONETOOL_MIRROR    where their packages come from (http://deb.debian.org/debian)
+shopt -s inherit_errexit # a step that fails in $(...) ends all
 tree=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
 chroots=$(realpath -m "${TONETOOL_CHROOTS:-$tree/build/chroots}")
 mirror=${TONETOOL_MIRROR:-http://deb.debian.org/debian}
@@ -56,6 +57,8 @@ base_chroot() {
         # Packages are kept for the next system, and nothing asks or starts.
         echo 'Binary::apt::APT::Keep-Downloaded-Packages "true";' \
             >"$root.new/etc/apt/apt.conf.d/01keep"
+        # A mirror may be of a day gone by.
+        echo 'Acquire::Check-Valid-Until "false";' >"$root.new/etc/apt/apt.conf.d/01snapshot"
         rm -f "$root.new/etc/apt/apt.conf.d/docker-clean"
         printf '#!/bin/sh\nexit 101\n' >"$root.new/usr/sbin/policy-rc.d"
         chmod +x "$root.new/usr/sbin/policy-rc.d"
