@@ -288,6 +288,20 @@ def test_methods(tonetool, files):
         "o/bdpt/a.png", "o/pt/a.png", "o/pt/b.png"]
 
 
+def test_a_method_with_an_empty_folder_is_missing(tonetool, files):
+    folder = files("refs/a.exr", "refs/b.exr", "out/x/a.exr", "out/x/b.exr")
+    words = ["refs/%N.exr", "out/%M/%N.exr", MSE]
+    (folder / "out" / "latest").symlink_to("x")  # a second name of a method
+    (folder / "out" / ".cache").mkdir()
+    (folder / "out" / "logs").mkdir()
+    (folder / "out" / "logs" / "x.txt").write_text("no method")
+    tonetool(*words)
+    (folder / "out" / "y" / "below").mkdir(parents=True)
+    tonetool(*words, "--json", "run.json", status=1)
+    assert [(frame["name"], frame["method"]) for frame in load(folder / "run.json")["frames"]
+            if frame["status"] == "missing"] == [("a", "y"), ("b", "y")]
+
+
 def test_folders_of_outputs_are_made(tonetool, suite):
     tonetool("r/%N.exr", "--resize", "4x4", "-o", "small/%N.exr", status=1)  # below a fixed folder
     (suite / "small").mkdir()

@@ -44,6 +44,8 @@ struct Files {
     std::vector<std::string> names{}; ///< one for each item
     bool from_disk = false;           ///< the files were found on the disk, not listed by a range
     bool own_range = false;           ///< the range is the pattern's own
+    /// Of "out/%M/...": folders of methods without any file.
+    std::vector<std::string> empty_methods{};
     /// If the files come from the disk: names whose numbers have fewer digits than the pattern asks
     /// for, which are not listed, and names whose numbers exceed an int.
     std::vector<std::string> narrow{}, beyond{};

@@ -102,6 +102,9 @@ private:
             if (m_sides[s].pattern.has_method())
                 for (const Item& item : m_sides[s].side.files.items)
                     m_methods.insert(item.method);
+        for (const NamedSide& side : m_sides)
+            m_methods.insert(side.side.files.empty_methods.begin(),
+                             side.side.files.empty_methods.end());
         if (m_methods.empty())
             m_methods.insert("");
     }
@@ -254,6 +257,33 @@ private:
     std::set<std::string> m_methods;
 };
 
+// Nothing in it but folders of which that holds, too.
+bool holds_no_file(const std::filesystem::path& folder) {
+    std::error_code problem;
+    std::filesystem::recursive_directory_iterator entry(folder, problem);
+    for (const std::filesystem::recursive_directory_iterator end; !problem && entry != end;
+         entry.increment(problem))
+        if (entry->is_symlink(problem) || !entry->is_directory(problem))
+            return false;
+    return !problem;
+}
+
+// Of "out/%M/...", what has made its folder and no file in it: all of it is missing. A link, which
+// may be to the folder of another method, is none.
+std::vector<std::string> empty_methods_in(const std::string& folder) {
+    std::vector<std::string> empty;
+    std::error_code problem;
+    std::filesystem::directory_iterator entry(folder.empty() ? "." : folder, problem);
+    for (const std::filesystem::directory_iterator end; !problem && entry != end;
+         entry.increment(problem)) {
+        const std::string name = entry->path().filename().string();
+        if (name.front() != '.' && !entry->is_symlink(problem) && entry->is_directory(problem) &&
+            holds_no_file(entry->path()))
+            empty.push_back(name);
+    }
+    return empty;
+}
+
 } // namespace
 
 Files list_named(const std::string& pattern, const PatternOptions& options) {
@@ -266,6 +296,8 @@ Files list_named(const std::string& pattern, const PatternOptions& options) {
     listing.from_disk = true;
     listing.own_range = has_range(pattern);
     std::vector<std::pair<Item, std::string>> found;
+    if (named.has_method() && text.compare(folder.size(), 3, "%M/") == 0)
+        listing.empty_methods = empty_methods_in(folder);
     for (const std::string& path : files_below(folder, depth, pattern)) {
         const std::string file = folder + path;
         for (const std::string& view :

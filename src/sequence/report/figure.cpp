@@ -14,6 +14,7 @@
 #include "imagebuf/pixels/canvas.h"
 #include "sequence/report/bytes.h"
 #include "sequence/report/encoded.h"
+#include "sequence/report/reduced.h"
 #include "text/printable.h"
 #include "text/text.h"
 
