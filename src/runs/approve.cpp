@@ -9,6 +9,7 @@
 #include <map>
 #include <ostream>
 #include <pwd.h>
+#include <set>
 #include <unistd.h>
 
 #include "sequence/results/probe.h"
@@ -99,8 +100,13 @@ std::string retire_refusal(const FrameResult& frame, bool again) {
     return gone || again ? "" : "its image is there (--again retires it anyhow)";
 }
 
+struct Chosen {
+    std::vector<const FrameResult*> cases;
+    size_t left_out = 0; ///< cases that a glob names and that are as they were approved
+};
+
 // The cases that the globs name, each once.
-std::vector<const FrameResult*> chosen(const ShotResult& shot, const Order& order) {
+Chosen chosen(const ShotResult& shot, const Order& order) {
     const bool retire = order.has("retire");
     if (order.globs.empty()) {
         throw CommandError(std::string("--approve: which cases are to be ") +
@@ -108,6 +114,7 @@ std::vector<const FrameResult*> chosen(const ShotResult& shot, const Order& orde
                            "? (valid: " + could_be(shot, retire) + ")");
     }
     std::map<std::string, const FrameResult*> cases;
+    std::set<const FrameResult*> left_out;
     for (const std::string& glob : order.globs) {
         bool any = false, left = false;
         std::string refused;
@@ -122,7 +129,10 @@ std::vector<const FrameResult*> chosen(const ShotResult& shot, const Order& orde
             if (!why.empty() && !leaves)
                 throw CommandError("--approve: " + printable(frame.name) +
                                    " is not approved: " + why);
-            refused = why;
+            if (!why.empty()) {
+                refused = why;
+                left_out.insert(&frame);
+            }
             left = left || why.empty();
             if (why.empty() && !cases.emplace(frame.name, &frame).second &&
                 cases.at(frame.name) != &frame)
@@ -137,10 +147,11 @@ std::vector<const FrameResult*> chosen(const ShotResult& shot, const Order& orde
             throw CommandError("--approve: \"" + glob + "\" names no case that is to be " +
                                "approved: " + refused);
     }
-    std::vector<const FrameResult*> list;
+    Chosen found;
     for (const auto& [name, frame] : cases)
-        list.push_back(frame);
-    return list;
+        found.cases.push_back(frame);
+    found.left_out = left_out.size();
+    return found;
 }
 
 std::string user() {
@@ -176,7 +187,7 @@ int approve(const Order& order, std::ostream& out) {
     const bool blank = order.text("reason").find_first_not_of(" \t\n") == std::string::npos;
     if (blank && !order.globs.empty())
         throw CommandError("--approve: why? (valid: --reason 'new hair shader')");
-    const auto cases = chosen(shot, order);
+    const auto [cases, left_out] = chosen(shot, order);
     const std::string key = key_of(shot, order);
     store::Store store(shot.suite->store);
     if (order.has("retire")) {
@@ -203,6 +214,8 @@ int approve(const Order& order, std::ostream& out) {
         out << "approved: " << printable(frame->name) << ", \"" << printable(frame->test) << "\" ("
             << status_name(frame->status)
             << (frame->message.empty() ? "" : ": " + printable(frame->message)) << ")\n";
+    if (left_out > 0)
+        out << left_out << " that passed left as approved (--again approves anyhow)\n";
     return 0;
 }
 

@@ -123,7 +123,9 @@ def test_again_add_and_retire(tonetool, approved):
     first = record(approved, "a")[0]
     shutil.copy(approved / "grey.exr", approved / "t/a.exr")
     tonetool(*CHECK, status=3)
-    tonetool("--approve", "run.json", "*", "--add", "--reason", "two looks")  # of * only what did not pass
+    # Of * only what did not pass.
+    ran = tonetool("--approve", "run.json", "*", "--add", "--reason", "two looks")
+    assert "2 that passed left as approved" in ran.out and "approved: b" not in ran.out
     assert len(record(approved, "a")) == 2 and len(record(approved, "b")) == 1
     tonetool(*CHECK)
     frame = load(approved / "run.json")["frames"][0]
