@@ -125,6 +125,7 @@ def test_names_are_escaped(tonetool, tmp_path, make_image):
     ([*WORDS, "--table:quantity=errormap.rmse", "t.md"], 'no case has the quantity "errormap.rmse"'),
     ([*WORDS, "--table:quantity=errormap.mse,errormap.max", "t.md"], "over methods a table has one"),
     ([*WORDS, "--table:methods=4spp,8spp", "t.md"], 'there is no method "8spp"'),
+    ([*WORDS, "--table:methods=4spp,4spp", "t.md"], 'the method "4spp" is named twice'),
     ([*WORDS, "--table:digits=x", "t.md"], "digits"),
     ([*WORDS, "--table:columns=2", "t.md"], 'no modifier "columns" (valid: quantity, digits, methods)'),
     (["r/cornell.exr", "t/4spp/cornell.exr", MSE, "--table", "t.md"], "a row for each name"),

@@ -119,6 +119,9 @@ std::vector<TableColumn> columns_of(const ShotResult& shot, const MethodTableOpt
         if (std::find(there.begin(), there.end(), method) == there.end())
             throw std::runtime_error("there is no method \"" + method +
                                      "\" (valid: " + OIIO::Strutil::join(there, ", ") + ")");
+        if (std::any_of(columns.begin(), columns.end(),
+                        [&](const TableColumn& column) { return column.method == method; }))
+            throw std::runtime_error("the method \"" + method + "\" is named twice");
         const std::string quantity = asked.empty() ? "" : asked.front();
         columns.push_back({method, quantity, method, up[quantity]});
     }
