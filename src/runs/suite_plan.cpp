@@ -47,15 +47,6 @@ Strings split_words(const std::string& text, const std::string& where) {
     return words;
 }
 
-// As typed, with that modifier.
-std::string with_modifier(const Token& token, const std::string& key, const std::string& value) {
-    const bool quoted = value.find(':') != std::string::npos;
-    const std::string text = quoted ? "'" + value + "'" : value;
-    const bool there = std::any_of(token.modifiers.begin(), token.modifiers.end(),
-                                   [&](const auto& one) { return one.first == key; });
-    return there ? token.with_value(key, text) : token.text + ":" + key + "=" + text;
-}
-
 bool has_modifier(const Word& word, const std::string& key) {
     const auto& all = word.row->modifiers;
     return std::any_of(all.begin(), all.end(), [&](const auto& one) { return one.key == key; });
@@ -232,7 +223,7 @@ void SuitePlan::set_limits(chain::ParsedLine& check, const std::string& key,
             found = true;
             const std::string value = sequence::names_limits_file(list) ? m_suite.path(list) : list;
             std::string& typed = check.texts[word.at];
-            typed = with_modifier(parse_token(typed, true), key, value);
+            typed = parse_token(typed, true).with_modifier(key, value);
         }
         if (!found)
             throw CommandError(where + ": the check has no " + command);
@@ -247,8 +238,8 @@ void SuitePlan::set_modifier(chain::ParsedLine& check, const std::string& key,
             continue;
         found = true;
         std::string& typed = check.texts[word.at];
-        typed = with_modifier(parse_token(typed, true), key,
-                              key == "mask" ? m_suite.path(setting.text) : setting.text);
+        typed = parse_token(typed, true)
+                    .with_modifier(key, key == "mask" ? m_suite.path(setting.text) : setting.text);
     }
     if (!found) {
         throw CommandError(place(setting.line) + key + " = \"" + setting.text +
@@ -270,22 +261,33 @@ Strings SuitePlan::words_of(const SuiteSettings& settings) const {
     return line.texts;
 }
 
-sequence::Files SuitePlan::approved_files() const {
-    const store::Store approved = store();
+const std::map<std::string, SuitePlan::Approved>& SuitePlan::approved() {
+    if (!m_approved) {
+        m_approved.emplace();
+        const store::Store of_suite = store();
+        for (const std::string& name : of_suite.names()) {
+            Approved& found = (*m_approved)[name];
+            try {
+                found.images = of_suite.accepted(name, m_key);
+            } catch (const std::runtime_error& problem) {
+                found.problem = problem.what();
+            }
+        }
+    }
+    return *m_approved;
+}
+
+sequence::Files SuitePlan::approved_files() {
+    const store::Store of_suite = store();
     sequence::Files files;
     files.from_disk = true;
-    for (const std::string& name : approved.names()) {
-        std::string file;
-        try {
-            const auto images = approved.accepted(name, m_key);
-            if (images.empty())
-                continue; // only with other keys
-            file = approved.file(name, images.front());
-        } catch (const std::runtime_error&) {
-            file = m_store_folder + "/" + name + store::kRecordEnding; // plan_case says why
-        }
+    for (const auto& [name, found] : approved()) {
+        if (found.images.empty() && found.problem.empty())
+            continue; // only with other keys
         files.items.push_back({0, "", name, ""});
-        files.names.push_back(file);
+        files.names.push_back(found.problem.empty()
+                                  ? of_suite.file(name, found.images.front())
+                                  : m_store_folder + "/" + name + store::kRecordEnding);
     }
     return files;
 }
@@ -332,10 +334,10 @@ SuiteCasePlan SuitePlan::plan_case(const sequence::Item& item, Strings& words,
                                 : word);
     }
     if (has_store()) {
-        try {
-            plan.images = store().accepted(item.name, m_key);
-        } catch (const std::runtime_error& problem) {
-            plan.problem = problem.what();
+        const auto found = approved().find(item.name);
+        if (found != approved().end()) {
+            plan.images = found->second.images;
+            plan.problem = found->second.problem;
         }
     }
     return plan;
@@ -345,7 +347,7 @@ Strings SuitePlan::attributing(const Strings& words) const {
     Strings asking = words;
     for (const Word& word : chain::parse_line(words).words)
         if (measures(word) && has_modifier(word, "attribute") && m_suite.attribute)
-            asking[word.at] = with_modifier(word.token, "attribute", "1");
+            asking[word.at] = word.token.with_modifier("attribute", "1");
     return asking == words ? Strings() : asking;
 }
 

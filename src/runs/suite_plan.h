@@ -2,6 +2,7 @@
 // --suite: the command line that a suite file stands for, and what its rows say of each case.
 #pragma once
 
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -51,7 +52,7 @@ public:
     store::Store store() const { return store::Store(m_store_folder); }
     const std::string& key() const { return m_key; }
     /// The approved images that --key asks for, as the files of the reference.
-    sequence::Files approved_files() const;
+    sequence::Files approved_files();
 
     /// The line that checks that case alone, for messages.
     std::string case_line(const sequence::Item& item) const;
@@ -76,6 +77,12 @@ private:
     void set_modifier(chain::ParsedLine& check, const std::string& key,
                       const sequence::SuiteSetting& setting) const;
     std::string place(int line) const;
+    // What the store has for a case: the images of the key, or why they are not known.
+    struct Approved {
+        std::vector<store::ApprovedImage> images;
+        std::string problem;
+    };
+    const std::map<std::string, Approved>& approved();
 
     sequence::Suite m_suite;
     std::string m_text, m_sha256, m_store_folder, m_key;
@@ -83,6 +90,7 @@ private:
     chain::ParsedLine m_line;
     size_t m_reference_at = 0;
     std::map<Strings, std::shared_ptr<const OwnCheck>> m_own;
+    std::optional<std::map<std::string, Approved>> m_approved; ///< read once
 };
 
 /// The suite of a line, or nullptr.

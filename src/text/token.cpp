@@ -91,12 +91,29 @@ Token parse_token(const std::string& word, bool lenient) {
     return token;
 }
 
+namespace {
+
+std::string quoted_value(const std::string& value) {
+    if (value.find_first_of(":'\"") == std::string::npos)
+        return value;
+    const char quote = value.find('\'') == std::string::npos ? '\'' : '"';
+    return quote + value + quote;
+}
+
+} // namespace
+
 std::string Token::with_value(const std::string& key, const std::string& other) const {
     std::string word = text;
     for (size_t i = modifiers.size(); i-- > 0;)
         if (modifiers[i].first == key)
-            word.replace(values[i].first, values[i].second - values[i].first, other);
+            word.replace(values[i].first, values[i].second - values[i].first, quoted_value(other));
     return word;
+}
+
+std::string Token::with_modifier(const std::string& key, const std::string& other) const {
+    const bool there = std::any_of(modifiers.begin(), modifiers.end(),
+                                   [&](const auto& one) { return one.first == key; });
+    return there ? with_value(key, other) : text + ":" + key + "=" + quoted_value(other);
 }
 
 } // namespace tonetool

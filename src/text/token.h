@@ -19,8 +19,10 @@ struct Token {
     std::vector<std::string> dropped;              ///< what was malformed, if lenient
     std::string problem; ///< what is wrong first: empty, malformed or repeated modifiers
 
-    /// As typed, but with another value of that modifier.
+    /// As typed, but with another value of that modifier, in quotes where it needs them.
     std::string with_value(const std::string& key, const std::string& other) const;
+    /// The same, and with that modifier behind the others where it is not there.
+    std::string with_modifier(const std::string& key, const std::string& other) const;
 };
 
 /// One or two dashes are the same. A modifier is `key=value`; a value that begins with ' or "

@@ -63,6 +63,10 @@ TEST(ParseToken, AValueIsReplacedWhereItStands) {
     EXPECT_EQ(parse_token("--c:a=1:b='x:y':d=3").with_value("b", "z"), "--c:a=1:b=z:d=3");
     EXPECT_EQ(parse_token("--c:a=':b=1':b=2").with_value("b", "z"), "--c:a=':b=1':b=z");
     EXPECT_EQ(parse_token("-c:a=1").with_value("b", "z"), "-c:a=1");
+    EXPECT_EQ(parse_token("-c:a='x:y'").with_value("a", "x:z"), "-c:a='x:z'");
+    EXPECT_EQ(parse_token("-c:a=1").with_modifier("a", "2"), "-c:a=2");
+    EXPECT_EQ(parse_token("-c:a=1").with_modifier("b", "it's:2"), "-c:a=1:b=\"it's:2\"");
+    EXPECT_EQ(parse_token("-c:a=1").with_modifier("b", "it's").find("b=\"it's\""), 7u);
 }
 
 } // namespace
