@@ -73,7 +73,13 @@ private:
 
     bool take_comparison(const Word& word) {
         const Call call(*word.row, word.token, {});
-        const auto pops = size_t(call.pops());
+        size_t pops = 0;
+        try {
+            pops = size_t(call.pops());
+        } catch (const CommandError& problem) { // tests=0
+            m_shortage = {word.row->label(), problem.what()};
+            return false;
+        }
         if (pops > m_files.size()) {
             m_shortage = {word.row->label(), chain::too_few_images(pops, m_files.size())};
             return false;

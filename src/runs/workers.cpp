@@ -112,16 +112,23 @@ Workers::~Workers() {
 
 void Workers::serve(int socket) const {
     size_t index = 0;
-    while (read_all(socket, &index, sizeof index)) {
-        const std::string reply = m_task(index);
-        const uint64_t size = reply.size();
-        if (!write_all(socket, &size, sizeof size) ||
-            !write_all(socket, reply.data(), reply.size()))
-            break;
+    int status = 0;
+    try {
+        while (read_all(socket, &index, sizeof index)) {
+            const std::string reply = m_task(index);
+            const uint64_t size = reply.size();
+            if (!write_all(socket, &size, sizeof size) ||
+                !write_all(socket, reply.data(), reply.size()))
+                break;
+        }
+    } catch (const std::exception& problem) {
+        std::fprintf(stderr, "tonetool ERROR: %s\n", problem.what());
+        status = 1;
     }
-    // What the libraries have printed; no destructors of what belongs to the starter.
+    // What the libraries have printed; no destructors of what belongs to the starter, and no return
+    // to what it was doing.
     std::fflush(nullptr);
-    ::_exit(0);
+    ::_exit(status);
 }
 
 void Workers::start(size_t index) {

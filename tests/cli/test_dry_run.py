@@ -65,6 +65,7 @@ MISTAKES = [
     (["--hdrflip:fial=0.5", "--json", "c.json"], 'unknown modifier "fial"'),
     (["--hdrflip:fail=q9=0.5", "--json", "c.json"], 'unknown quantity "q9"'),
     (["--hdrflip:ppd=x", "--json", "c.json"], 'ppd "x" is not a number'),
+    (["--hdrflip:tests=0", "--json", "c.json"], "hdrflip : tests 0 is out of range"),
     (["--hdrflip:fail=1"], "can never fail"),
     (["--ldrflip:quantity=mean", "--json", "c.json"], "quantity= needs fail= or warn="),
     (["--errormap:metric=smap", "--json", "c.json"], '"smap"'),

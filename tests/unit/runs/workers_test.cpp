@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <gmock/gmock.h>
 #include <map>
+#include <stdexcept>
 #include <unistd.h>
 
 namespace tonetool::runs {
@@ -78,6 +79,17 @@ TEST_P(WorkersTest, ATaskThatEndsItsProcessIsLostAlone) {
                                                     : HasSubstr(end->second))
             << index;
     }
+}
+
+TEST_P(WorkersTest, AnExceptionEndsItsProcessAndNoOther) {
+    const auto results = run_tasks(9, GetParam(), [](size_t index) -> std::string {
+        if (index == 4)
+            throw std::runtime_error("of task 4");
+        return "done";
+    });
+    ASSERT_EQ(results.size(), 9u);
+    for (const auto& [index, result] : results)
+        EXPECT_EQ(result.crash, index == 4 ? "exit status 1" : "") << index;
 }
 
 TEST_P(WorkersTest, AllTasksMayBeLost) {
