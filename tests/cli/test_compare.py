@@ -181,3 +181,29 @@ def test_luminance_statistics(tonetool_v, pair, testimages):
 def test_threads_do_not_change_the_numbers(tonetool, pair):
     one = tonetool("--threads", "1", *pair, "--hdrflip")
     assert one.out == tonetool("--threads", "2", *pair, "--hdrflip").out
+
+
+COMBINED = tuple(f"ViewLayer.Combined.{c}" for c in "RGB")
+
+
+@pytest.mark.parametrize("command", ["--hdrflip:fail=mean=0.5", "--errormap:metric=mse:fail=9",
+                                     "--biascheck:fail=1"])
+@pytest.mark.parametrize("swapped", [False, True])
+def test_one_picture_is_not_compared_with_another_by_the_way(tonetool, make_image, command, swapped):
+    """A copy as plain R,G,B beside a changed beauty would pass."""
+    pixels = np.random.default_rng(2).random((64, 64, 6))
+    make_image("one.exr", 64, 64, channels=COMBINED, pixels=pixels[:, :, 3:])
+    make_image("both.exr", 64, 64, channels=("R", "G", "B", *COMBINED), pixels=pixels)
+    pair = ("both.exr", "one.exr") if swapped else ("one.exr", "both.exr")
+    ran = tonetool(*pair, command, status=1)
+    assert "both have ViewLayer.Combined (layer=ViewLayer.Combined compares that)" in ran.err
+    words = command.split(":")
+    tonetool(*pair, ":".join([words[0], "layer=ViewLayer.Combined", *words[1:]]))
+
+
+def test_another_picture_is_said_where_nothing_judges(tonetool, make_image):
+    make_image("one.exr", channels=COMBINED)
+    make_image("both.exr", channels=("R", "G", "B", *COMBINED))
+    assert "both have ViewLayer.Combined" in tonetool("one.exr", "both.exr", "--hdrflip").err
+    make_image("plain.exr")
+    assert "both have" not in tonetool("one.exr", "plain.exr", "--hdrflip").err

@@ -224,6 +224,8 @@ std::vector<ImageBuf> read_images(Session& session, const Call& call, const Bias
     images.reserve(call.images.size()); // else the pixels are copied
     for (size_t i = 0; i < call.images.size(); ++i) {
         const bool first = i == 0 || i == references;
+        if (i > 0)
+            check_same_picture(session, call, *call.images[0], pixels, *call.images[i], pixels);
         images.push_back(
             (shown && first ? shown_input : color_source)(session, call, *call.images[i], pixels));
     }

@@ -31,12 +31,13 @@ using Compare = std::function<bool(Maps&, const OIIO::ImageBuf&, const Tests&)>;
 // What the images of a command are looked at for: call.images is the reference and the tests.
 struct Look {
     PixelOptions reference, tests;
+    bool alike = true; ///< both are the picture that was rendered, and none is made of the other
     /// Many times: the images are read before, unless their memory is bounded.
     bool again = false;
 };
 
 Look same_look(const Call& call, bool again = false) {
-    return {pixel_options(call), pixel_options(call), again};
+    return {pixel_options(call), pixel_options(call), true, again};
 }
 
 // The images as they were compared, and a map for each test.
@@ -79,6 +80,9 @@ Compared compare(Session& session, const Call& call, const Look& look, const Com
     Tests tests;
     for (size_t i = 1; i < done.views.size(); ++i) {
         warn_of_same_file(session, call, *call.images[i], look);
+        if (look.alike)
+            check_same_picture(session, call, *call.images.front(), look.reference, *call.images[i],
+                               look.tests);
         tests.push_back(&done.views[i]);
     }
     done.maps.resize(tests.size());
@@ -377,8 +381,8 @@ void run_tmqi(Session& session, const Call& call) {
     Strings none;
     const Limits limits = limits_of(session, call, tmqi_measures(), none);
     TmqiSummary summary;
-    auto [views, maps] =
-        compare(session, call, {options.hdr, options.ldr}, [&](Maps& to, auto& hdr, auto& tests) {
+    auto [views, maps] = compare(
+        session, call, {options.hdr, options.ldr, false}, [&](Maps& to, auto& hdr, auto& tests) {
             return ToneAlgo::tmqi(to[0], hdr, *tests[0], options, &summary);
         });
     report(session, call, summary, limits);

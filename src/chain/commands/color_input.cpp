@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "chain/commands/color_input.h"
 
+#include <algorithm>
 #include <filesystem>
+#include <optional>
 
 #include "text/error.h"
 #include "tonetool/color_tags.h"
@@ -24,6 +26,32 @@ void refuse_all(const Image& image) {
                            " MIP level(s), of which one is compared: not with -a (valid: without "
                            "-a, a command for each subimage with layer=)");
     }
+}
+
+bool is_judged(const Session& session, const Call& call) {
+    return call.row().group == Group::Compare && (call.has("fail") || call.has("warn") ||
+                                                  call.row().always_judges || session.check.result);
+}
+
+/// The layer that is compared, and all layers of colour, of the subimage that is looked at.
+struct Picture {
+    std::string layer;
+    Strings layers;
+    bool has(const std::string& one) const {
+        return std::find(layers.begin(), layers.end(), one) != layers.end();
+    }
+};
+
+std::optional<Picture> picture_of(const Image& image, const PixelOptions& options) {
+    const std::vector<OIIO::ImageSpec> headers = headers_of(image);
+    PartChoice part;
+    ColorChoice color;
+    std::string ignored;
+    if (!options.layer.empty() || !ToneAlgo::find_part(headers, options, part, ignored) ||
+        !ToneAlgo::find_color(headers.at(size_t(part.part)), options, color, ignored))
+        return std::nullopt;
+    return Picture{color.layer.empty() ? "R,G,B" : color.layer,
+                   ToneAlgo::color_layers(headers.at(size_t(part.part)))};
 }
 
 std::string left_out(const Image& image, const PartChoice& choice) {
@@ -84,8 +112,7 @@ Part& color_part(Session& session, const Call& call, const Image& image,
     const bool compares = call.row().group == Group::Compare;
     if (compares && session.settings.all_subimages && options.layer.empty())
         refuse_all(image);
-    const bool judged = compares && (call.has("fail") || call.has("warn") ||
-                                     call.row().always_judges || session.check.result);
+    const bool judged = is_judged(session, call);
     if (judged)
         check_nothing_left_out(image);
     PartChoice choice;
@@ -123,6 +150,24 @@ Part& checked_part(Session& session, const Call& call, const Image& image,
     }
     tell_encoding(session, call, image, part.header(), options);
     return part;
+}
+
+void check_same_picture(Session& session, const Call& call, const Image& reference,
+                        const PixelOptions& of_reference, const Image& test,
+                        const PixelOptions& of_test) {
+    const auto r = picture_of(reference, of_reference), t = picture_of(test, of_test);
+    if (!r || !t || r->layer == t->layer)
+        return;
+    const bool test_has_both = t->has(r->layer);
+    if (!test_has_both && !r->has(t->layer))
+        return; // a picture that was written out on its own
+    const std::string& layer = test_has_both ? r->layer : t->layer;
+    const std::string text = "the picture of \"" + reference.name() + "\" is " + r->layer +
+                             ", that of \"" + test.name() + "\" " + t->layer + ", and both have " +
+                             layer + " (layer=" + layer + " compares that)";
+    if (is_judged(session, call))
+        throw CommandError(text);
+    session.warning(call.row().label(), text);
 }
 
 OIIO::ImageBuf color_input(Session& session, const Call& call, const Image& image,

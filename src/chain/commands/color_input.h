@@ -34,6 +34,13 @@ Part& checked_part(Session& session, const Call& call, const Image& image,
 void tell_encoding(Session& session, const Call& call, const Image& image,
                    const OIIO::ImageSpec& header, const PixelOptions& options);
 
+/// For images whose pictures are compared, where no layer is asked for: that of one must not be of
+/// another name than that of the other while the other has a layer of its name. An error in
+/// commands that end in a verdict, and a warning in others.
+void check_same_picture(Session& session, const Call& call, const Image& reference,
+                        const PixelOptions& of_reference, const Image& test,
+                        const PixelOptions& of_test);
+
 /// The pixels of color_part(), with a header that distinguishes display-encoded integers from
 /// linear floats.
 OIIO::ImageBuf color_input(Session& session, const Call& call, const Image& image,
