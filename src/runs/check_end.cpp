@@ -211,11 +211,18 @@ std::string approve_hint(const sequence::ShotResult& shot, const CheckPlan& chec
     if (cases.empty())
         return "";
     if (check.written().count("json") == 0)
-        return "to approve images: the same with --json run.json\n";
+        return "to approve images, run this again with --json run.json: it then says the command\n";
     Strings names;
     for (const sequence::FrameResult* frame : cases)
         names.push_back(printable(shell_quoted(frame->name)));
-    return "to approve, after a look: " +
+    // A slip in its name would make another.
+    const std::string& store = shot.suite->store;
+    std::error_code none;
+    const std::string made =
+        std::filesystem::is_directory(store, none)
+            ? ""
+            : "there is no folder \"" + printable(store) + "\": approving makes it\n";
+    return made + "to approve, after a look: " +
            sequence::approve_line(check.argument("json"),
                                   cases.size() > most ? "CASE..." : join(names, " ")) +
            "\n";

@@ -308,6 +308,10 @@ private:
     void check_merge() const {
         if (m_plan.has("merge") && m_plan.has("state"))
             throw CommandError("--merge and --state exclude each other");
+        if (m_plan.has("merge") && !m_plan.only.empty())
+            throw CommandError(
+                "--only chooses what is compared, and --merge takes all cases of its "
+                "parts (valid: --only where the parts are made)");
         if (m_plan.has("merge") && m_plan.has("figure")) {
             throw CommandError(
                 "--figure is drawn of images, which results do not have (valid: with "

@@ -406,8 +406,12 @@ CheckedFrames::Checked CheckedFrames::check_approved(size_t index) const {
         return check_words(index, run.words); // which says what is missing
     const std::string sha256 = store::sha256_of_file(test);
     std::optional<Checked> best;
-    if (run.of_suite.images.empty())
-        best = check_words(index, run.words); // nothing is approved
+    if (run.of_suite.images.empty()) { // nothing is approved
+        const sequence::Probe probe = sequence::probed({test});
+        if (!probe.message.empty())
+            return not_checked(index, probe.status, probe.message);
+        best = check_words(index, run.words);
+    }
     std::vector<sequence::Tried> tried;
     const auto rank = [](const Checked& one) {
         return std::make_pair(one.result.status, badness(one.result));

@@ -240,9 +240,14 @@ void choose_cases(FramePlan& plan) {
         for (size_t i = 0; i < all; ++i)
             if (sequence::fits_glob(glob, plan.runs[i].frame.name))
                 chosen[i] = any = true;
-        if (!any)
+        if (!any) {
+            Strings names;
+            for (const FrameRun& run : plan.runs)
+                names.push_back(run.frame.name);
+            const std::string meant = sequence::meant_case(glob, names);
             throw CommandError("--only " + glob + " names none of the " + std::to_string(all) +
-                               " cases");
+                               " cases" + (meant.empty() ? "" : ", " + meant));
+        }
     }
     std::vector<FrameRun> runs;
     for (size_t i = 0; i < all; ++i)

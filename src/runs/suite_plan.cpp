@@ -112,6 +112,7 @@ SuitePlan::SuitePlan(const chain::ParsedLine& line, const Word& word) : m_given(
         while (m_store_folder.size() > 1 && m_store_folder.back() == '/')
             m_store_folder.pop_back();
         reference = m_store_folder + "/%N.approved"; // of a case without an image: no such file
+        refuse_store_among_tests();
         if (sequence::is_pattern(m_suite.test) || m_suite.test.find("%N") == std::string::npos)
             throw CommandError(place(m_suite.test_line) + "\"" + m_suite.test +
                                "\" is compared with the approved images in \"" + m_store_folder +
@@ -127,6 +128,20 @@ SuitePlan::SuitePlan(const chain::ParsedLine& line, const Word& word) : m_given(
         m_given.push_back(reference);
     m_given.push_back(m_suite.path(m_suite.test));
     m_line = line_with(words_of({}));
+}
+
+// What was approved would be a case, and be approved in its turn.
+void SuitePlan::refuse_store_among_tests() const {
+    const auto normal = [](const std::string& path) {
+        return fs::path(path).lexically_normal().string();
+    };
+    const std::string test = normal(sequence::without_range(m_suite.path(m_suite.test)));
+    const sequence::NamePattern pattern(test, true);
+    const std::string extension = fs::path(test).extension().string();
+    if (pattern.match(normal(m_store_folder) + "/x.0123456789ab" + extension, ""))
+        throw CommandError(place(m_suite.test_line) + "the folder of approved images \"" +
+                           m_store_folder + "\" is where \"" + m_suite.test +
+                           "\" looks for tests (valid: a folder beside it)");
 }
 
 std::string SuitePlan::place(int line) const {
@@ -289,6 +304,8 @@ sequence::Files SuitePlan::approved_files() {
                                   ? of_suite.file(name, found.images.front())
                                   : m_store_folder + "/" + name + store::kRecordEnding);
     }
+    for (const std::string& name : of_suite.names_without_record())
+        files.lost.push_back({0, "", name, ""});
     return files;
 }
 

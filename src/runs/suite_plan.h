@@ -77,6 +77,7 @@ private:
     void set_modifier(chain::ParsedLine& check, const std::string& key,
                       const sequence::SuiteSetting& setting) const;
     std::string place(int line) const;
+    void refuse_store_among_tests() const;
     // What the store has for a case: the images of the key, or why they are not known.
     struct Approved {
         std::vector<store::ApprovedImage> images;

@@ -46,10 +46,14 @@ void check_key(const std::string& key) {
                                  "\" has other signs than letters, digits, - and _");
 }
 
+// What the names of a case's images begin with; the extension is the file's.
+std::string image_stem(const std::string& name, const std::string& key, const std::string& sha256) {
+    return last_part(name) + (key.empty() ? "" : "@" + key) + "." + sha256.substr(0, kHashDigits);
+}
+
 std::string image_name(const Approval& approval) {
-    const std::string extension = fs::path(approval.file).extension().string();
-    return last_part(approval.name) + (approval.key.empty() ? "" : "@" + approval.key) + "." +
-           approval.sha256.substr(0, kHashDigits) + extension;
+    return image_stem(approval.name, approval.key, approval.sha256) +
+           fs::path(approval.file).extension().string();
 }
 
 // "long.3fa2b1c4d5e6.exr": what an approval writes.
@@ -107,13 +111,39 @@ std::vector<std::string> Store::names() const {
     return {names.begin(), names.end()};
 }
 
+std::vector<std::string> Store::names_without_record() const {
+    const std::vector<std::string> all = names();
+    const std::set<std::string> known(all.begin(), all.end());
+    std::set<std::string> found;
+    each_file(m_folder, "", [&](const std::string& file) {
+        if (!is_image_name(file.substr(file.rfind('/') + 1)))
+            return;
+        std::string name = fs::path(file).replace_extension().replace_extension().string();
+        if (known.count(name) > 0)
+            return;
+        const size_t at = name.rfind('@'); // a key, unless the name has that sign itself
+        if (at != std::string::npos && name.find('/', at) == std::string::npos)
+            name.resize(at);
+        if (known.count(name) == 0)
+            found.insert(name);
+    });
+    return {found.begin(), found.end()};
+}
+
 std::optional<ApprovedRecord> Store::find(const std::string& name) const {
     const std::string file = record_file(name);
     std::error_code none;
     if (!fs::exists(file, none))
         return std::nullopt;
     try {
-        return record_from(read_file(file));
+        ApprovedRecord record = record_from(read_file(file));
+        for (const ApprovedImage& image : record.images) {
+            const std::string start = image_stem(name, image.key, image.sha256);
+            if (image.file.compare(0, start.size(), start) != 0)
+                throw std::runtime_error("names \"" + image.file +
+                                         "\", which is of another case, key or hash");
+        }
+        return record;
     } catch (const std::runtime_error& problem) {
         throw std::runtime_error("\"" + file + "\" " + problem.what());
     }

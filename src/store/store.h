@@ -33,6 +33,7 @@ class Store {
 public:
     explicit Store(std::string folder) : m_folder(std::move(folder)) {}
 
+    const std::string& folder() const { return m_folder; }
     /// The names of all cases, by bytes. Names with a part that begins with a dot are none.
     std::vector<std::string> names() const;
     /// nullopt where nothing is approved; a runtime_error where the record cannot be read.
@@ -43,6 +44,9 @@ public:
     Found look(const std::string& name, const ApprovedImage& image) const;
     /// What is wrong with the image; empty where it is what was approved.
     std::string problem(const std::string& name, const ApprovedImage& image) const;
+    /// Cases whose images are there and whose record is not: removed by hand, or an approval that
+    /// was ended.
+    std::vector<std::string> names_without_record() const;
     /// What is wrong with the store, a sentence each: images that are not what was approved, and
     /// those without a record.
     std::vector<std::string> problems() const;

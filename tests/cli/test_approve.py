@@ -225,3 +225,45 @@ def test_several_at_once_lose_nothing(tonetool, suite):
     sound(suite / "approved")
     assert {path.name for path in (suite / "approved").glob("*.json")} == {
         "n0.approved.json", "n1.approved.json", "n2.approved.json", "n3.approved.json", "shared.approved.json"}
+
+
+def test_a_case_that_lost_its_record_and_its_image_is_missing(tonetool, approved):
+    """Else it would be no case any more, and nobody would know."""
+    (approved / "approved/hair/long.approved.json").unlink()
+    (approved / "t/hair/long.exr").unlink()
+    tonetool(*CHECK, status=1)
+    assert statuses(approved) == {"a": "passed", "b": "passed", "hair/long": "missing"}
+    tonetool("--suite", "suite.toml", "--key", "cuda", "-q", status=1)
+
+
+def test_a_record_of_another_case_approves_nothing(tonetool, approved):
+    shutil.copy(approved / "approved/a.approved.json", approved / "approved/b.approved.json")
+    tonetool(*CHECK, status=1)
+    frame = next(one for one in load(approved / "run.json")["frames"] if one["name"] == "b")
+    assert frame["status"] == "error" and "which is of another case, key or hash" in frame["message"]
+    tonetool("--approved", "approved", status=1)
+
+
+def test_the_first_run_sees_what_cannot_be_read(tonetool, suite):
+    whole = (suite / "t/a.exr").read_bytes()
+    (suite / "t/a.exr").write_bytes(whole[:len(whole) // 2])
+    (suite / "t/b.exr").write_bytes(b"")
+    ran = tonetool("--suite", "suite.toml", "--json", "run.json", status=1)
+    assert statuses(suite) == {"a": "unreadable", "b": "unreadable", "hair/long": "missing"}
+    assert "approve run.json hair/long --reason" in ran.out
+    assert 'there is no folder "approved": approving makes it' in ran.out
+    tonetool("--approve", "run.json", "hair/long", "--reason", "first")
+
+
+@pytest.mark.parametrize("test, store, refused", [
+    ("%N.exr", "approved", True), ("./%N.exr", "sub/../approved", True), ("approved/%N.exr", "approved", True),
+    ("t/%N.exr", "t", True), ("t/%N.exr", "t/approved", True), ("t/%N.exr", "approved", False),
+    ("%N_out.exr", "approved", False)])
+def test_a_store_is_not_where_tests_are(tonetool, suite, test, store, refused):
+    """What is approved would be a case of the next run."""
+    (suite / "sub").mkdir()
+    shutil.copy(suite / "black.exr", suite / "a_out.exr")
+    (suite / "suite.toml").write_text(SUITE.replace("t/%N.exr", test).replace('"approved"', f'"{store}"'))
+    ran = tonetool("--suite", "suite.toml", "--json", "run.json", status=1)
+    assert (f'"{store}" is where "{test}" looks for tests' in ran.err) == refused
+    assert (suite / "run.json").exists() != refused

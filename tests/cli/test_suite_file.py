@@ -248,3 +248,31 @@ def test_annotations_point_at_the_row(tonetool, suite):
     assert [line.split(",title")[0] for line in ran.out.splitlines() if line[:2] == "::"] == [
         "::error file=suite.toml,line=4", "::error file=suite.toml,line=4", "::error file=suite.toml,line=7"]
     assert (folder / "s.md").read_text().startswith("## lookdev: missing\n")
+
+
+@pytest.mark.parametrize("name", ["hair/lnog", "HAIR/LONG", "hair/long.exr", "./hair/long"])
+def test_the_case_that_was_meant(tonetool, suite, name):
+    suite(f'\n[[case]]\nname = "{name}"\nfail = "mse=9"\n')
+    assert 'did you mean "hair/long"?' in tonetool("--suite", "suite.toml", status=1).err
+    suite()
+    assert 'did you mean "hair/long"?' in tonetool("--suite", "suite.toml", "--only", name, status=1).err
+
+
+@pytest.mark.parametrize("blank", ["  ", "\\n", "\\t"])
+def test_a_blank_reason_is_none(tonetool, suite, blank):
+    suite(f'\n[[case]]\nname = "a"\nskip = "{blank}"\n')
+    assert "skip is empty" in tonetool("--suite", "suite.toml", status=1).err
+
+
+def test_parts_that_lack_a_case_are_no_whole(tonetool, suite):
+    folder = suite(LENIENT)
+    for part, name in enumerate("abc"):
+        tonetool("--suite", "suite.toml", "--only", name, "--json", f"p{part}", "-q")
+    tonetool("--merge", "p0", "-q")  # printed again, and still of one case
+    ran = tonetool("--merge", "p0", "p1", "p2", "--json", "m", status=1)
+    assert "the parts have 3 of 5 cases" in ran.err
+    tonetool("--suite", "suite.toml", "--only", "hair/*", "--json", "p3", "-q")
+    tonetool("--merge", "p0", "p1", "p2", "p3", "-q")
+    ran = tonetool("--suite", "suite.toml", "--merge", "p0", "p1", "--only", "a", status=1)
+    assert "--only chooses what is compared" in ran.err
+    assert load(folder / "p0")["cases"] == 5

@@ -44,6 +44,8 @@ struct Files {
     std::vector<std::string> names{}; ///< one for each item
     bool from_disk = false;           ///< the files were found on the disk, not listed by a range
     bool own_range = false;           ///< the range is the pattern's own
+    /// That are known to have been, without a file.
+    std::vector<Item> lost{};
     /// Of "out/%M/...": folders of methods without any file.
     std::vector<std::string> empty_methods{};
     /// If the files come from the disk: names whose numbers have fewer digits than the pattern asks

@@ -91,6 +91,7 @@ private:
                 continue;
             any = true;
             m_keys.insert(side.side.files.items.begin(), side.side.files.items.end());
+            m_keys.insert(side.side.files.lost.begin(), side.side.files.lost.end());
         }
         if (!any) {
             throw std::runtime_error("no name has all the wildcards of the others (valid: one with "
@@ -116,7 +117,9 @@ private:
         std::set<Item> seen;
         for (const Item& item : m_keys)
             seen.insert(side.seen(item));
-        for (const Item& item : side.side.files.items) {
+        std::vector<Item> known = side.side.files.items;
+        known.insert(known.end(), side.side.files.lost.begin(), side.side.files.lost.end());
+        for (const Item& item : known) {
             if (seen.count(item) > 0)
                 continue;
             for (const std::string& method : m_methods) {

@@ -67,7 +67,7 @@ std::string text_in(const Value& table, const std::string& key) {
         refuse(key + " is a text", value,
                limits ? key + " = \"mean=0.3,p99.9=0.6\"" : key + " = \"...\"");
     }
-    if (toml_text(value).empty())
+    if (toml_text(value).find_first_not_of(" \t\r\n") == std::string::npos)
         refuse(key + " is empty", value, "leave the key out");
     return toml_text(value);
 }
@@ -167,6 +167,18 @@ bool closes_brackets(const std::string& glob, size_t at) {
 
 } // namespace
 
+std::string meant_case(const std::string& glob, const std::vector<std::string>& names) {
+    std::string name = glob.compare(0, 2, "./") == 0 ? glob.substr(2) : glob;
+    for (const bool whole : {true, false}) {
+        if (!whole) // "gallery.exr"
+            name.resize(std::min(name.rfind('.'), name.size()));
+        const auto near = nearest_names(name, names, 1);
+        if (!near.empty())
+            return "did you mean \"" + near.front() + "\"?";
+    }
+    return "";
+}
+
 bool fits_glob(const std::string& glob, const std::string& text) {
     size_t g = 0, t = 0, star = std::string::npos, behind = 0;
     while (t < text.size()) {
@@ -212,8 +224,13 @@ std::string Suite::unmatched(const std::vector<std::pair<std::string, std::strin
         const bool any = std::any_of(cases.begin(), cases.end(), [&](const auto& one) {
             return fits_glob(row.name, one.first) && fits_glob(row.method, one.second);
         });
-        if (!any)
-            return row.shown;
+        if (!any) {
+            std::vector<std::string> names;
+            for (const auto& one : cases)
+                names.push_back(one.first);
+            const std::string meant = meant_case(row.name, names);
+            return row.shown + (meant.empty() ? "" : "\n" + meant);
+        }
     }
     return "";
 }

@@ -42,6 +42,9 @@ struct Suite {
 /// Throws a runtime_error with the line and a caret where the text is no suite.
 Suite suite_from(const std::string& text, const std::string& file);
 
+/// "did you mean "hair/long"?" of a glob that matches none of the cases, or empty.
+std::string meant_case(const std::string& glob, const std::vector<std::string>& names);
+
 /// * stands for any characters, / too, ? for one, [a-z] and [!a-z] for one of them or one other.
 bool fits_glob(const std::string& glob, const std::string& text);
 

@@ -99,6 +99,10 @@ ShotResult merged(const std::vector<std::string>& parts, const std::vector<Item>
     add_frames_without_result(whole, expected);
     if (whole.cases <= whole.frames.size()) // nothing is left out any more
         whole.cases = 0;
+    else if (parts.size() > 1)
+        complaints.push_back("the parts have " + std::to_string(whole.frames.size()) + " of " +
+                             std::to_string(whole.cases) +
+                             " cases (--suite FILE with --merge tells which are missing)");
     conclude(whole);
     return whole;
 }
