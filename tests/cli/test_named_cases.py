@@ -440,3 +440,11 @@ def test_an_output_over_what_another_case_reads(tonetool, make_image, tmp_path, 
     ran = tonetool(*words, status=1)
     assert "is read by this check, and -o would write over it" in ran.err
     assert {file: file.read_bytes() for file in tmp_path.glob("?/*.exr")} == before
+
+
+@pytest.mark.parametrize("there", ["t/glass.EXR", "t/glass.tif", "t/Glass.hdr"])
+def test_a_file_of_another_ending_is_told(tonetool, files, there):
+    folder = files("r/a.exr", "t/a.exr", "r/glass.exr", there)
+    tonetool("r/%N.exr", "t/%N.exr", FLIP, "--csv", "t.csv", "-q", status=1)
+    assert table(folder / "t.csv")[1]["message"] == \
+        f'no test "t/glass.exr", though "{there[2:]}" is there'

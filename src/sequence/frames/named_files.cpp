@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sequence/frames/named_files.h"
 
+#include <OpenImageIO/strutil.h>
 #include <algorithm>
 #include <filesystem>
 #include <limits>
@@ -215,6 +216,8 @@ private:
         const std::vector<std::string> hints = lacks.size() > 1
                                                    ? renamed_hints(pairs, lacks[0], lacks[1])
                                                    : std::vector<std::string>(pairs.items.size());
+        size_t looked = 0;
+        constexpr size_t most = 64; // folders are read for a hint
         for (size_t s = lacks.size(); s-- > 0;)
             for (size_t i = 0; i < pairs.items.size(); ++i)
                 if (lacks[s][i]) {
@@ -224,8 +227,29 @@ private:
                         (!said.empty() ? said
                                        : (reference ? "no reference \"" : "no test \"") +
                                              pairs.names[s][i] + "\"") +
-                        hints[i];
+                        (hints[i].empty() && said.empty() && ++looked <= most
+                             ? sibling_of(pairs.names[s][i])
+                             : hints[i]);
                 }
+    }
+
+    // Of a file that is not there: one of its folder whose name differs by its ending or by
+    // capitals.
+    std::string sibling_of(const std::string& file) const {
+        namespace fs = std::filesystem;
+        const fs::path path(file);
+        const auto bare = [](const fs::path& name) {
+            return OIIO::Strutil::lower(name.stem().string());
+        };
+        std::error_code problem;
+        fs::directory_iterator entry(path.has_parent_path() ? path.parent_path() : ".", problem);
+        std::string found;
+        for (const fs::directory_iterator end; !problem && entry != end; entry.increment(problem)) {
+            const fs::path name = entry->path().filename();
+            if (bare(name) == bare(path.filename()) && (found.empty() || name.string() < found))
+                found = name.string();
+        }
+        return found.empty() ? "" : ", though \"" + found + "\" is there";
     }
 
     // "refs/%N.exr matches no file; refs/ has 12 files, all .png"
