@@ -276,7 +276,7 @@ class Finish:
 
     def gone(self):
         """Approved names whose test is not there any more, as far as this session can know."""
-        left = sorted(self.store.names() - set(self.parts))
+        left = sorted(name for name in self.store.names() - set(self.parts) if "/" in name)
         if not left or not self.is_whole():
             return []
         patterns = self.config.getini("python_files")
@@ -296,14 +296,14 @@ class Finish:
         return all(os.path.realpath(file) in files for file in self.store.owner.glob(self.store.files)
                    if clean(file.stem) == stem)
 
-    def run(self, page):
+    def run(self, is_asked, page):
         gone = self.gone()
         if self.parts or gone:
             self.state.claim()
             with locked(self.state.results / f".{self.store.folder}.lock"):
                 self.compare(gone, page)
-        else:
-            (self.folder / "run.json").unlink(missing_ok=True)  # it would be of an earlier session
+        elif is_asked:  # and no image came: the run would be one of an earlier session
+            (self.folder / "run.json").unlink(missing_ok=True)
 
     def compare(self, gone, page):
         images = self.state.folder / self.store.folder / "images"
@@ -369,8 +369,7 @@ def finish(config, state):
     stores, asking = stores_of(config, state)
     for folder, store in stores.items():
         work = Finish(config, store, parts.get(folder, {}))
-        if folder in asking or store.path.is_dir():
-            work.run(page if work.parts else None)
+        work.run(folder in asking, page if work.parts else None)
         problems += work.problems
         notes += work.notes
     if page and not page.is_file():
