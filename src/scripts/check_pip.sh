@@ -50,5 +50,5 @@ if venv/bin/python -I -c "import pytest" 2>/dev/null; then
     venv/bin/python -I -m pytest -p no:cacheprovider --help | grep -q -- --tonetool-report
 fi
 venv/bin/pip uninstall -y tonetool >/dev/null
-test -z "$(find venv/lib -name '_tonetool*' -o -name 'pytest_tonetool*')"
+test -z "$(find venv/lib -name '_tonetool*' -o -path '*/pytest_tonetool/*')"
 echo "check_pip: passed"

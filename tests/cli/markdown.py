@@ -189,7 +189,7 @@ def lacks(block, program):
         if "--doctor" in command or word in HOSTS and ".tone" in command:
             if not plugin.exists() or not shutil.which("oiiotool", path="/usr/bin"):
                 return "no plugin, or no oiiotool"
-        module = Path(program).resolve().parents[1] / "python" / "pytest_tonetool.py"
+        module = Path(program).resolve().parents[1] / "python" / "pytest_tonetool"
         if word == "pytest" and not (module.exists() and Path(PYTEST).exists()):
             return "no Python module, or no pytest"
     return ""

@@ -250,7 +250,7 @@ def test_cornell(tonetool_check):
 
 def test_installed_plugin_of_pytest(tree, tmp_path):
     """Found by its entry point, and finds the program of its own tree; nothing else says where they are."""
-    found = list(tree.glob("lib/python3*/dist-packages/pytest_tonetool.py"))
+    found = list(tree.glob("lib/python3*/dist-packages/pytest_tonetool"))
     if not found and os.environ.get("PYTHON_MODULE") == "OFF":
         pytest.skip("built without the Python module")
     (module,) = found

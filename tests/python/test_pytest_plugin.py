@@ -5,6 +5,7 @@ import importlib.metadata
 import importlib.util
 import json
 import os
+import re
 import shlex
 import subprocess
 import sys
@@ -99,14 +100,16 @@ def test_first_run_fails_then_approved_passes_then_change_fails(run, approved, p
     first.assert_outcomes(failed=1)
     said(first, "tonetool_check: test_looks/test_grey: missing: no approved image",
          "the image: tonetool-results/approved/test_looks/test_grey.exr",
-         "to approve, after a look: tonetool --approve tonetool-results/approved/run.json test_looks/test_grey --reason 'WHY'")
+         "to approve, after a look: tonetool --approve tonetool-results/approved/run.json test_looks/test_grey "
+         "--reason 'WHY'")
     page = pytester.path / "page.html"
     green = run(None, "--tonetool-report", page)
     green.assert_outcomes(passed=1)
     assert green.ret == 0 and "test_grey" in page.read_text(encoding="utf-8")
     changed = run(looks("grey", value=0.05))
     changed.assert_outcomes(failed=1)
-    said(changed, "test_grey: failed: hdrflip: mean * > 0.1", "pictures: *test_grey.reference.png, .test.png, .error.png")
+    said(changed, "test_grey: failed: hdrflip: mean * > 0.1",
+         "pictures: *test_grey.reference.png, .test.png, .error.png")
     for kind in ("reference.png", "test.png", "error.png", "exr"):
         assert (pytester.path / f"tonetool-results/approved/test_looks/test_grey.{kind}").is_file()
 
@@ -154,8 +157,9 @@ def test_meanwhile():
 # ---- what is given
 
 @pytest.mark.parametrize("image", [
-    "grey(0.5)", "grey(0.5)[..., 0]", f"oiio.ImageBuf({PAIR[0]!r})", f"oiio.ImageBufAlgo.resize(oiio.ImageBuf({PAIR[0]!r}), "
-    "roi=oiio.ROI(0, 48, 0, 48))", repr(PAIR[0]), f"__import__('pathlib').Path({PAIR[0]!r})"])
+    "grey(0.5)", "grey(0.5)[..., 0]", f"oiio.ImageBuf({PAIR[0]!r})",
+    f"oiio.ImageBufAlgo.resize(oiio.ImageBuf({PAIR[0]!r}), roi=oiio.ROI(0, 48, 0, 48))", repr(PAIR[0]),
+    f"__import__('pathlib').Path({PAIR[0]!r})"])
 def test_images(run, approved, names, image):
     text = HEAD + f"def test_it(tonetool_check):\n    tonetool_check({image}, fail='max=0.0001')\n"
     approved(text)
@@ -172,24 +176,30 @@ def test_other_render_fails(run, approved):
         said(result, "hdrflip: mean 0.26* > 0.2")
 
 
-@pytest.mark.parametrize("image, sentence", [
-    ("'none.exr'", '"none.exr": No such file or directory'),
-    ("'folder.exr'", '"folder.exr": Is a directory'),
-    ("'cut.exr'", "test_it: unreadable: *Unexpected end of file"),
-    ("'empty.exr'", "test_it: unreadable: "),
-    ("oiio.ImageBuf('cut.exr')", "Unexpected end of file"),
-    ("oiio.ImageBuf('none.exr')", "none.exr"),
-    ("oiio.ImageBuf()", "the image holds no pixels"),
-])
-def test_unreadable_fails(run, approved, pytester, image, sentence):
-    text = HEAD + "def test_it(tonetool_check):\n    tonetool_check({}, fail='mean=0.2')\n"
-    approved(text.format(repr(PAIR[0])))
+UNREADABLE = {
+    "'none.exr'": '"none.exr": No such file or directory',
+    "'folder.exr'": '"folder.exr": Is a directory',
+    "'cut.exr'": "unreadable: *Unexpected end of file*",
+    "'empty.exr'": "unreadable: *",
+    "oiio.ImageBuf('cut.exr')": "*Unexpected end of file*",
+    "oiio.ImageBuf('none.exr')": "*none.exr*",
+    "oiio.ImageBuf()": "*the image holds no pixels",
+}
+
+
+def tests_of(calls):
+    return HEAD + "".join(f"def test_{i}(tonetool_check):\n    tonetool_check({call})\n"
+                          for i, call in enumerate(calls))
+
+
+def test_unreadable_fails(run, approved, pytester):
+    approved(tests_of([f"{PAIR[0]!r}, fail='mean=0.2'"] * len(UNREADABLE)))
     (pytester.path / "cut.exr").write_bytes(Path(PAIR[0]).read_bytes()[:20000])
     (pytester.path / "empty.exr").touch()
     (pytester.path / "folder.exr").mkdir()
-    result = run(text.format(image))
-    result.assert_outcomes(failed=1)
-    said(result, sentence)
+    result = run(tests_of([f"{image}, fail='mean=0.2'" for image in UNREADABLE]))
+    result.assert_outcomes(failed=len(UNREADABLE))
+    said(result, *(f"tonetool_check: test_looks/test_{i}: {line}" for i, line in enumerate(UNREADABLE.values())))
     assert "to approve" not in result.stdout.str()
 
 
@@ -204,21 +214,28 @@ def test_unreadable_is_not_approved_in_a_first_run(run, pytester):
     assert done.returncode == 1 and not list(pytester.path.glob("approved/*/*"))
 
 
-@pytest.mark.parametrize("call, error", [
-    ("grey(1), fail=''", "ValueError: tonetool_check: no limit"),
-    ("grey(1)", "ValueError: tonetool_check: no limit"),
-    ("grey(1), fail=0.3", "ValueError: tonetool_check: no limit"),
-    ("grey(1), fail='mena=0.3'", 'unknown quantity "mena"'),
-    ("grey(1).astype(np.float64), fail='mean=0.3'", "TypeError: tonetool_check: the image is of float64"),
-    ("grey(1).astype(np.uint8), fail='mean=0.3'", "TypeError: tonetool_check: the image is of uint8"),
-    ("oiio.ImageBuf(oiio.ImageSpec(8, 8, 3, 'uint8')), fail='mean=0.3'", "TypeError: *the image is of uint8"),
-    ("None, fail='mean=0.3'", "TypeError: tonetool_check: the image is of NoneType"),
-    ("'picture.png', fail='mean=0.3'", 'ValueError: tonetool_check: "picture.png" is no .exr file'),
-])
-def test_wrong_call_fails(run, call, error):
-    result = run(looks("grey") + f"def test_it(tonetool_check):\n    tonetool_check({call})\n", "-k", "test_it")
-    result.assert_outcomes(failed=1, deselected=1)
-    result.stdout.fnmatch_lines([f"*{error}*"])
+WRONG = {
+    "grey(1), fail=''": "ValueError: tonetool_check: no limit",
+    "grey(1)": "ValueError: tonetool_check: no limit",
+    "grey(1), fail=0.3": "ValueError: tonetool_check: no limit",
+    "grey(1), fail='mena=0.3'": 'unknown quantity "mena"',
+    "grey(1), fail='\\x7f'": "the program has no result",
+    "grey(1)[0, 0], fail='mean=0.3'": "ValueError: write_image: image is a float32 array of shape (3,)",
+    "grey(1).astype(np.float64), fail='mean=0.3'": "TypeError: tonetool_check: the image is of float64",
+    "grey(1).astype(np.uint8), fail='mean=0.3'": "TypeError: tonetool_check: the image is of uint8",
+    "oiio.ImageBuf(oiio.ImageSpec(8, 8, 3, 'uint8')), fail='mean=0.3'": "the image is of uint8",
+    "None, fail='mean=0.3'": "TypeError: tonetool_check: the image is of NoneType",
+    "'picture.png', fail='mean=0.3'": 'ValueError: tonetool_check: "picture.png" is no .exr file',
+    "grey(1), fail='mean=0.3', name='x' * 300": "File name too long",
+}
+
+
+def test_wrong_calls_fail(run):
+    result = run(tests_of(WRONG))
+    result.assert_outcomes(failed=len(WRONG))
+    text = result.stdout.str().partition("= FAILURES =")[2]
+    for part, error in zip(re.split(r"^_+ test_\d+ _+$", text, flags=re.M)[1:], WRONG.values()):
+        assert error in part
 
 
 def test_an_image_without_a_result_is_not_approved(approved, names):
@@ -293,6 +310,15 @@ def test_page_of_several_stores_is_an_error(run, approved, pytester):
     assert both.ret == 1 and not (pytester.path / "page.html").exists()
     said(both, "ERROR --tonetool-report: no page, as the tests have 2 folders of approved images")
     assert run().ret == 0
+
+
+def test_two_stores_of_one_folder_of_results_are_an_error(run, pytester):
+    for file in ("a/b/test_one.py", "a_b/test_two.py"):
+        (pytester.path / file).parent.mkdir(parents=True)
+        (pytester.path / file).write_text(looks("grey"), encoding="utf-8")
+    result = run()
+    result.assert_outcomes(failed=2)
+    result.stdout.fnmatch_lines(["*ValueError: tonetool_check: another folder of approved images is a_b_approved in*"])
 
 
 # ---- the program
@@ -385,7 +411,8 @@ def test_a_session_that_cannot_know_says_nothing(approved, run, pytester, more, 
 
 def test_nor_does_a_session_that_stops(approved, run):
     approved(looks("kept", "grey"))
-    result = run(looks("kept") + "def test_a(): assert 0\n" + TEST.format(name="grey", value=0.5, fail="mean=0.1"), "-x")
+    grey = TEST.format(name="grey", value=0.5, fail="mean=0.1")
+    result = run(looks("kept") + "def test_a(): assert 0\n" + grey, "-x")
     result.assert_outcomes(passed=1, failed=1)
     assert "approved, but" not in result.stdout.str()
 
@@ -509,6 +536,6 @@ def test_entry_point_of_the_build_and_of_the_wheel():
     spec.loader.exec_module(build_wheel)
     files = build_wheel.information()
     assert files["entry_points.txt"] == b"[pytest11]\npytest_tonetool = pytest_tonetool\n"
-    folder = next(Path(path) for path in sys.path if (Path(path) / "pytest_tonetool.py").is_file())
+    folder = next(Path(path) for path in sys.path if (Path(path) / "pytest_tonetool").is_dir())
     (info,) = folder.glob("tonetool-*.dist-info")
     assert {file.name: file.read_bytes() for file in info.iterdir()} == files

@@ -74,7 +74,7 @@ def information():
 def pack(package, wheel):
     info = f"tonetool-{version()}.dist-info"
     files = {f"tonetool/{path.name}": path.read_bytes() for path in sorted(package.iterdir()) if path.is_file()}
-    files.update((path.name, path.read_bytes()) for path in SOURCE.glob("pytest_*.py"))
+    files.update((f"{path.parent.name}/{path.name}", path.read_bytes()) for path in SOURCE.glob("pytest_tonetool/*.py"))
     files.update((f"{info}/{name}", data) for name, data in information().items())
     record = ""
     for name, data in files.items():
