@@ -187,17 +187,17 @@ UNREADABLE = {
 }
 
 
-def tests_of(calls):
+def calls_as_tests(calls):
     return HEAD + "".join(f"def test_{i}(tonetool_check):\n    tonetool_check({call})\n"
                           for i, call in enumerate(calls))
 
 
 def test_unreadable_fails(run, approved, pytester):
-    approved(tests_of([f"{PAIR[0]!r}, fail='mean=0.2'"] * len(UNREADABLE)))
+    approved(calls_as_tests([f"{PAIR[0]!r}, fail='mean=0.2'"] * len(UNREADABLE)))
     (pytester.path / "cut.exr").write_bytes(Path(PAIR[0]).read_bytes()[:20000])
     (pytester.path / "empty.exr").touch()
     (pytester.path / "folder.exr").mkdir()
-    result = run(tests_of([f"{image}, fail='mean=0.2'" for image in UNREADABLE]))
+    result = run(calls_as_tests([f"{image}, fail='mean=0.2'" for image in UNREADABLE]))
     result.assert_outcomes(failed=len(UNREADABLE))
     said(result, *(f"tonetool_check: test_looks/test_{i}: {line}" for i, line in enumerate(UNREADABLE.values())))
     assert "to approve" not in result.stdout.str()
@@ -231,7 +231,7 @@ WRONG = {
 
 
 def test_wrong_calls_fail(run):
-    result = run(tests_of(WRONG))
+    result = run(calls_as_tests(WRONG))
     result.assert_outcomes(failed=len(WRONG))
     text = result.stdout.str().partition("= FAILURES =")[2]
     for part, error in zip(re.split(r"^_+ test_\d+ _+$", text, flags=re.M)[1:], WRONG.values()):
