@@ -45,6 +45,10 @@ venv/bin/python -I "$check" "${pair[@]}"
 venv/bin/python -I -c "import sys; sys.modules['OpenImageIO'] = None; sys.argv = sys.argv[1:]
 exec(open(sys.argv[0]).read())" "$check" "${pair[@]}"
 venv/bin/pip show tonetool >/dev/null
+# pytest finds the plug-in, where there is a pytest.
+if venv/bin/python -I -c "import pytest" 2>/dev/null; then
+    venv/bin/python -I -B -m pytest -p no:cacheprovider --help | grep -q -- --tonetool-report
+fi
 venv/bin/pip uninstall -y tonetool >/dev/null
-test -z "$(find venv/lib -name '_tonetool*')"
+test -z "$(find venv/lib -name '_tonetool*' -o -path '*/pytest_tonetool/*.py')"
 echo "check_pip: passed"

@@ -65,6 +65,21 @@ assert tonetool.__file__.startswith("/usr/lib/python3/dist-packages/"), tonetool
 PYTHON
 }
 
+# Where there is a pytest, which the package does not need.
+pytest_plugin() {
+    python3 - <<'PYTHON'
+from importlib.metadata import entry_points
+
+(found,) = [entry for entry in entry_points(group="pytest11") if entry.name == "pytest_tonetool"]
+try:
+    import pytest
+except ImportError:
+    pass
+else:
+    assert found.load().tonetool_check
+PYTHON
+}
+
 manual() {
     man tonetool >page && grep -q -- '--hdrflip' page && [[ $(man -w tonetool) == /usr/share/man/* ]]
 }
@@ -151,6 +166,7 @@ unset OIIO_LIBRARY_PATH
 check "oiiotool recipe.tone -o recipe.exr" stock_reads_recipe
 check "python3: import tonetool" python3 -c "import tonetool"
 check "python3: hdr_flip of arrays" python_flip
+check "python3: plug-in of pytest" pytest_plugin
 check "man tonetool" manual
 check "completion in bash" in_bash
 check "completion in zsh" in_zsh

@@ -32,6 +32,7 @@ RELATIVE = 1e-3
 NUMBER = re.compile(r"(?<![\w.])-?\d+(?:\.\d+(?:e[-+]?\d+)?|e[-+]?\d+)(?!\w|\.\d)")
 INLINE = re.compile(r"`((?:tonetool|oiiotool|src/(?:farm|scripts)/[^\s`]+) [^`]*)`")
 DOTS = "..."
+PYTEST = "/usr/bin/pytest"  # of the interpreter that the module is built for
 HOSTS = ("oiiotool", "iinfo", "idiff", "maketx", "iconvert")
 
 
@@ -188,6 +189,9 @@ def lacks(block, program):
         if "--doctor" in command or word in HOSTS and ".tone" in command:
             if not plugin.exists() or not shutil.which("oiiotool", path="/usr/bin"):
                 return "no plugin, or no oiiotool"
+        module = Path(program).resolve().parents[1] / "python" / "pytest_tonetool"
+        if word == "pytest" and not (module.exists() and Path(PYTEST).exists()):
+            return "no Python module, or no pytest"
     return ""
 
 

@@ -242,6 +242,36 @@ def test_installed_python_module(tree):
     assert (package.parent / "py.typed").exists() and (package.parent / "__init__.pyi").exists()
 
 
+TEST_OF_PYTEST = """
+def test_cornell(tonetool_check):
+    tonetool_check({image!r}, fail="mean=0.1")
+"""
+
+
+def test_installed_plugin_of_pytest(tree, tmp_path):
+    """Found by its entry point, and finds the program of its own tree; nothing else says where they are."""
+    found = list(tree.glob("lib/python3*/dist-packages/pytest_tonetool"))
+    if not found and os.environ.get("PYTHON_MODULE") == "OFF":
+        pytest.skip("built without the Python module")
+    (module,) = found
+    assert {path.name for path in module.parent.glob("tonetool-*.dist-info/*")} == {
+        "METADATA", "WHEEL", "LICENSE", "entry_points.txt"}
+    environment = {"PYTHONPATH": str(module.parent), "PATH": str(tmp_path / "nothing")}
+    pytest_words = ["/usr/bin/python3", "-B", "-m", "pytest", "-p", "no:cacheprovider"]
+
+    def session(image, status):
+        (tmp_path / "test_looks.py").write_text(TEST_OF_PYTEST.format(image=image), encoding="utf-8")
+        return run(*pytest_words, env=environment, cwd=tmp_path, status=status)
+
+    text = session(PAIR[0], 1)
+    (line,) = [line for line in text.splitlines() if line.startswith("to approve")]
+    assert "missing: no approved image" in text and "tonetool-" in text.split("plugins:")[1].splitlines()[0]
+    run(tree / "bin" / "tonetool", *line.partition(": tonetool ")[2].split(" --reason")[0].split(), "--reason", "seen",
+        "--by", "Ada", cwd=tmp_path)
+    assert "1 passed" in session(PAIR[0], 0)
+    assert "failed: hdrflip: mean 0.26" in session(PAIR[1], 1)
+
+
 def test_other_version_is_refused(tree, tmp_path):
     shutil.copytree(HERE / "example", tmp_path / "source")
     lists = tmp_path / "source" / "CMakeLists.txt"

@@ -67,12 +67,14 @@ def compiled(folder, settings):
 def information():
     """The files of the folder dist-info but for the list of all."""
     wheel = f"Wheel-Version: 1.0\nGenerator: tonetool\nRoot-Is-Purelib: false\nTag: {tag()}\n"
-    return {"METADATA": metadata().encode(), "WHEEL": wheel.encode(), "LICENSE": (ROOT / "LICENSE").read_bytes()}
+    return {"METADATA": metadata().encode(), "WHEEL": wheel.encode(), "LICENSE": (ROOT / "LICENSE").read_bytes(),
+            "entry_points.txt": (SOURCE / "pip" / "entry_points.txt").read_bytes()}
 
 
 def pack(package, wheel):
     info = f"tonetool-{version()}.dist-info"
     files = {f"tonetool/{path.name}": path.read_bytes() for path in sorted(package.iterdir()) if path.is_file()}
+    files.update((f"{path.parent.name}/{path.name}", path.read_bytes()) for path in SOURCE.glob("pytest_tonetool/*.py"))
     files.update((f"{info}/{name}", data) for name, data in information().items())
     record = ""
     for name, data in files.items():
@@ -85,10 +87,10 @@ def pack(package, wheel):
 
 
 def prepare_metadata_for_build_wheel(metadata_directory, config_settings=None):
-    """Without it pip builds the wheel twice."""
+    """Without it pip builds the wheel twice; the CMake build installs the same."""
     name = f"tonetool-{version()}.dist-info"
     folder = Path(metadata_directory) / name
-    folder.mkdir()
+    folder.mkdir(exist_ok=True)
     for file, data in information().items():
         (folder / file).write_bytes(data)
     return name
