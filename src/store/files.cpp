@@ -95,6 +95,9 @@ private:
 } // namespace
 
 std::string read_file(const std::string& file) {
+    std::error_code none;
+    if (fs::is_directory(file, none))
+        fail("read", file, EISDIR);
     std::ifstream from(file, std::ios::binary);
     std::string text{std::istreambuf_iterator<char>(from), {}};
     if (!from)

@@ -207,7 +207,7 @@ def test_unreadable_is_not_approved_in_a_first_run(run, pytester):
     (pytester.path / "cut.exr").write_bytes(Path(PAIR[0]).read_bytes()[:20000])
     result = run("def test_it(tonetool_check):\n    tonetool_check('cut.exr', fail='mean=0.2')\n")
     result.assert_outcomes(failed=1)
-    said(result, "test_it: missing: no approved image")
+    said(result, "test_it: unreadable: cannot read")
     output = next(pytester.path.glob("tonetool-results/*/run.json"))
     done = subprocess.run([os.environ["TONETOOL"], "--approve", output, "*", "--reason", "seen"], cwd=pytester.path,
                           timeout=60, check=False)

@@ -1,14 +1,23 @@
 // The plot of the error over the frames.
 
 const POINTS = { passed: "circle", measured: "circle", skipped: "circle", warning: "triangle", failed: "rectRot" };
+const unordered = frames.some(isCase) && !frames.some((frame) => frame.frame); // no line joins cases
 const curve = { chart: null, place: mainPlace, quantity: null };
 const color = (key) => getComputedStyle(document.documentElement).getPropertyValue(`--${key}`).trim();
 
+/** The limit of each frame; rows of a suite may give a case its own. */
 function curveLimits() {
-  const limit = thresholdOf(curve.place);
-  if (!limit || limit.quantity !== curve.quantity) return [];
-  return ["fail", "warn"].filter((kind) => typeof limit[kind] === "number")
-    .map((kind) => ({ kind, value: limit[kind] }));
+  const limitOf = (frame, kind) => {
+    const measurement = curve.place >= 0 && measurementOf(frame, curve.place);
+    const limit = measurement && thresholdsOf(measurement).find((one) => one.quantity === curve.quantity);
+    return limit && typeof limit[kind] === "number" ? limit[kind] : null;
+  };
+  return ["fail", "warn"].map((kind) => ({ kind, values: frames.map((frame) => limitOf(frame, kind)) }))
+    .map(({ kind, values }) => {
+      const all = [...new Set(values.filter((value) => value !== null))];
+      const value = all.length === 1 ? all[0] : null; // null: it is not one for all
+      return { kind, value, values: value === null ? values : values.map(() => value), any: all.length > 0 };
+    }).filter(({ any }) => any);
 }
 
 function curveSets() {
@@ -19,6 +28,7 @@ function curveSets() {
   const sets = [{
     label: curve.place < 0 ? "faults" : curve.quantity, data: values, borderColor: color("accent"),
     backgroundColor: color("accent"), borderWidth: 2, tension: 0, spanGaps: false,
+    showLine: !unordered,
     pointStyle: per((frame) => POINTS[frame.status] || "rect"),
     pointRadius: per((frame) => (loud(frame) ? 7 : plain)),
     pointHoverRadius: per((frame) => (loud(frame) ? 9 : 6)),
@@ -26,13 +36,15 @@ function curveSets() {
     pointBorderColor: per((frame, i) => (i === viewer.index ? color("ink") : color("card"))),
     pointBorderWidth: per((frame, i) => (i === viewer.index ? 3 : 1)),
   }];
-  if (values.some((value) => value === null)) {
-    sets.push({ label: "no result", data: values.map((value) => (value === null ? 0 : null)),
+  const lost = (i) => values[i] === null && frames[i].status !== "skipped";
+  if (values.some((_, i) => lost(i))) {
+    sets.push({ label: "no result", data: values.map((_, i) => (lost(i) ? 0 : null)),
       showLine: false, pointStyle: "crossRot", pointRadius: 7, pointHoverRadius: 9, clip: false,
       borderColor: color("error"), pointBorderWidth: 3, backgroundColor: color("error") });
   }
-  for (const { kind, value } of curveLimits()) {
-    sets.push({ label: `${kind} ${number(value)}`, data: frames.map(() => value), pointRadius: 0,
+  for (const { kind, value, values: limits } of curveLimits()) {
+    sets.push({ label: value === null ? kind : `${kind} ${number(value)}`, data: limits,
+      showLine: value !== null, pointRadius: value === null ? 12 : 0, pointBorderWidth: 3,
       pointHoverRadius: 0, borderWidth: 2, borderDash: kind === "fail" ? [7, 4] : [2, 4],
       borderColor: color(kind === "fail" ? "failed" : "warning"), pointStyle: "line",
       backgroundColor: "transparent" });
@@ -42,6 +54,7 @@ function curveSets() {
 
 function curveTip(item) {
   const frame = frames[item.dataIndex];
+  if (["fail", "warn"].includes(item.dataset.label)) return `${item.dataset.label} ${number(item.raw)}`;
   if (item.datasetIndex > 0 && item.dataset.label !== "no result") return item.dataset.label;
   const value = valueOf(frame, curve.place, curve.quantity);
   return value === null ? `no result: ${frame.message || frame.status}`
@@ -59,7 +72,7 @@ function curveOptions() {
       beginAtZero: true, grace: "5%" } },
     plugins: {
       legend: { align: "end", labels: { color: color("ink"), usePointStyle: true, boxWidth: 30 } },
-      tooltip: { callbacks: { title: (items) => `${NOUN === "case" ? "Case" : "Frame"} ${items[0].label}`, label: curveTip } },
+      tooltip: { callbacks: { title: (items) => `${capital(NOUN)} ${items[0].label}`, label: curveTip } },
     },
     onClick: (event, active, chart) => {
       const near = chart.getElementsAtEventForMode(event, "index", { intersect: false }, false);
@@ -74,11 +87,12 @@ function curveWords() {
   values.forEach((value, i) => {
     if (value !== null && (high < 0 || value > values[high])) high = i;
   });
-  const lost = values.filter((value) => value === null).length;
+  const lost = values.filter((value, i) => value === null && frames[i].status !== "skipped").length;
   const what = curve.place < 0 ? "faults" : curve.quantity;
-  const parts = [high < 0 ? "No frame has a value." :
+  const parts = [high < 0 ? `No ${NOUN} has a value.` :
     `The largest ${what} is ${number(values[high])}, at ${NOUN} ${frameName(frames[high])}.`];
-  curveLimits().forEach(({ kind, value }) => parts.push(`Frames ${kind} at ${number(value)}.`));
+  curveLimits().forEach(({ kind, value }) => parts.push(value === null
+    ? `Each ${NOUN} has its own limit (${kind}).` : `${capital(NOUN)}s ${kind} at ${number(value)}.`));
   if (lost) parts.push(`${plural(lost, NOUN)} without a result.`);
   return parts.join(" ");
 }
@@ -89,7 +103,7 @@ function drawCurve() {
   if (curve.chart) curve.chart.destroy();
   curve.chart = new Chart(byId("curve"), made);
   byId("curve").setAttribute("aria-label", `Curve over ${plural(frames.length, NOUN)}. ${curveWords()}`);
-  byId("curve-hint").textContent = `${meaningOf(curve.quantity)} ${curveWords()} A click on the curve shows the frame.`.trim();
+  byId("curve-hint").textContent = `${meaningOf(curve.quantity)} ${curveWords()} A click on the curve shows the ${NOUN}.`.trim();
 }
 
 function markCurve() {

@@ -90,6 +90,7 @@ const itemName = (frame) => (isCase(frame)
 const frameName = (frame) => itemName(frame) + (frame.test_frame === undefined ? "" : ` (test ${frame.test_frame})`);
 const frameTitle = (frame) => `${isCase(frame) ? "Case" : "Frame"} ${frameName(frame)}`;
 const NOUN = frames.some(isCase) ? "case" : "frame";
+const capital = (word) => word[0].toUpperCase() + word.slice(1);
 const entries = (list) => (Array.isArray(list) ? list : Object.entries(list || {}));
 
 /** Every command that measured, in the order of the command line. */

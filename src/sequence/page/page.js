@@ -98,6 +98,9 @@ function start() {
   for (const id of ["keys", "keys-below"]) byId(id).onclick = showHelp;
   byId("theme").onchange = (event) => chooseTheme(event.target.value.startsWith("as") ? "" : event.target.value);
   matchMedia("(prefers-color-scheme: dark)").addEventListener("change", redraw);
+  for (const id of ["curve-title", "worst-title", "all-title", "found-title"])
+    byId(id).textContent = byId(id).textContent.replace("frame", NOUN);
+  byId("frame-word").textContent = capital(NOUN);
   const hasFrames = frames.length > 0;
   for (const part of document.querySelectorAll(".columns, .all, .curve")) part.hidden = !hasFrames;
   startDecisions();

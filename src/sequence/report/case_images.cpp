@@ -8,6 +8,7 @@
 #include <cctype>
 #include <filesystem>
 #include <stdexcept>
+#include <string_view>
 #include <utility>
 
 #include "imagebuf/pixels/utf8.h"
@@ -136,7 +137,7 @@ void write_picture(const OIIO::ImageBuf& picture, const std::string& mark,
         throw std::runtime_error(why);
 }
 
-const OIIO::ImageBuf& one_of(const CasePictures& pictures, const std::string& kind) {
+const OIIO::ImageBuf& one_of(const CasePictures& pictures, std::string_view kind) {
     return kind == "reference" ? pictures.reference
            : kind == "test"    ? pictures.test
                                : pictures.error;

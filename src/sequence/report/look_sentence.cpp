@@ -95,15 +95,17 @@ std::string accepted_text(const ShotResult& shot) {
 std::string look_sentence(const ShotResult& shot, const ordered_json& result) {
     const std::vector<Run> runs = runs_of(shot, result);
     const size_t all = shot.frames.size();
+    const bool named = is_named(shot);
     if (runs.empty()) {
-        const char* what = shot.verdict == Status::Passed
-                               ? "No frame needs a look"
-                               : "Measured only: no limit says which frames need a look";
+        const std::string noun = named ? "case" : "frame";
+        const std::string what =
+            shot.verdict == Status::Passed
+                ? "No " + noun + " needs a look"
+                : "Measured only: no limit says which " + noun + "s need a look";
         return what + accepted_text(shot) + ".";
     }
     const auto bad = std::count_if(shot.frames.begin(), shot.frames.end(),
                                    [](const auto& frame) { return has_problem(frame.status); });
-    const bool named = is_named(shot);
     if (all == 1 && shot.frames.front().frame == 0 && !named)
         return "The image needs a look: " + runs.front().reason + accepted_text(shot);
     std::vector<std::string> texts;

@@ -2,6 +2,7 @@
 #include "sequence/suite/suite_file.h"
 
 #include <algorithm>
+#include <regex>
 #include <set>
 #include <sstream>
 #include <stdexcept>
@@ -24,6 +25,12 @@ std::string laid_out_error(const std::string& what, const Value& at, const std::
     while (!text.empty() && text.back() == '\n')
         text.pop_back();
     return text.compare(0, start.size(), start) == 0 ? text.substr(start.size()) : text;
+}
+
+// "[error] toml::insert_value: value ("fail") already exists." without the names of functions.
+std::string without_library_names(const std::string& text) {
+    static const std::regex names("toml::[a-z_]+: ?|\\[error\\] ?");
+    return std::regex_replace(text, names, "");
 }
 
 [[noreturn]] void refuse(const std::string& what, const Value& at, const std::string& comment) {
@@ -244,7 +251,7 @@ Suite suite_from(const std::string& text, const std::string& file) {
         std::istringstream stream(text);
         return suite_of(parse_toml(stream, file), file);
     } catch (const toml::exception& problem) {
-        throw std::runtime_error(problem.what());
+        throw std::runtime_error(without_library_names(problem.what()));
     } catch (const std::out_of_range& problem) {
         throw std::runtime_error("\"" + file + "\" is no suite: " + problem.what());
     }
