@@ -29,21 +29,33 @@ using OIIO::Strutil::fmt::format;
 using tonemap::NoCamera;
 using tonemap::SteadyPixel;
 
-// Why the positions of an image tell nothing of other frames; empty: they do.
-std::string lack_of(const tonemap::CameraFit& fit) {
+struct FoundCamera {
+    std::optional<tonemap::Projection> camera;
+    std::string lack; ///< why there is none
+};
+
+FoundCamera camera_of(const LocalGuides& guides) {
+    if (!guides.positions_are_of_scene())
+        return {{}, "no position of the scene is among the layers"};
+    const kernels::GuidePlanes& image = guides.view();
+    const auto fit = tonemap::fit_camera({{image.position[0], image.position[1], image.position[2]},
+                                          image.background,
+                                          image.width,
+                                          image.height});
     switch (fit.lack) {
     case NoCamera::None:
-        return "";
+        return {fit.camera, ""};
     case NoCamera::Few:
-        return "too few pixels show a surface";
+        return {{}, "too few pixels show a surface"};
     case NoCamera::Flat:
-        return "all surfaces are in a plane, which tells no camera";
+        return {{}, "all surfaces are in a plane, which tells no camera"};
     case NoCamera::Inexact:
         break;
     }
-    return format("no camera sees its positions where they are (99 % within {:.3g} pixels, {} are "
-                  "allowed)",
-                  fit.residual, tonemap::kMostResidual);
+    return {{},
+            format("no camera sees its positions where they are (99 % within {:.3g} pixels, {} are "
+                   "allowed)",
+                   fit.residual, tonemap::kMostResidual)};
 }
 
 int16_t in_steps_of_normal(float v) {
@@ -96,7 +108,9 @@ public:
         kernels::GuidePlanes image = guides.view();
         tonemap::take_logarithms(m_plan.what, m_light.data(), m_width, m_out->height, m_parallel);
         image.value = m_light.data();
-        find_camera(image, guides.positions_are_of_scene());
+        FoundCamera found_camera = camera_of(guides);
+        m_out->camera = found_camera.camera;
+        m_out->lack = std::move(found_camera.lack);
         m_out->noise = m_options.noise.empty() ? measured_noise(image, m_parallel)
                                                : noise_of_layer(pixels, m_options.noise, m_region,
                                                                 image.value, m_nthreads);
@@ -129,20 +143,6 @@ private:
                 throw Refusal(
                     format("layer \"{}\" cannot be read: {}", m_options.motion, pixels.geterror()));
         }
-    }
-
-    void find_camera(const kernels::GuidePlanes& image, bool of_scene) {
-        if (!of_scene) {
-            m_out->lack = "no position of the scene is among the layers";
-            return;
-        }
-        const auto fit =
-            tonemap::fit_camera({{image.position[0], image.position[1], image.position[2]},
-                                 image.background,
-                                 m_width,
-                                 m_out->height});
-        m_out->camera = fit.camera;
-        m_out->lack = lack_of(fit);
     }
 
     void keep(const kernels::GuidePlanes& image) {
@@ -315,26 +315,15 @@ bool frame_camera(std::vector<double>& camera, const ImageBuf& src, std::string&
         check_readable(src, "source");
         CgTmoOptions o = with_preset(options);
         o.normal = o.albedo = "none";
-        o.footprint = "1";
-        const ROI region = part_of(src, {});
-        LocalGuides guides(src, src, o, region, nthreads);
+        o.footprint = "1"; // which nothing here looks at
+        o.strict = false;
+        LocalGuides guides(src, src, o, part_of(src, {}), nthreads);
         CgTmoSummary found;
         found.layer = chosen_color(deciding_spec(src), o.pixels).layer;
-        tonemap::LocalOperator what;
-        what.edges.emplace();
-        o.strict = false;
-        guides.read(what, found);
-        camera.clear();
-        const kernels::GuidePlanes& image = guides.view();
-        if (!guides.positions_are_of_scene())
-            return;
-        const auto fit =
-            tonemap::fit_camera({{image.position[0], image.position[1], image.position[2]},
-                                 image.background,
-                                 image.width,
-                                 image.height});
-        if (fit.camera)
-            camera.assign(fit.camera->begin(), fit.camera->end());
+        LocalPlan plan = plan_local(o);
+        guides.read(plan.what, found);
+        const auto fit = camera_of(guides).camera;
+        camera = fit ? std::vector<double>(fit->begin(), fit->end()) : std::vector<double>();
     });
 }
 
