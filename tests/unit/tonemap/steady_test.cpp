@@ -182,7 +182,7 @@ TEST(Steady, FollowsTheMotionOfBlenderFromFrameToFrame) {
         views.back().motion = reinterpret_cast<const Vector*>(motion.data());
     }
     const size_t at = 9 * kWidth + 22; // of the lit pixel in frame 5
-    ASSERT_EQ(frames[2].pixels[at].value, 0.05f);
+    ASSERT_FLOAT_EQ(frames[2].pixels[at].value, 0.05f);
     const auto gain = [](const std::vector<int>& numbers) {
         double weights = 1, sum = 0;
         for (const int number : numbers) {
