@@ -56,10 +56,10 @@ struct SteadyOutput {
     ptrdiff_t stride = 0;
 };
 
-/// `frames` by their numbers, the frame itself among them; each is looked at where it has a camera
-/// or motion leads there. Pixels that no other frame shows keep their base, with a gain of exactly
-/// 1, and so do those of frames that are all the same. The bits do not depend on how `parallel`
-/// schedules.
+/// `frames` by their numbers, the frame itself among them; each is looked at where its pixel has
+/// the same position, where its camera sees the position, or where motion leads. Pixels that no
+/// other frame shows keep their base, with a gain of exactly 1, and so do those of frames that are
+/// all the same. The bits do not depend on how `parallel` schedules.
 void steady_base(const std::vector<SteadyView>& frames, const SteadyOwn& own,
                  const EdgeTerms& edges, const kernels::Window& window, const SteadyOutput& output,
                  const kernels::ParallelFor& parallel);

@@ -292,8 +292,9 @@ def test_one_frame_without_a_camera_is_left_out(make, write):
     for number in range(1, 4):
         write(number, Surfaces(.05 * number), change=bent if number == 2 else None)
     ran, made = make("1-3", "steady=1")
-    assert ran.err.count("frame 2 cannot be told where surfaces were, and is left out") == 2
+    assert ran.err.count("the positions of frame 2 tell no camera: it is left out") == 2
     assert ran.err.count("the frame is made alone") == 1
+    assert facts(ran, "steady") == ["by frames 1,3"] * 2
     assert made[2] == make("1-3", "adapt=shot", "still")[1][2] and len(made) == 3
 
 

@@ -232,15 +232,17 @@ std::vector<tonemap::SteadyView> frames_about(const CgTmoOptions& options) {
     return views;
 }
 
-void tell_without_camera(const std::vector<tonemap::SteadyView>& frames, CgTmoSummary& summary) {
+void leave_out_without_camera(std::vector<tonemap::SteadyView>& frames, CgTmoSummary& summary) {
     std::vector<int> without;
     for (const auto& frame : frames)
-        if (!frame.camera)
-            without.push_back(frame.number);
+        (frame.camera ? summary.steady : without).push_back(frame.number);
+    frames.erase(std::remove_if(frames.begin(), frames.end(),
+                                [](const auto& frame) { return !frame.camera; }),
+                 frames.end());
     if (!without.empty())
-        summary.warnings.push_back(format("steady=1: {} cannot be told where surfaces were, and "
-                                          "{} left out",
-                                          numbers_of(without), without.size() == 1 ? "is" : "are"));
+        summary.warnings.push_back(
+            format("steady=1: the positions of {} tell no camera: {} left out", numbers_of(without),
+                   without.size() == 1 ? "it is" : "they are"));
 }
 
 } // namespace
@@ -266,7 +268,7 @@ std::optional<SteadyResult> steady_result(const CgTmoOptions& options,
                                           const kernels::GuidePlanes& image,
                                           const kernels::Window& window, CgTmoSummary& summary,
                                           int nthreads) {
-    const std::vector<tonemap::SteadyView> frames = frames_about(options);
+    std::vector<tonemap::SteadyView> frames = frames_about(options);
     const int number = options.adapt.frame.value_or(0);
     const SteadyPlanes& own = *options.frames.at(number);
     if (own.width != image.width || own.height != image.height)
@@ -277,9 +279,7 @@ std::optional<SteadyResult> steady_result(const CgTmoOptions& options,
         summary.warnings.push_back("steady=1: " + own.lack + ": the frame is made alone");
         return std::nullopt;
     }
-    tell_without_camera(frames, summary);
-    for (const auto& frame : frames)
-        summary.steady.push_back(frame.number);
+    leave_out_without_camera(frames, summary);
     const auto at = std::find_if(frames.begin(), frames.end(),
                                  [&](const auto& frame) { return frame.number == number; });
     SteadyResult out;
