@@ -83,6 +83,35 @@ py::object shot_exposure(std::vector<py::object>& arguments, const AdaptOptions&
     return py::cast(found);
 }
 
+struct CameraOptions {
+    PixelOptions pixels;
+    std::string position, depth;
+    int nthreads = 0;
+};
+
+py::object frame_camera(std::vector<py::object>& images, const CameraOptions& given) {
+    const InputImage image(images[0], "frame_camera: image");
+    CgTmoOptions options;
+    options.pixels = given.pixels;
+    options.position = given.position;
+    options.depth = given.depth;
+    std::vector<double> camera;
+    run_or_raise("frame_camera", [&](std::string& error) {
+        return ToneAlgo::frame_camera(camera, image.buf(), error, options, given.nthreads);
+    });
+    return list_of(camera);
+}
+
+py::object steady_window(std::vector<py::object>& arguments, const AdaptOptions& given) {
+    AdaptOptions options = given;
+    options.statistics = Python<ShotStatistics>::from(arguments[0], "steady_window: statistics");
+    std::vector<int> numbers;
+    run_or_raise("steady_window", [&](std::string& error) {
+        return ToneAlgo::steady_window(numbers, options, error);
+    });
+    return list_of(numbers);
+}
+
 void add_results(Module& module) {
     using F = FrameLight;
     ResultClass<F>(module, "FrameLight", "What the exposure of a shot follows from, of one frame.")
@@ -98,6 +127,7 @@ void add_results(Module& module) {
         .field("fps", &F::fps, "Frames per second; 0: the header does not say.")
         .field("histogram", &F::histogram, "Pixels by log2 of luminance, from -20, half a stop.")
         .field("thumbnail", &F::thumbnail, "ln of the means of 32 x 18 cells, by rows.")
+        .field("camera", &F::camera, "Twelve numbers, as of frame_camera; []: not asked for, none.")
         .finish();
     using S = ShotStatistics;
     ResultClass<S>(module, "ShotStatistics", "The light of the frames of a shot.")
@@ -162,6 +192,41 @@ void add_functions(Module& module) {
                        "range.",
                        kSource},
            fields_beside_statistics(), shot_exposure);
+    define(
+        module,
+        Description{"steady_window",
+                    "The frames that cg_tmo with steady=True makes a frame of.",
+                    {statistics},
+                    "list[int]",
+                    "Numbers: `frame` and those up to 4 before and after, between the same cuts.",
+                    "Units: numbers of frames.",
+                    "No `frame`, no frames, a frame that is not there.",
+                    "None: it is tonetool's own."},
+        fields_beside_statistics(), steady_window);
+    define(module,
+           Description{
+               "frame_camera",
+               "The camera that an image was seen by, from the positions of its pixels.",
+               {image_parameter("image", "Needs R, G, B and a layer of positions of the scene.")},
+               "list[float]",
+               "Three rows of four numbers, of norm 1: with (a, b, c) = rows (x, y, z, 1) a point "
+               "is seen at a/c and b/c in widths of the image from its middle, x to the right and "
+               "y down. Empty: no camera sees 99 % of the positions within 0.25 pixels of where "
+               "they are, or they are in a plane.",
+               "Shapes: height x width x channels, or an ImageBuf. Units: that of the "
+               "positions.\nNaN, Inf: no surface.",
+               "No colour, deep images, a layer that is not there.",
+               "R. Hartley, A. Zisserman, \"Multiple View Geometry in Computer Vision\", 2003, "
+               "section 7.1."},
+           Fields<CameraOptions>{
+               field<CameraOptions>("pixels", &CameraOptions::pixels, "Layer and colour space."),
+               field<CameraOptions>("position", &CameraOptions::position,
+                                    "Layer or file of positions; \"\": found by its name."),
+               field<CameraOptions>("depth", &CameraOptions::depth,
+                                    "Layer or file of depth, which tells the background; \"\": "
+                                    "found by its name."),
+               threads_field<CameraOptions>()},
+           frame_camera);
     define(module,
            Description{
                "shot_likeness",

@@ -152,6 +152,10 @@ Session FrameContext::session(size_t index, std::ostream& out, std::ostream& err
     };
     session.check.shot = shot ? &*shot : nullptr;
     session.shot = lights;
+    if (plan.loops && !plan.named)
+        session.shot.find = [this, index](size_t at, int number) {
+            return frames->find(*this, index, at, number);
+        };
     session.written = written;
     session.settings.parallel = plan.parallel;
     session.settings.memory = share_of_memory(plan.parallel);

@@ -9,6 +9,7 @@
 
 #include "chain/session/session.h"
 #include "runs/loop.h"
+#include "runs/shot_frames.h"
 #include "sequence/report/case_images.h"
 #include "sequence/report/report_store.h"
 #include "sequence/results/shot_exposures.h"
@@ -21,6 +22,7 @@ struct FrameContext {
     const FramePlan& plan;
     std::optional<sequence::ShotExposures> shot; ///< of exposures=
     chain::ShotPart lights{};                    ///< of adapt=
+    std::shared_ptr<ShotFrames> frames = std::make_shared<ShotFrames>();
     std::shared_ptr<chain::WrittenFiles> written = std::make_shared<chain::WrittenFiles>();
 
     chain::Session session(size_t index, std::ostream& out, std::ostream& err) const;

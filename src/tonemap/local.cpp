@@ -97,27 +97,12 @@ struct EdgeRow {
 // Pixels that are handed out at once, in buffers on the stack.
 constexpr int kEdgePart = 256;
 
-// Of one row, in the order of its pixels.
-void split_edges(const EdgeTerms& terms, const float* value, const float* noise, const float* mean,
-                 const float* variance, int count, float* base, float* share) {
-    const auto edge = float(terms.edge * terms.edge), denoise = float(terms.denoise);
-    for (int x = 0; x < count; ++x) {
-        const float v = variance[x];
-        const float of_edge = v / (v + edge);
-        const float of_noise = noise ? std::min(1.0f, denoise * noise[x] / std::max(v, 1e-9f)) : 0;
-        share[x] = 1 - (1 - of_edge) * (1 - of_noise);
-        base[x] = mean[x] + share[x] * (value[x] - mean[x]);
-    }
-}
-
 template <class Take>
 void each_edge_row(const LocalOperator& what, const GuidePlanes& image,
                    const kernels::TapSets& taps, const Window& window,
                    const kernels::ParallelFor& parallel, const Take& take) {
-    GuidePlanes planes = image;
-    planes.range = nullptr;
-    filter_moments(
-        planes, terms_of(what), taps, window,
+    guided_moments(
+        what, image, taps, window,
         [&](int x0, int y, int count, const float* mean, const float* variance) {
             float base[kEdgePart], share[kEdgePart];
             const float* const value = image.value + (y - image.first_row) * image.stride + x0;
@@ -125,8 +110,9 @@ void each_edge_row(const LocalOperator& what, const GuidePlanes& image,
             const float* const noise = plane ? plane + ptrdiff_t(y) * image.width + x0 : nullptr;
             for (int x = 0; x < count; x += kEdgePart) {
                 const int n = std::min(kEdgePart, count - x);
-                split_edges(*what.edges, value + x, noise ? noise + x : nullptr, mean + x,
-                            variance + x, n, base, share);
+                split_edges(*what.edges,
+                            {value + x, noise ? noise + x : nullptr, mean + x, variance + x}, n,
+                            base, share);
                 take(x0 + x, y, EdgeRow{n, base, share});
             }
         },
@@ -155,6 +141,27 @@ void take_logarithms(const LocalOperator& what, float* luminance, int width, int
         float* const row = luminance + y * width;
         kernels::log_rows(row, row, width, float(what.least_luminance), float(kLn2));
     });
+}
+
+void split_edges(const EdgeTerms& terms, const EdgeValues& of, int count, float* base,
+                 float* share) {
+    const auto edge = float(terms.edge * terms.edge), denoise = float(terms.denoise);
+    for (int x = 0; x < count; ++x) {
+        const float v = of.variance[x];
+        const float of_edge = v / (v + edge);
+        const float of_noise =
+            of.noise ? std::min(1.0f, denoise * of.noise[x] / std::max(v, 1e-9f)) : 0;
+        share[x] = 1 - (1 - of_edge) * (1 - of_noise);
+        base[x] = of.mean[x] + share[x] * (of.value[x] - of.mean[x]);
+    }
+}
+
+void guided_moments(const LocalOperator& what, const GuidePlanes& image,
+                    const kernels::TapSets& taps, const Window& window,
+                    const kernels::MomentsRow& row, const kernels::ParallelFor& parallel) {
+    GuidePlanes planes = image;
+    planes.range = nullptr;
+    filter_moments(planes, terms_of(what), taps, window, row, parallel);
 }
 
 void guided_base(const LocalOperator& what, const GuidePlanes& image, const kernels::TapSets& taps,

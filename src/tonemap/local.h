@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "kernels/guided.h"
+#include "kernels/guided_tile.h"
 #include "kernels/local_rows.h"
 #include "kernels/views.h"
 
@@ -20,6 +21,16 @@ struct EdgeTerms {
     const float* noise =
         nullptr; ///< variance of noise, a packed plane of the image's size; null: none
 };
+
+/// Part of a row that edge terms divide: natural logarithms, their noise (null: none), and their
+/// means and variances about each pixel.
+struct EdgeValues {
+    const float *value, *noise, *mean, *variance;
+};
+
+/// The base, and the share of the difference from the mean that is in it.
+void split_edges(const EdgeTerms& terms, const EdgeValues& of, int count, float* base,
+                 float* share);
 
 struct LocalOperator {
     kernels::LocalCurve curve;  ///< `log_base` is set by what follows
@@ -56,6 +67,11 @@ void take_logarithms(const LocalOperator& what, float* luminance, int width, int
 void guided_base(const LocalOperator& what, const kernels::GuidePlanes& image,
                  const kernels::TapSets& taps, const kernels::Window& window, float* base,
                  ptrdiff_t stride, const kernels::ParallelFor& parallel);
+
+/// The means of the window about each pixel and their variances, which edge terms divide by.
+void guided_moments(const LocalOperator& what, const kernels::GuidePlanes& image,
+                    const kernels::TapSets& taps, const kernels::Window& window,
+                    const kernels::MomentsRow& row, const kernels::ParallelFor& parallel);
 
 /// How much of what a pixel differs by from the mean about it is in its base, with edge terms: 0
 /// (all is detail) to 1. Row stride of `share` in floats.

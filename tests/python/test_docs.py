@@ -35,7 +35,7 @@ def test_every_public_function_is_there():
         names |= set(re.findall(r"TONETOOL_API[^(;]*?(\w+)\(", text))
     only_cpp = {"version", "attribute_findings", "bias_evidence", "bias_numbers", "bias_place", "bias_reason_name", "bias_sentence", "bias_verdict_name",
                 "noise_floor_method", "color_config_files", "lut_references", "drop_profile", "find_part", "flip_exposed", "ignored_pixels", "flip_quantity_name",
-                "measures", "merge_shots", "not_of_shots", "shot_of_text", "retag", "state_chromaticities", "stated_exposure", "stated_gamma", "take_whole_exposure",
+                "measures", "merge_shots", "not_of_shots", "shot_of_text", "retag", "state_chromaticities", "stated_exposure", "stated_gamma", "steady_frame", "take_whole_exposure",
                 "unapplied_profile", "write_texture"}
     assert only_cpp <= names
     names -= only_cpp

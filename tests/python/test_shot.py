@@ -2,6 +2,7 @@
 """One exposure for the frames of a shot, with statistics as objects and as a file."""
 
 import numpy as np
+import OpenImageIO as oiio
 import pytest
 
 import tonetool
@@ -80,3 +81,68 @@ def test_a_frame_that_is_there_twice(frames, lights):
         tonetool.shot_text([*lights, other])
     with pytest.raises(TypeError):
         tonetool.shot_text([1])
+
+
+# ---- steady detail
+
+GUIDES = [f"{layer}.{c}" for layer in ("P", "N") for c in "XYZ"]
+
+
+@pytest.fixture
+def walk(tmp_path):
+    """Noisy images of two walls along which a camera goes, and their light."""
+    images = {}
+    y, x = np.mgrid[:36, :64]
+    rays = np.stack([(x + .5) / 64 - .5, (y + .5 - 18) / 64, np.ones(x.shape)], -1)
+    right = rays[..., :1] > .1
+    depth = np.where(right, 3 / (1 + rays[..., :1]), 4)
+    normal = np.where(right, [-np.sqrt(.5), 0, -np.sqrt(.5)], [0., 0, -1])
+    for number in range(1, 8):
+        position = rays * depth + [.01 * number, 0, 0]
+        noise = .2 * np.random.default_rng(number).standard_normal((36, 64, 1))
+        light = np.exp(np.sin(2 * position[..., :1]) + noise)
+        pixels = np.concatenate([light * [.5, .4, .3], position, normal], 2)
+        spec = oiio.ImageSpec(64, 36, 9, "float")
+        spec.channelnames = ("R", "G", "B", *GUIDES)
+        images[number] = oiio.ImageBuf(spec)
+        images[number].set_pixels(spec.roi, np.ascontiguousarray(pixels, np.float32))
+    lights = [tonetool.frame_light(image, frame=number) for number, image in images.items()]
+    return images, lights
+
+
+def test_steady_detail(walk):
+    images, lights = walk
+    adapt = {"statistics": lights, "frame": 2}
+    assert tonetool.steady_window(lights, frame=2) == [1, 2, 3, 4, 5, 6]
+    linear = {"encode": "none", "clamp": False, "adapt": adapt}
+    still = tonetool.cg_tmo(images[2], **linear)
+    assert still.summary.steady == []
+    steady = tonetool.cg_tmo(images[2], steady=True, frames=images, **linear)
+    assert steady.summary.steady == [1, 2, 3, 4, 5, 6]
+    assert steady.summary.warnings == still.summary.warnings
+    noise = [np.std(np.diff(np.log(result.image.get_pixels()[..., 0]))) for result in (still, steady)]
+    assert noise[1] < .8 * noise[0]
+    others = {number: images[number] for number in (1, 3, 4, 5, 6)}
+    again = tonetool.cg_tmo(images[2], steady=True, frames=others, **linear)
+    assert np.array_equal(again.image.get_pixels(), steady.image.get_pixels())
+    part = tonetool.cg_tmo(images[2], steady=True, frames=images, roi=oiio.ROI(5, 40, 3, 30), **linear)
+    assert np.array_equal(part.image.get_pixels(), steady.image.get_pixels()[3:30, 5:40])
+    for wrong, why in (({"frames": others | {3: None}}, "frames"), ({"frames": 1}, "Mapping"),
+                       ({"frames": {"a": images[1]}}, "frames")):
+        with pytest.raises(TypeError, match=why):
+            tonetool.cg_tmo(images[2], steady=True, **linear, **wrong)
+    del others[5]
+    with pytest.raises(tonetool.Error, match="needs frame 5, which is not given"):
+        tonetool.cg_tmo(images[2], steady=True, frames=others, **linear)
+    with pytest.raises(tonetool.Error, match="steady=1 is of the frames of a shot"):
+        tonetool.cg_tmo(images[2], steady=True)
+
+
+def test_camera(walk):
+    images, lights = walk
+    rows = np.eye(3, 4)
+    rows[0, 3] = -.03
+    assert np.allclose(tonetool.frame_camera(images[3]), rows.ravel() / np.linalg.norm(rows), atol=1e-5)
+    assert tonetool.frame_camera(images[3], position="none") == [] == lights[0].camera
+    with pytest.raises(tonetool.Error, match="nothing"):
+        tonetool.frame_camera(images[3], position="nothing")

@@ -12,7 +12,9 @@
 #include "imagebuf/options/shot_options.h"
 #include "imagebuf/options/tone_options.h"
 #include "imagebuf/pixels/layer_name.h"
+#include "sequence/frames/frame_range.h"
 #include "text/error.h"
+#include "tonetool/shot.h"
 
 namespace tonetool::chain {
 
@@ -51,6 +53,40 @@ void report_summary(Session& session, const std::string& label, const CgTmoSumma
          found.maximum_from + (found.maximum_light.empty() ? "" : " " + found.maximum_light));
     if (!found.adapted.empty())
         line("adapted", found.adapted);
+    if (!found.steady.empty())
+        line("steady", "by frames " + sequence::range_text(found.steady));
+}
+
+// In the run that makes the frame for others, that is all.
+void keep_frame(Session& session, const OIIO::ImageBuf& image, const CgTmoOptions& options) {
+    std::string why;
+    if (!ToneAlgo::steady_frame(session.shot.frame->frame, image, why, options))
+        throw CommandError(why);
+    throw EndOfRun();
+}
+
+// In the run that measures the shot.
+void find_camera(Session& session, const OIIO::ImageBuf& image, const CgTmoOptions& options) {
+    std::string why;
+    if (!ToneAlgo::frame_camera(session.shot.light->camera, image, why, options))
+        throw CommandError(why);
+}
+
+// The frames about this one.
+void find_frames(Session& session, const Call& call, CgTmoOptions& options) {
+    if (!session.shot.find)
+        throw CommandError("steady=1 needs the frames about this one, and the image is no frame of "
+                           "a sequence (valid: --frames N s.#.exr)");
+    std::vector<int> numbers;
+    std::string why;
+    if (!ToneAlgo::steady_window(numbers, options.adapt, why))
+        throw CommandError(why);
+    for (const int number : numbers) {
+        const ShotFrame found = session.shot.find(call.at, number);
+        options.frames[number] = found.frame;
+        for (const std::string& file : found.files)
+            session.files.note(file);
+    }
 }
 
 void run_cgtmo(Session& session, const Call& call) {
@@ -58,7 +94,15 @@ void run_cgtmo(Session& session, const Call& call) {
     const std::string label = call.row().label();
     CgTmoOptions options = options_of(call);
     OIIO::ImageBuf source = color_source(session, call, image, options.pixels);
+    const bool here = session.shot.at == call.at;
+    if (session.shot.frame && here)
+        keep_frame(session, source, options);
+    if (session.shot.light && here && options.steady)
+        find_camera(session, source, options);
     adapt_to_shot(session, call, source, options.pixels, options.adapt);
+    const bool adapts = options.adapt.adapt != "frame" || !options.adapt.statistics.frames.empty();
+    if (options.steady && adapts)
+        find_frames(session, call, options);
     CgTmoSummary found;
     OIIO::ImageBuf result;
     if (!ToneAlgo::cg_tmo(result, source, options, &found))

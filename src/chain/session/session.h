@@ -17,6 +17,7 @@
 #include "chain/session/stack.h"
 #include "sequence/frames/file_stamp.h"
 #include "sequence/frames/item.h"
+#include "tonetool/cgtmo.h"
 #include "tonetool/shot_numbers.h"
 
 namespace tonetool::sequence {
@@ -80,6 +81,12 @@ struct CheckPart {
     sequence::ExposureSample* sample = nullptr;
 };
 
+/// Another frame of the shot, as a command needs it, and the files that it was made of.
+struct ShotFrame {
+    SteadyFrame frame;
+    Strings files{};
+};
+
 /// What is known of all frames when one of them runs.
 struct ShotPart {
     /// The statistics that commands have measured, by the places of their words.
@@ -87,6 +94,10 @@ struct ShotPart {
     /// While a command still measures: where it is, and the place for the frame's light.
     size_t at = 0;
     FrameLight* light = nullptr;
+    /// While the frame is made for others: the place for it, of the command at `at`.
+    ShotFrame* frame = nullptr;
+    /// What the command at this place needs of another frame; null: there are no others.
+    std::function<ShotFrame(size_t at, int number)> find;
 };
 
 struct Session {

@@ -31,6 +31,13 @@ void describe_base(See&& see) {
     see(option("noise", &O::noise, "variance of the mean of luminance, for base=edges")
             .shown_as("LAYER")
             .unset("measured where surfaces are flat"));
+    see(option("steady", &O::steady,
+               "steadies the detail of a shot's frames by the frames about each, along its "
+               "surfaces"));
+    see(option("motion", &O::motion,
+               "where surfaces that move were and will be, as Blender's Vector, for steady")
+            .shown_as("LAYER")
+            .unset("they are as they are in each frame"));
     see(option("domain", &O::domain, "what the base is made of")
             .one_of({"log", "linear"})
             .unset("the preset's"));

@@ -16,6 +16,7 @@
 #include "imagebuf/tone/counted_pixels.h"
 #include "imagebuf/tone/noise.h"
 #include "imagebuf/tone/scene_stats.h"
+#include "imagebuf/tone/steady.h"
 
 namespace tonetool {
 namespace {
@@ -36,9 +37,10 @@ public:
 
     void run(ImageBuf& dst, ROI roi) {
         check_readable(m_src, "source");
+        check_steady(m_options);
         m_plan = plan_local(m_options);
         const ROI part = part_of(m_src, roi);
-        ImageBuf whole = read_once();
+        ImageBuf whole = read_once(m_src, m_options, m_nthreads);
         m_pixels = whole.initialized() ? &whole : &m_src;
         make(part);
         ImageBuf out = whole.initialized() && same_window(part, whole.roi())
@@ -52,20 +54,6 @@ public:
     CgTmoSummary summary;
 
 private:
-    // All channels of a file, which each reader of a few would have to decode again. Other files
-    // and types are read as what they are.
-    ImageBuf read_once() const {
-        const ImageSpec& native = m_src.nativespec();
-        bool floats = is_file_to_read(m_src) && native.nchannels == m_src.nchannels() &&
-                      std::string(m_src.file_format_name()) == "openexr";
-        for (int c = 0; c < native.nchannels; ++c)
-            floats = floats && native.channelformat(c).is_floating_point();
-        if (!floats)
-            return {};
-        (void)chosen_color(deciding_spec(m_src), m_options.pixels); // before it takes any time
-        return copy_pixels(m_src, part_of(m_src, {}), m_nthreads);
-    }
-
     // The picture, in the planes of colour. The guides are gone afterwards, before the result needs
     // memory.
     void make(const ROI& part) {
@@ -126,9 +114,10 @@ private:
         summary.samples = m_plan.samples;
         const kernels::Window window{part.xbegin - m_region.xbegin, part.ybegin - m_region.ybegin,
                                      part.width(), part.height()};
-        if (m_plan.filter == BaseFilter::Wls || m_plan.show != LocalShow::Picture)
+        const bool steady = m_options.steady && map_steadily(image, window);
+        if (!steady && (m_plan.filter == BaseFilter::Wls || m_plan.show != LocalShow::Picture))
             map_on_base(image, window);
-        else
+        else if (!steady)
             map_at_once(image, window);
         m_luminance = {};
     }
@@ -162,6 +151,28 @@ private:
                                  parallel);
     }
 
+    // On the base of the frames about this one; false: there is none.
+    bool map_steadily(const kernels::GuidePlanes& image, const kernels::Window& window) {
+        const auto found =
+            steady_result(m_options, m_plan.what, image, window, summary, m_nthreads);
+        if (!found)
+            return false;
+        const auto parallel = make_parallel(m_nthreads);
+        const tonemap::LocalOutput to = output(window);
+        const bool share = m_plan.show == LocalShow::Share;
+        parallel(window.height, [&](int64_t y) {
+            const ptrdiff_t from = y * window.width;
+            for (size_t c = 0; c < 3; ++c)
+                for (int x = 0; x < window.width; ++x) {
+                    float& v = to.rgb[c][y * to.stride + x];
+                    v = share ? found->share[size_t(from + x)] : v * found->gain[size_t(from + x)];
+                }
+        });
+        if (!share)
+            show_base({found->base.data(), window.width}, window);
+        return true;
+    }
+
     void map_on_base(kernels::GuidePlanes& image, const kernels::Window& window) {
         const auto parallel = make_parallel(m_nthreads);
         const tonemap::LocalOutput to = output(window);
@@ -185,6 +196,13 @@ private:
                                  kept.data(), window.width, parallel);
             base = {kept.data(), window.width};
         }
+        show_base(base, window);
+    }
+
+    // The picture on its base, or a factor of its luminance.
+    void show_base(const tonemap::LocalBase& base, const kernels::Window& window) {
+        const auto parallel = make_parallel(m_nthreads);
+        const tonemap::LocalOutput to = output(window);
         if (m_plan.show == LocalShow::Picture)
             return tonemap::tone_map_local(m_plan.what, m_planes.view(), base, window, to,
                                            parallel);

@@ -197,6 +197,7 @@ void LocalGuides::position_of_depth(CgTmoSummary& summary) {
             m_guides.position[2][i] = float(z);
         }
     });
+    m_of_depth = true;
     summary.position = "of " + summary.depth;
 }
 

@@ -30,6 +30,9 @@ public:
     /// Planes of the region without a value; valid as long as this is.
     const kernels::GuidePlanes& view() const { return m_view; }
 
+    /// There are positions, and not those that depth alone tells, which are the camera's own.
+    bool positions_are_of_scene() const { return m_view.position[0] && !m_of_depth; }
+
     /// 1 where no surface is seen; null where no guide tells.
     const uint8_t* background() const {
         const bool tells = m_guides.has_position() || m_guides.has_normal() || m_guides.has_depth();
@@ -51,6 +54,7 @@ private:
     const CgTmoOptions& m_options;
     OIIO::ROI m_region;
     int m_nthreads;
+    bool m_of_depth = false;
     GBuffer m_guides;
     PagedArray<float> m_footprints;
     kernels::GuidePlanes m_view;

@@ -8,6 +8,7 @@
 #include "imagebuf/options/cgtmo_options.h"
 #include "imagebuf/options/tone_options.h"
 #include "imagebuf/pixels/names.h"
+#include "imagebuf/tone/shot_statistics.h"
 #include "metrics/refusal.h"
 #include "tonemap/poisson.h"
 #include "tonetool/tonemap.h"
@@ -59,10 +60,13 @@ void check_edges(const CgTmoOptions& o) {
     const std::pair<const char*, bool> of_edges[] = {{"edge", o.edge.has_value()},
                                                      {"denoise", o.denoise.has_value()},
                                                      {"noise", !o.noise.empty()},
-                                                     {"show=share", o.show == "share"}};
+                                                     {"show=share", o.show == "share"},
+                                                     {"steady=1", o.steady}};
     for (const auto& [name, given] : of_edges)
         if (given && !edges)
             throw Refusal(format("{} is of base=edges, and this is base=mean", name));
+    if (!o.motion.empty() && !o.steady)
+        throw Refusal("motion is of steady=1, which is not on");
 }
 
 void plan_wls(const CgTmoOptions& o, tonemap::WlsTerms& wls) {
@@ -118,6 +122,12 @@ CgTmoOptions with_preset(const CgTmoOptions& options) {
     fill(o.maximum, preset.maximum);
     o.max_percentile = o.max_percentile.value_or(preset.max_percentile);
     return o;
+}
+
+void check_steady(const CgTmoOptions& o) {
+    if (o.steady && !adapts(o.adapt))
+        throw Refusal("steady=1 is of the frames of a shot, and with adapt=frame each image is "
+                      "alone (valid: adapt=shot, eye, smooth or FILE)");
 }
 
 LocalPlan plan_local(const CgTmoOptions& o) {

@@ -32,6 +32,9 @@ struct LocalPlan {
 /// The options with the preset's in place of those that are unset.
 CgTmoOptions with_preset(const CgTmoOptions& options);
 
+/// Refuses steady where there is no shot to be steady in. Options have all the preset's.
+void check_steady(const CgTmoOptions& options);
+
 /// The plan of options that have all the preset's.
 LocalPlan plan_local(const CgTmoOptions& options);
 

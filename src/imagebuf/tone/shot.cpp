@@ -12,6 +12,7 @@
 #include "imagebuf/tone/shot_statistics.h"
 #include "metrics/refusal.h"
 #include "tonemap/shot.h"
+#include "tonemap/steady.h"
 
 namespace tonetool {
 namespace {
@@ -92,7 +93,39 @@ void check_mode_of(const AdaptOptions& options, const std::string& mode) {
         throw Refusal(format("unit is of adapt=eye, this is {}", mode));
 }
 
+// A frame, and the scene between two cuts that it is in.
+struct Scene {
+    std::vector<ShotFrame> frames; ///< of the scene
+    size_t at = 0;
+};
+
+// `any`: the frame does not matter where the exposure is the same in all of the shot.
+Scene scene_of(const AdaptOptions& options, const std::vector<ShotFrame>& frames, bool any) {
+    if (frames.empty())
+        throw Refusal(
+            format("{}there is no frame in the statistics of the shot", in_file(options)));
+    const std::vector<size_t> cuts = cuts_of(options, frames);
+    const size_t at = place_of(options, frames, any && cuts.back() == 0);
+    const auto next = std::upper_bound(cuts.begin(), cuts.end(), at);
+    const size_t begin = *(next - 1), end = next == cuts.end() ? frames.size() : *next;
+    return {{frames.begin() + std::ptrdiff_t(begin), frames.begin() + std::ptrdiff_t(end)},
+            at - begin};
+}
+
 } // namespace
+
+std::vector<int> steady_window_of(const AdaptOptions& options) {
+    check_options(options);
+    const bool given = !options.statistics.frames.empty();
+    const ShotStatistics shot = given ? options.statistics : shot_from_file(options.adapt);
+    const Scene scene = scene_of(options, tonemap::frames_of(shot.frames, {}), false);
+    const int64_t own = scene.frames[scene.at].number;
+    std::vector<int> numbers;
+    for (const ShotFrame& frame : scene.frames)
+        if (std::abs(frame.number - own) <= tonemap::kSteadyReach)
+            numbers.push_back(frame.number);
+    return numbers;
+}
 
 ShotLight light_of_shot(const AdaptOptions& options, std::optional<double> white_percentile) {
     check_options(options);
@@ -101,15 +134,7 @@ ShotLight light_of_shot(const AdaptOptions& options, std::optional<double> white
     const std::string mode = options.mode.empty() ? shot.mode : options.mode;
     check_mode_of(options, mode);
     const auto frames = tonemap::frames_of(shot.frames, white_percentile);
-    if (frames.empty())
-        throw Refusal(
-            format("{}there is no frame in the statistics of the shot", in_file(options)));
-    const std::vector<size_t> cuts = cuts_of(options, frames);
-    const size_t at = place_of(options, frames, mode == "shot" && cuts.back() == 0);
-    const auto next = std::upper_bound(cuts.begin(), cuts.end(), at);
-    const size_t begin = *(next - 1), end = next == cuts.end() ? frames.size() : *next;
-    const std::vector<ShotFrame> scene(frames.begin() + std::ptrdiff_t(begin),
-                                       frames.begin() + std::ptrdiff_t(end));
+    const auto [scene, at] = scene_of(options, frames, mode == "shot");
     ShotLight out;
     ShotExposure& exposure = out.exposure;
     exposure.mode = mode;
@@ -119,7 +144,7 @@ ShotLight light_of_shot(const AdaptOptions& options, std::optional<double> white
                               options.space == "linear"};
     if (mode != "shot")
         terms.fps = fps_of(options, frames, exposure.notes);
-    const ShotFrame found = tonemap::adapted(scene, at - begin, terms);
+    const ShotFrame found = tonemap::adapted(scene, at, terms);
     if (!(found.lwa > 0))
         throw Refusal(format("{}no frame from {} to {} has any light", in_file(options),
                              exposure.first, exposure.last));
@@ -146,6 +171,10 @@ namespace ToneAlgo {
 
 bool shot_exposure(ShotExposure& exposure, const AdaptOptions& options, std::string& error) {
     return contained(error, [&] { exposure = light_of_shot(options).exposure; });
+}
+
+bool steady_window(std::vector<int>& numbers, const AdaptOptions& options, std::string& error) {
+    return contained(error, [&] { numbers = steady_window_of(options); });
 }
 
 double shot_likeness(const FrameLight& a, const FrameLight& b) {

@@ -27,6 +27,9 @@ struct ShotLight {
 /// Refuses what is wrong with the options, the file or the frame.
 ShotLight light_of_shot(const AdaptOptions& options, std::optional<double> white_percentile = {});
 
+/// ToneAlgo::steady_window, but that errors are thrown.
+std::vector<int> steady_window_of(const AdaptOptions& options);
+
 /// "eye of frames 1 to 8".
 std::string shot_words(const ShotExposure& exposure);
 

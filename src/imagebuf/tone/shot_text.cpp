@@ -11,6 +11,7 @@
 #include "imagebuf/pixels/json_reading.h"
 #include "imagebuf/tone/shot_statistics.h"
 #include "metrics/refusal.h"
+#include "tonemap/camera_fit.h"
 #include "tonemap/shot.h"
 
 namespace tonetool {
@@ -23,6 +24,8 @@ constexpr char kShotFormat[] = "tonetool-shot";
 constexpr int kShotVersion = 1;
 constexpr size_t kThumbnailCells =
     size_t(tonemap::kThumbnailWidth) * size_t(tonemap::kThumbnailHeight);
+
+constexpr size_t kCameraNumbers = std::tuple_size_v<tonemap::Projection>;
 
 // The numbers of a frame in their order; unit and fps are left out where the header has none.
 template <class Light, class Visit>
@@ -44,7 +47,7 @@ ordered_json json_of(const FrameLight& light) {
     to["fps"] = light.fps > 0 ? ordered_json(light.fps) : ordered_json();
     to["histogram"] = light.histogram;
     to["thumbnail"] = light.thumbnail;
-    to["camera"] = nullptr;
+    to["camera"] = light.camera.empty() ? ordered_json() : ordered_json(light.camera);
     return to;
 }
 
@@ -69,6 +72,8 @@ void check_light(const FrameLight& light) {
     if (light.thumbnail.size() != kThumbnailCells)
         fail(format("\"thumbnail\" has {} numbers: must be {}", light.thumbnail.size(),
                     kThumbnailCells));
+    if (!light.camera.empty() && light.camera.size() != kCameraNumbers)
+        fail(format("\"camera\" has {} numbers: must be {}", light.camera.size(), kCameraNumbers));
 }
 
 double number_or_none(const ordered_json& from, const char* key) {
@@ -88,6 +93,9 @@ FrameLight light_of(const ordered_json& from) {
         light.histogram.push_back(whole_number<int64_t>(count, "histogram"));
     for (const ordered_json& cell : from.at("thumbnail"))
         light.thumbnail.push_back(finite_number(cell, "thumbnail"));
+    if (from.contains("camera") && !from.at("camera").is_null())
+        for (const ordered_json& number : from.at("camera"))
+            light.camera.push_back(finite_number(number, "camera"));
     check_light(light);
     return light;
 }

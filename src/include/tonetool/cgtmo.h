@@ -7,6 +7,7 @@
 
 #include <OpenImageIO/imagebuf.h>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -17,6 +18,11 @@
 #include "tonetool/shot_numbers.h"
 
 namespace tonetool {
+
+/// What CG-TMO needs of one frame to steady others, about 41 bytes a pixel: steady_frame() makes
+/// it.
+struct SteadyPlanes;
+using SteadyFrame = std::shared_ptr<const SteadyPlanes>;
 
 struct CgTmoOptions {
     PixelOptions pixels; ///< the beauty and its colour space
@@ -41,6 +47,19 @@ struct CgTmoOptions {
     /// Layer of one channel that holds the variance of the mean of luminance, as a renderer
     /// estimates it; empty: it is measured where surfaces are flat. With base "edges" alone.
     std::string noise;
+    /// Steadies detail in time: luminance, and the mean and variance that its base follows from,
+    /// are averaged over the frames up to 4 before and after between two cuts, along the surfaces
+    /// that positions tell. A mean where the local light changes by more than about a tenth is of
+    /// this frame alone, so that nothing lags. With base "edges" and a shot (`adapt`, its `frame`)
+    /// alone.
+    bool steady = false;
+    /// The frames that steady_window() names, this one among them, each made by steady_frame() with
+    /// these options; others are not looked at.
+    std::map<int, SteadyFrame> frames;
+    /// Layer of four channels for surfaces that move, as Blender's Vector: X, Y: where the surface
+    /// was in the frame before less where it is, Z, W: where it is less where it will be in the
+    /// next one, in pixels, y up. Empty: such surfaces are as they are in each frame.
+    std::string motion;
     std::string domain;             ///< of the base: "log", "linear"; empty: the preset's
     std::optional<double> lumsigma; ///< of the luminance term in log10, 0: none, to 10
     /// The G-buffer AOVs that guide the filter: each is the name of a layer or of a file that holds
@@ -113,6 +132,7 @@ struct CgTmoSummary {
     std::string adaptation_from;                 ///< "lwa", "env", "shot", "image"
     std::string maximum_from;  ///< "lmax", "lights", "groups", "env", "shot", "image"
     std::string adapted;       ///< "shot of frames 1 to 8", if "shot" is one of these; else empty
+    std::vector<int> steady;   ///< the frames that steady averages; empty: none
     std::string maximum_light; ///< the light or light group with that maximum
     /// Where the index of a pixel's light came from: a layer, "groups"; empty: no index.
     std::string light_index;
@@ -146,6 +166,19 @@ TONETOOL_API bool cg_tmo(OIIO::ImageBuf& dst, const OIIO::ImageBuf& src,
 TONETOOL_API OIIO::ImageBuf cg_tmo(const OIIO::ImageBuf& src, const CgTmoOptions& options = {},
                                    CgTmoSummary* summary = nullptr, OIIO::ROI roi = {},
                                    int nthreads = 0);
+
+/// What steady needs of one frame, itself and others: log luminance, its mean and variance, noise,
+/// position, normal and albedo of each pixel, and the camera that sees the positions where they
+/// are, by a direct linear transform (R. Hartley, A. Zisserman, "Multiple View Geometry in Computer
+/// Vision", 2003). `options` are those of cg_tmo; `frames` and `adapt` are not looked at.
+///
+/// Any size: frames need not have one. NaN and Inf: as cg_tmo; a pixel whose position is not finite
+/// shows no surface. Errors: as cg_tmo, and a `motion` that is not there; returns false with the
+/// reason in `error`. Positions that fit no camera (99 % of them within 0.25 pixels), those of
+/// depth and those of one plane are no error: such a frame is tone mapped alone, with a warning,
+/// and no history of others. The same bits with any number of threads.
+TONETOOL_API bool steady_frame(SteadyFrame& frame, const OIIO::ImageBuf& src, std::string& error,
+                               const CgTmoOptions& options = {}, int nthreads = 0);
 
 } // namespace ToneAlgo
 } // namespace tonetool

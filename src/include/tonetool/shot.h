@@ -29,6 +29,17 @@ TONETOOL_API bool frame_light(FrameLight& light, const OIIO::ImageBuf& src, std:
 TONETOOL_API bool shot_exposure(ShotExposure& exposure, const AdaptOptions& options,
                                 std::string& error);
 
+/// The numbers of the frames that steady=1 of CG-TMO makes a frame of, in their order: itself and
+/// those up to 4 before and after that are in the statistics, between the same cuts. `frame` must
+/// be set.
+TONETOOL_API bool steady_window(std::vector<int>& numbers, const AdaptOptions& options,
+                                std::string& error);
+
+/// FrameLight::camera of an image; empty where its positions tell none.
+TONETOOL_API bool frame_camera(std::vector<double>& camera, const OIIO::ImageBuf& src,
+                               std::string& error, const CgTmoOptions& options = {},
+                               int nthreads = 0);
+
 /// How alike two frames are: the largest correlation of their thumbnails over shifts of up to two
 /// cells, -1 to 1. Below 0.6 there is a cut between neighbours.
 TONETOOL_API double shot_likeness(const FrameLight& a, const FrameLight& b);

@@ -27,6 +27,10 @@ struct FrameLight {
     std::vector<int64_t> histogram;
     /// ln of the means of 32 x 18 cells, by rows: what cuts are told by.
     std::vector<double> thumbnail;
+    /// The camera, if it was asked for and positions tell it: three rows of four numbers, of
+    /// norm 1. With (a, b, c) = rows (x, y, z, 1) a point is seen at a/c and b/c in widths of the
+    /// image from its middle, x to the right and y down. Empty: none.
+    std::vector<double> camera;
 };
 
 struct ShotStatistics {

@@ -161,6 +161,16 @@ std::vector<Function> numbers_and_files() {
              FrameLight light;
              return frame_light(light, c.bad, c.error, kLinear);
          }},
+        {"steady_frame", "",
+         [](const Call& c) {
+             SteadyFrame frame;
+             return steady_frame(frame, c.bad, c.error, linear<CgTmoOptions>());
+         }},
+        {"frame_camera", "",
+         [](const Call& c) {
+             std::vector<double> camera;
+             return frame_camera(camera, c.bad, c.error, linear<CgTmoOptions>());
+         }},
         {"panorama_stats", "",
          [](const Call& c) {
              PanoramaStats stats;
