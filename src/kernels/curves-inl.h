@@ -238,8 +238,7 @@ struct FilmLanes {
         }
     }
     HWY_INLINE V Channel(size_t c, V x) const {
-        const V log_share = Log2Within(hn::Mul(x, Number(share[c])));
-        const V rise = Exp2Within(hn::Mul(Number(power[c]), log_share));
+        const V rise = Power(hn::Mul(x, Number(share[c])), power[c]);
         return Exp2Within(hn::Div(Number(range[c]), hn::Add(Number(1.0f), rise)));
     }
     HWY_INLINE V operator()(V x) const { return Channel(0, x); }

@@ -50,7 +50,7 @@ CurveNumbers make_film(const CurveValues& v) {
 Curve film_curve() {
     std::vector<CurveParameter> parameters = {
         {"middle", 0.18, 1e-4, 1e4, "light in the middle of the film's densities"},
-        {"gamma", 1.8, 0.1, 4, "slope of the density there, over log10 of light"},
+        {"gamma", 1.8, 0.25, 4, "slope of the density there, over log10 of light"},
         {"dmin", 0, 0, 4, "least density, which becomes display white"},
         {"dmax", 3, 0.1, 8, "largest density"}};
     for (CurveParameter& parameter : parameters)

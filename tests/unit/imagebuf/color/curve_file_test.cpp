@@ -126,8 +126,8 @@ TEST_F(CurveFile, EncodedResultsFollowTheEncodingBetweenRows) {
 
 TEST_F(CurveFile, ItsEndsAreHeld) {
     const CurveOptions options = file("a.csv", "1,0.2\n2,0.7\n");
-    EXPECT_EQ(at(options, 0), 0.2);
-    EXPECT_EQ(at(options, 1e12), 0.7);
+    EXPECT_DOUBLE_EQ(at(options, 0), 0.2);
+    EXPECT_DOUBLE_EQ(at(options, 1e12), 0.7);
 }
 
 TEST_F(CurveFile, FactsAreOfTheMeanOfTheChannels) {
