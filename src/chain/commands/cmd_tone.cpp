@@ -225,6 +225,7 @@ void run_exportlut(Session& session, const Call& call) {
               format_number(made.max_error) + " mean " + format_number(made.mean_error));
     lines.add("grey-error max", made.grey_max_error);
     session.report(lines.text);
+    session.out.flush();
     if (!session.settings.quiet)
         for (const std::string& remark : made.remarks)
             session.complaints() << call.row().label() << ": " << remark << std::endl;

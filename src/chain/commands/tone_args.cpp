@@ -81,8 +81,8 @@ std::vector<double> read_coeffs(const Call& call, bool of_file) {
 
 Modifier curve_modifier(const std::string& key, const std::string& what) {
     return {key, kCurveHint,
-            what + ": " + join(ToneAlgo::tone_curve_names(), ", ") +
-                ", or a file with a table (.spi1d, .cube, .csv, .clf, camera responses)"};
+            what + ", or a file with a measured one, as .csv, .spi1d, .cube or .clf: " +
+                join(ToneAlgo::tone_curve_names(), ", ")};
 }
 
 Modifiers curve_modifiers(bool measured, bool flip) {
