@@ -68,8 +68,10 @@ ocio::Lut1DTransformRcPtr open_ocio(const std::string& file) {
                      ? OCIO_DYNAMIC_POINTER_CAST<ocio::Lut1DTransform>(group->getTransform(0))
                      : nullptr;
     if (!table || table->getDirection() != ocio::TRANSFORM_DIR_FORWARD)
-        fail_ocio(file, format("holds {} step(s): must be one table of one dimension",
-                               group->getNumTransforms()));
+        fail_ocio(file, group->getNumTransforms() == 1
+                            ? "holds no table of one dimension"
+                            : format("holds {} step(s): must be one table of one dimension",
+                                     group->getNumTransforms()));
     return table;
 }
 
