@@ -45,7 +45,7 @@ def test_responses_and_descriptions(table):
 
 def test_comparisons(table, image):
     same = tonetool.hdr_flip(image, image, curve=table)
-    assert same.summary.mean == 0 and same.summary.tonemapper == "t.csv"
+    assert same.summary.pool.mean == 0 and same.summary.tonemapper == "t.csv"
     assert tonetool.hdr_flip(image, image * 1.2, curve=table).summary.bright == pytest.approx(2.5)
 
 
