@@ -4,8 +4,11 @@
 
 #include <array>
 #include <cstddef>
+#include <memory>
 
 namespace tonetool::kernels {
+
+class CurveTable;
 
 /// Weights of luminance (ITU-R BT.709).
 inline constexpr std::array<double, 3> kLuminance = {0.2126, 0.7152, 0.0722};
@@ -23,6 +26,8 @@ enum class CurveKind {
     Uchimura,    ///< toe, straight line, shoulder
     Agx,         ///< matrix, polynomial on log2, matrix, decoded from 2.2
     Neutral,     ///< Khronos PBR neutral
+    Film,        ///< 10^-(D - dmin), D a logistic function of log x, by channel
+    Table,       ///< straight lines between the rows of a table, by channel
 };
 
 /// These curves mix the channels of a pixel, so they cannot be run on luminance alone.
@@ -30,10 +35,16 @@ constexpr bool mixes_channels(CurveKind kind) {
     return kind == CurveKind::AcesHill || kind == CurveKind::Agx || kind == CurveKind::Neutral;
 }
 
+/// These curves may be other ones for R, G and B.
+constexpr bool has_channels(CurveKind kind) {
+    return kind == CurveKind::Film || kind == CurveKind::Table;
+}
+
 /// One curve with its parameters folded in.
 struct CurveNumbers {
     CurveKind kind = CurveKind::Rational;
     std::array<double, 12> p{0, 1, 0, 0, 0, 1};
+    std::shared_ptr<const CurveTable> table = nullptr; ///< of CurveKind::Table
 };
 
 /// How a curve is applied to a pixel.

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "kernels/curve_constants.h"
+#include "kernels/curve_table.h"
 #include "kernels/tone_curve.h"
 
 namespace tonetool::kernels {
@@ -56,6 +57,18 @@ double uchimura(const P& p, double x) {
         return peak - (peak - s1) * std::exp(-(a * peak / (peak - s1)) * (x - s0) / peak);
     const double u = std::clamp(x / m, 0.0, 1.0), toe = 1 - u * u * (3 - 2 * u);
     return (m * std::pow(x / m, c) + b) * toe + (m + a * (x - m)) * (1 - toe);
+}
+
+// p: middle, gamma, dmin, dmax of R, of G, of B. Slope -gamma of D over log10 x at the middle.
+double film(const P& p, size_t channel, double x) {
+    const double middle = p[4 * channel], gamma = p[4 * channel + 1];
+    const double range = p[4 * channel + 3] - p[4 * channel + 2];
+    const double density = range / (1 + std::pow(x / middle, 4 * gamma / (range * std::log(10.0))));
+    return std::pow(10.0, -density);
+}
+
+double of_channel(const CurveNumbers& curve, size_t channel, double x) {
+    return curve.kind == CurveKind::Table ? curve.table->at(channel, x) : film(curve.p, channel, x);
 }
 
 Color multiply(const Matrix3& m, const Color& v) {
@@ -124,7 +137,7 @@ Color on_luminance(const CurveNumbers& curve, const CurveUse& use, Color v) {
     const double lum = luminance(use.weights, v);
     if (lum < double(kSmallestLuminance))
         return {};
-    const double y = curve_reference(curve, lum);
+    const double y = curve_reference(curve, 0, lum);
     for (double& x : v)
         x = y * std::pow(x / lum, use.saturation);
     return v;
@@ -148,9 +161,16 @@ double curve_reference(const CurveNumbers& curve, double x) {
         return lottes(curve.p, x);
     case CurveKind::Uchimura:
         return uchimura(curve.p, x);
+    case CurveKind::Film:
+    case CurveKind::Table:
+        return (of_channel(curve, 0, x) + of_channel(curve, 1, x) + of_channel(curve, 2, x)) / 3;
     default:
         return luminance(kLuminance, mixed(curve, {x, x, x}));
     }
+}
+
+double curve_reference(const CurveNumbers& curve, size_t channel, double x) {
+    return has_channels(curve.kind) ? of_channel(curve, channel, x) : curve_reference(curve, x);
 }
 
 std::array<double, 3> curve_reference(const CurveNumbers& curve, const CurveUse& use,
@@ -163,8 +183,8 @@ std::array<double, 3> curve_reference(const CurveNumbers& curve, const CurveUse&
     else if (use.on_luminance)
         v = on_luminance(curve, use, v);
     else
-        for (double& x : v)
-            x = curve_reference(curve, x);
+        for (size_t c = 0; c < 3; ++c)
+            v[c] = curve_reference(curve, c, v[c]);
     if (use.clamp)
         for (double& x : v)
             x = std::clamp(x, 0.0, 1.0);

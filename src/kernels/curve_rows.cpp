@@ -110,11 +110,12 @@ void Run(const CurveNumbers& curve, const CurveUse& use, const float* const in[3
         std::copy_n(at[c], rest, out[c] + whole);
 }
 
-template <class Curve>
+// As it is run on channels and on luminance.
+template <class Channels, class Curve>
 void RunUnmixed(const CurveNumbers& curve, const CurveUse& use, const float* const in[3],
                 float* const out[3], ptrdiff_t count, float scale) {
     if (!use.on_luminance)
-        Run<PerChannel<Curve>>(curve, use, in, out, count, scale);
+        Run<Channels>(curve, use, in, out, count, scale);
     else if (use.saturation == 1)
         Run<OnLuminance<Curve, PlainRatio>>(curve, use, in, out, count, scale);
     else
@@ -125,25 +126,34 @@ void CurveRows(const CurveNumbers& curve, const CurveUse& use, const float* cons
                float* const out[3], ptrdiff_t count, float scale) {
     switch (curve.kind) {
     case CurveKind::Rational:
-        return RunUnmixed<RationalLanes>(curve, use, in, out, count, scale);
+        return RunUnmixed<PerChannel<RationalLanes>, RationalLanes>(curve, use, in, out, count,
+                                                                    scale);
     case CurveKind::Logarithmic:
-        return RunUnmixed<LogarithmicLanes>(curve, use, in, out, count, scale);
+        return RunUnmixed<PerChannel<LogarithmicLanes>, LogarithmicLanes>(curve, use, in, out,
+                                                                          count, scale);
     case CurveKind::Exponential:
-        return RunUnmixed<ExponentialLanes>(curve, use, in, out, count, scale);
+        return RunUnmixed<PerChannel<ExponentialLanes>, ExponentialLanes>(curve, use, in, out,
+                                                                          count, scale);
     case CurveKind::Drago:
-        return RunUnmixed<DragoLanes>(curve, use, in, out, count, scale);
+        return RunUnmixed<PerChannel<DragoLanes>, DragoLanes>(curve, use, in, out, count, scale);
     case CurveKind::FilmicAlu:
-        return RunUnmixed<FilmicAluLanes>(curve, use, in, out, count, scale);
+        return RunUnmixed<PerChannel<FilmicAluLanes>, FilmicAluLanes>(curve, use, in, out, count,
+                                                                      scale);
     case CurveKind::Lottes:
-        return RunUnmixed<LottesLanes>(curve, use, in, out, count, scale);
+        return RunUnmixed<PerChannel<LottesLanes>, LottesLanes>(curve, use, in, out, count, scale);
     case CurveKind::Uchimura:
-        return RunUnmixed<UchimuraLanes>(curve, use, in, out, count, scale);
+        return RunUnmixed<PerChannel<UchimuraLanes>, UchimuraLanes>(curve, use, in, out, count,
+                                                                    scale);
     case CurveKind::AcesHill:
         return Run<Mixed<AcesHillLanes>>(curve, use, in, out, count, scale);
     case CurveKind::Agx:
         return Run<Mixed<AgxLanes>>(curve, use, in, out, count, scale);
     case CurveKind::Neutral:
         return Run<Mixed<NeutralLanes>>(curve, use, in, out, count, scale);
+    case CurveKind::Film:
+        return RunUnmixed<Mixed<FilmLanes>, FilmLanes>(curve, use, in, out, count, scale);
+    case CurveKind::Table:
+        return RunUnmixed<Mixed<TableLanes>, TableLanes>(curve, use, in, out, count, scale);
     }
 }
 

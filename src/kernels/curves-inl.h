@@ -16,6 +16,7 @@
 #include "kernels/color-inl.h"
 #include "kernels/curve.h"
 #include "kernels/curve_constants.h"
+#include "kernels/curve_table.h"
 #include "kernels/fast_math-inl.h"
 #include "kernels/tone_curve-inl.h"
 
@@ -221,6 +222,64 @@ struct NeutralLanes {
         const V grey = hn::NegMulAdd(pressed, kept, pressed);
         return {hn::MulAdd(v.c0, scale, grey), hn::MulAdd(v.c1, scale, grey),
                 hn::MulAdd(v.c2, scale, grey)};
+    }
+};
+
+// 10^-(range / (1 + (x / middle)^power)); the quotient first, as its logarithm is exact where the
+// curve is steep.
+struct FilmLanes {
+    float share[3], power[3], range[3];
+    explicit FilmLanes(const CurveNumbers& curve) {
+        for (size_t c = 0; c < 3; ++c) {
+            const double* p = &curve.p[4 * c];
+            share[c] = float(1 / p[0]);
+            power[c] = float(4 * p[1] / ((p[3] - p[2]) * std::log(10.0)));
+            range[c] = float(-(p[3] - p[2]) * std::log2(10.0));
+        }
+    }
+    HWY_INLINE V Channel(size_t c, V x) const {
+        const V rise = Power(hn::Mul(x, Number(share[c])), power[c]);
+        return Exp2Within(hn::Div(Number(range[c]), hn::Add(Number(1.0f), rise)));
+    }
+    HWY_INLINE V operator()(V x) const { return Channel(0, x); }
+    HWY_INLINE Color operator()(const Color& x) const {
+        return {Channel(0, x.c0), Channel(1, x.c1), Channel(2, x.c2)};
+    }
+};
+
+// The row at or below x by bisection, then its line.
+struct TableLanes {
+    const float* knots;
+    const float *values[3], *slopes[3];
+    int half;
+    bool log2;
+    explicit TableLanes(const CurveNumbers& curve)
+        : knots(curve.table->knots()),
+          half(int(curve.table->entries() / 2)),
+          log2(curve.table->rows().log2) {
+        for (size_t c = 0; c < 3; ++c) {
+            values[c] = curve.table->values(c);
+            slopes[c] = curve.table->slopes(c);
+        }
+    }
+    HWY_INLINE V Channel(size_t c, V x) const {
+        const hn::RebindToSigned<decltype(d)> di;
+        if (log2)
+            x = Log2Within(x);
+        x = hn::Max(x, Number(knots[0]));
+        auto at = hn::Zero(di);
+        for (int step = half; step > 0; step /= 2) {
+            const auto next = hn::Add(at, hn::Set(di, step));
+            const auto below = hn::Le(hn::GatherIndex(d, knots, next), x);
+            at = hn::IfThenElse(hn::RebindMask(di, below), next, at);
+        }
+        const V run = hn::Sub(x, hn::GatherIndex(d, knots, at));
+        return hn::MulAdd(hn::GatherIndex(d, slopes[c], at), run,
+                          hn::GatherIndex(d, values[c], at));
+    }
+    HWY_INLINE V operator()(V x) const { return Channel(0, x); }
+    HWY_INLINE Color operator()(const Color& x) const {
+        return {Channel(0, x.c0), Channel(1, x.c1), Channel(2, x.c2)};
     }
 };
 

@@ -20,6 +20,14 @@ py::object response(std::vector<py::object>& arguments, const CurveOptions& opti
     return py::array_t<double>(py::ssize_t(light.size()), light.data());
 }
 
+py::object of_file(std::vector<py::object>&, const CurveOptions& options) {
+    ToneCurveInfo info;
+    run_or_raise("tone_curve_of_file", [&](std::string& error) {
+        return ToneAlgo::tone_curve_of_file(info, options, error);
+    });
+    return py::cast(info);
+}
+
 void add_results(Module& module) {
     using P = ToneCurveParameter;
     ResultClass<P>(module, "ToneCurveParameter", "A parameter of a tone curve.")
@@ -29,6 +37,7 @@ void add_results(Module& module) {
         .field("low", &P::low, "Its smallest value.")
         .field("high", &P::high, "Its largest value.")
         .field("flip_value", &P::flip_value, "Its default in HDR-FLIP.")
+        .field("per_channel", &P::per_channel, "R, G and B may have values of their own.")
         .finish();
     using I = ToneCurveInfo;
     ResultClass<I>(module, "ToneCurveInfo", "A tone curve of the registry.")
@@ -59,6 +68,17 @@ void add_curves(Module& module) {
     define(module, list, [](std::vector<py::object>&) { return list_of(ToneAlgo::tone_curves()); });
     define_names(module, "tone_curve_names", "Names of the tone curves.", kSource,
                  ToneAlgo::tone_curve_names);
+    define(
+        module,
+        Description{"tone_curve_of_file",
+                    "A curve from a file, as tone_curves() describes those of the registry.",
+                    {},
+                    "ToneCurveInfo",
+                    "Its note says how many rows it has, over which light, and whether it rises.",
+                    "Units: x is scene light, the result display light. NaN is refused.",
+                    "A file that is no curve; the error names the line.",
+                    kSource},
+        table_of<CurveOptions>().fields, of_file);
     define(
         module,
         Description{"tone_curve_response",

@@ -12,7 +12,8 @@ namespace {
 
 const std::string kSource =
     "The formats: Adobe's Cube LUT Specification 1.0, Sony Imageworks' .spi1d "
-    "and .spi3d, S-2014-006 (CLF); OpenColorIO 2 (CTF).";
+    "and .spi3d, S-2014-006 (CLF); OpenColorIO 2 (CTF); Adobe Photoshop File Formats "
+    "Specification (ACV).";
 
 using O = LutOptions;
 
@@ -20,7 +21,10 @@ Fields<O> fields() {
     return joined<O>({{field<O>("curve", &O::curve, "Tone curve; None: aces."),
                        field<O>("view", &O::view,
                                 "A view of an OpenColorIO configuration instead of the curve.")},
-                      described<O, LutOptions>()});
+                      described<O, LutOptions>(),
+                      {field<O>("white", &O::white,
+                                "Of .acv: the scene light of the code value 255; 0: the curve's "
+                                "white, or 1.")}});
 }
 
 py::object run(std::vector<py::object>& arguments, const O& options) {
@@ -38,7 +42,7 @@ void add_lut(Module& module) {
     using S = LutSummary;
     ResultClass<S>(module, "LutSummary",
                    "What was written, and how far from the exact curve it is.")
-        .field("format", &S::format, "\"cube\", \"spi1d\", \"spi3d\", \"clf\", \"ctf\".")
+        .field("format", &S::format, "\"cube\", \"spi1d\", \"spi3d\", \"clf\", \"ctf\", \"acv\".")
         .field("structure", &S::structure, "As \"1D 4096\" or \"3D 33\".")
         .field("input", &S::input, "What the file expects: space and shaper.")
         .field("low", &S::low, "Scene light that the table begins at.")
@@ -47,22 +51,24 @@ void add_lut(Module& module) {
         .field("mean_error", &S::mean_error, "Mean difference.")
         .field("grey_max_error", &S::grey_max_error, "Largest difference of greys.")
         .field("samples", &S::samples, "That were compared.")
+        .field("remarks", &S::remarks, "What the format does not hold.")
         .finish();
-    define(module,
-           Description{
-               "export_lut",
-               "Write a tone curve or a view as a look-up table; the format is that of the "
-               "extension.",
-               {{"filename", "str | os.PathLike[str]", ".cube, .spi1d, .spi3d, .clf or .ctf.", ""}},
-               "LutSummary",
-               "What was written, with its measured error.",
-               "Shapes: a table per channel, or a cube. Units: input is scene light in linear "
-               "Rec.709, shaped to 0 to 1 for .cube, .spi1d and .spi3d; the result is the "
-               "display's. NaN does not occur.\nWritten beside the target and renamed.",
-               "An unknown name, a value out of range, a format that cannot hold the curve, a "
-               "file that cannot be written.",
-               kSource},
-           fields(), run);
+    define(
+        module,
+        Description{"export_lut",
+                    "Write a tone curve or a view as a look-up table; the format is that of the "
+                    "extension.",
+                    {{"filename", "str | os.PathLike[str]",
+                      ".cube, .spi1d, .spi3d, .clf, .ctf or .acv.", ""}},
+                    "LutSummary",
+                    "What was written, with its measured error.",
+                    "Shapes: a table per channel, or a cube. Units: input is scene light in linear "
+                    "Rec.709, shaped to 0 to 1 for .cube, .spi1d and .spi3d; the result is the "
+                    "display's. NaN does not occur.\nWritten beside the target and renamed.",
+                    "An unknown name, a value out of range, a format that cannot hold the curve, a "
+                    "file that cannot be written.",
+                    kSource},
+        fields(), run);
     define_names(module, "lut_shapers", "Names of the shapers of export_lut().", kSource,
                  ToneAlgo::lut_shapers);
     define_names(module, "lut_formats", "Names of the formats of export_lut().", kSource,

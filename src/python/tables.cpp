@@ -26,16 +26,21 @@ template <>
 const Table<CurveOptions>& table_of<CurveOptions>() {
     using O = CurveOptions;
     static const Table<O> table = {
-        "CurveOptions",
-        "name",
-        "A tone curve",
-        {field<O>("name", &O::name, "One of tone_curve_names()."),
-         field<O>("parameters", &O::parameters, "Parameters of the curve by name."),
-         field<O>("coeffs", &O::coeffs,
-                  "Six coefficients instead of the name: y = (k0 x^2 + k1 x + k2) / (k3 x^2 + "
-                  "k4 x + k5)."),
-         field<O>("on", &O::on, "\"rgb\", \"luminance\", or \"\": as the curve is meant."),
-         field<O>("saturation", &O::saturation, "Of curves on luminance, 0 to 4.")}};
+        "CurveOptions", "name", "A tone curve",
+        joined<O>(
+            {{field<O>("name", &O::name,
+                       "One of tone_curve_names(), or a file with a table (a name with a '.' or "
+                       "'/'): .spi1d, .cube, .csv, .clf, camera responses as text."),
+              field<O>("parameters", &O::parameters,
+                       "Parameters of the curve by name; a file has white."),
+              field<O>("channel_parameters", &O::channel_parameters,
+                       "Three numbers, of R, G and B, by name, of the curve \"film\"."),
+              field<O>("coeffs", &O::coeffs,
+                       "Six coefficients instead of the name: y = (k0 x^2 + k1 x + k2) / (k3 x^2 + "
+                       "k4 x + k5); or the weights of a file with a model of camera responses.")},
+             described<O, CurveOptions>(),
+             {field<O>("on", &O::on, "\"rgb\", \"luminance\", or \"\": as the curve is meant."),
+              field<O>("saturation", &O::saturation, "Of curves on luminance, 0 to 4.")}})};
     return table;
 }
 

@@ -40,7 +40,11 @@ Fields<CalibrateOptions> calibrate_fields() {
     for (const Field<CalibrationOptions>& row : table_of<CalibrationOptions>().fields)
         fields.push_back({row.name, row.type, row.initial, row.text, row.set});
     return joined<O>({fields,
-                      {field<O>("pixels", &O::pixels, "Layer and colour space."), roi_field<O>(),
+                      {field<O>("show", &O::show,
+                                ("\"\": the picture; \"mean\", \"key\", \"exposure\": " +
+                                 calibration_parts_text() + ".")
+                                    .c_str()),
+                       field<O>("pixels", &O::pixels, "Layer and colour space."), roi_field<O>(),
                        threads_field<O>()}});
 }
 
@@ -84,6 +88,8 @@ void add_results(Module& module) {
     result.field("curve", &S::curve, "Curve, \"coeffs\", or \"display/view\".")
         .field("parameters", &S::parameters, "Of the curve.")
         .field("on", &S::on, "\"rgb\", \"luminance\" or \"color\".")
+        .field("table", &S::table,
+               "Of a curve from a file: its rows, their light, and whether it rises.")
         .field("calibration", &S::calibration, "The exposure that was found.")
         .field("nonfinite", &S::nonfinite, "Pixels with NaN or Inf.")
         .field("negative", &S::negative, "Pixels with a negative component.")

@@ -171,24 +171,29 @@ struct Python<std::array<T, N>> {
     static py::object to(const std::array<T, N>& v) { return list_of(v); }
 };
 
-template <>
-struct Python<std::map<std::string, double>> {
-    using Map = std::map<std::string, double>;
-    static std::string wanted() { return "Mapping[str, float]"; }
-    static std::string given() { return "dict[str, float]"; }
+/// Of numbers, or of lists of them.
+template <class T>
+struct PythonNumbers {
+    using Map = std::map<std::string, T>;
+    static std::string wanted() { return "Mapping[str, " + Python<T>::wanted() + "]"; }
+    static std::string given() { return "dict[str, " + Python<T>::given() + "]"; }
     static Map from(py::handle v, const std::string& where) {
         Map map;
         for (const auto& [key, value] : to_pairs(v, where, wanted()))
-            map[key] = to_double(value, where + "[\"" + key + "\"]");
+            map[key] = Python<T>::from(value, where + "[\"" + key + "\"]");
         return map;
     }
     static py::object to(const Map& v) {
         py::dict dict;
         for (const auto& [key, value] : v)
-            dict[to_str(key)] = Python<std::decay_t<decltype(value)>>::to(value);
+            dict[to_str(key)] = Python<T>::to(value);
         return py::object(std::move(dict));
     }
 };
+template <>
+struct Python<std::map<std::string, double>> : PythonNumbers<double> {};
+template <>
+struct Python<std::map<std::string, std::vector<double>>> : PythonNumbers<std::vector<double>> {};
 
 /// In the order of the pairs.
 template <class T>

@@ -83,7 +83,7 @@ Strings files_read(const chain::ParsedLine& line, const CheckPlan& check, const 
                 files.push_back(texts[word.arguments[i]]);
         for (const auto& [key, text] : parse_token(texts[word.at], true).modifiers) {
             for (const chain::Modifier& modifier : word.row->modifiers)
-                if (modifier.key == key && chain::names_file(modifier.hint))
+                if (modifier.key == key && chain::value_names_file(modifier, text))
                     files.push_back(text);
         }
     }

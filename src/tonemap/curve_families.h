@@ -13,7 +13,7 @@ std::vector<Curve> modern_curves();
 /// The parameter `white`: the scene value that becomes display white, or the nearest thing that the
 /// curve has. Calibration sets it by this name.
 inline CurveParameter white_parameter(double value, const char* help) {
-    return {"white", value, 1e-4, 1e9, help};
+    return {"white", value, kLeastWhite, kMostWhite, help};
 }
 
 inline kernels::CurveNumbers rational(double k0, double k1, double k2, double k3, double k4,

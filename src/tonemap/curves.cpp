@@ -121,4 +121,12 @@ CurveValues curve_values(const Curve& curve, const std::map<std::string, double>
     return all;
 }
 
+kernels::CurveNumbers of_channels(const std::array<kernels::CurveNumbers, 3>& channels) {
+    constexpr size_t each = 4; // numbers of a channel
+    kernels::CurveNumbers all = channels[0];
+    for (size_t c = 1; c < 3; ++c)
+        std::copy_n(channels[c].p.begin(), each, all.p.begin() + ptrdiff_t(c * each));
+    return all;
+}
+
 } // namespace tonetool::tonemap

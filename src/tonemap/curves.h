@@ -3,6 +3,7 @@
 // all read from these rows.
 #pragma once
 
+#include <array>
 #include <map>
 #include <optional>
 #include <string>
@@ -20,6 +21,8 @@ struct CurveParameter {
     const char* help;
     /// The default in HDR-FLIP, where its paper has another one.
     std::optional<double> flip_value{};
+    /// It may have a value for each of R, G and B.
+    bool per_channel = false;
 };
 
 enum class CurveDomain {
@@ -27,6 +30,9 @@ enum class CurveDomain {
     Luminance, ///< on luminance, unless asked otherwise
     Color,     ///< mixes the channels: neither can be chosen
 };
+
+/// Range of the parameter `white` of most curves.
+inline constexpr double kLeastWhite = 1e-4, kMostWhite = 1e9;
 
 /// Values of the parameters, in the order of the row.
 using CurveValues = std::vector<double>;
@@ -54,6 +60,9 @@ std::vector<std::string> curve_parameter_names();
 /// error that says what would be valid; so are values that together make a curve that falls or has
 /// a pole. `flip`: HDR-FLIP's defaults.
 CurveValues curve_values(const Curve& curve, const std::map<std::string, double>& given, bool flip);
+
+/// Curves of R, G and B, which only has_channels() may tell apart, as one.
+kernels::CurveNumbers of_channels(const std::array<kernels::CurveNumbers, 3>& channels);
 
 /// Six coefficients as a curve. Not finite, or a denominator that is 0 everywhere, is an error.
 kernels::CurveNumbers coefficient_curve(const std::vector<double>& k);

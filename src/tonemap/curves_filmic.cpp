@@ -3,6 +3,7 @@
 #include "tonemap/curve_families.h"
 
 #include <cmath>
+#include <stdexcept>
 
 namespace tonetool::tonemap {
 namespace {
@@ -36,6 +37,35 @@ CurveNumbers make_aces(const CurveValues& v) {
 
 CurveNumbers make_aces_hill(const CurveValues&) {
     return {CurveKind::AcesHill, {1, 0.0245786, -0.000090537, 0.983729, 0.4329510, 0.238081}};
+}
+
+// The same for each channel; of_channels() puts others together.
+CurveNumbers make_film(const CurveValues& v) {
+    if (!(v[3] > v[2]))
+        throw std::invalid_argument("curve \"film\": dmax must exceed dmin");
+    return {CurveKind::Film,
+            {v[0], v[1], v[2], v[3], v[0], v[1], v[2], v[3], v[0], v[1], v[2], v[3]}};
+}
+
+Curve film_curve() {
+    std::vector<CurveParameter> parameters = {
+        {"middle", 0.18, 1e-4, 1e4, "light in the middle of the film's densities"},
+        {"gamma", 1.8, 0.25, 4, "slope of the density there, over log10 of light"},
+        {"dmin", 0, 0, 4, "least density, which becomes display white"},
+        {"dmax", 3, 0.1, 8, "largest density"}};
+    for (CurveParameter& parameter : parameters)
+        parameter.per_channel = true;
+    return {"film",
+            "Reversal film",
+            "a logistic density over log exposure, as sheets of reversal films draw it",
+            "y = 10^-(D - dmin), D = dmin + (dmax - dmin) / "
+            "(1 + exp(4 gamma log10(x / middle) / (dmax - dmin)))",
+            CurveDomain::Channel,
+            false,
+            true,
+            std::move(parameters),
+            make_film,
+            "never reaches 1; no film's data: each of middle, gamma, dmin, dmax may be R,G,B"};
 }
 
 CurveNumbers make_steve_a(const CurveValues&) {
@@ -157,6 +187,7 @@ std::vector<Curve> filmic_curves() {
     std::vector<Curve> rows = game_curves();
     for (Curve& row : fitted_curves())
         rows.push_back(std::move(row));
+    rows.push_back(film_curve());
     return rows;
 }
 

@@ -178,7 +178,7 @@ BAD = [
     ("curve=aces", "lut.lut", "valid: .cube, .spi1d, .spi3d, .clf, .ctf"),
     ("curve=aces", "lut", "no extension"),
     ("curve=acse", "lut.cube", "aces"),
-    ("curve=reinhard", "lut.spi1d", "valid: .cube, .spi3d, .clf, .ctf"),
+    ("curve=agx", "lut.spi1d", "valid: .cube, .spi3d, .clf, .ctf"),
     ("curve=aces", "lut.spi3d", "valid: .cube, .spi1d, .clf, .ctf"),
     ("curve=aces:size=1", "lut.cube", "2"),
     ("curve=aces:size=70000", "lut.cube", "65536"),

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Commands that show HDR images: calibration, tone curves, views.
+#include <OpenImageIO/strutil.h>
 #include <algorithm>
 #include <cmath>
+#include <ostream>
 
 #include "chain/commands/adapt_args.h"
 #include "chain/commands/color_input.h"
@@ -39,6 +41,7 @@ void run_calibrate(Session& session, const Call& call) {
     PixelOptions pixels = pixel_options(call);
     OIIO::ImageBuf source = color_input(session, call, image, pixels);
     CalibrationOptions options = calibration_options(call);
+    options.show = call.choice("show", calibration_parts()).value_or("");
     adapt_to_shot(session, call, source, pixels, options.adapt);
     CalibrationSummary found;
     OIIO::ImageBuf result;
@@ -55,10 +58,10 @@ void run_calibrate(Session& session, const Call& call) {
 
 TonemapOptions tonemap_options(const Session& session, const Call& call) {
     TonemapOptions options;
-    check_one_way(call, "curve");
+    check_one_way(call, {"curve"});
     options.pixels = pixel_options(call);
     options.view = view_options(session, call);
-    options.curve = curve_options(call, "curve");
+    options.curve = curve_options(call, {"curve"});
     options.calibration = calibration_options(call);
     options.calibration.white_percentile = white_percentile(call);
     if (options.view && (call.has("encode") || call.has("primaries") || call.has("clamp")))
@@ -84,6 +87,8 @@ void run_tonemap(Session& session, const Call& call) {
     lines.add("curve", found.curve);
     for (const auto& [name, value] : found.parameters)
         lines.add(name, value);
+    if (!found.table.empty())
+        lines.add("table", found.table);
     add_calibration(lines, found.calibration);
     add_notes(lines, session, found.calibration);
     session.report(lines.text);
@@ -111,43 +116,95 @@ void print_curve(Session& session, const ToneCurveInfo& curve) {
 }
 
 // A table of stops and display-linear values, with a column for each curve.
-void print_table(Session& session) {
-    const Strings names = ToneAlgo::tone_curve_names();
+void print_table(Session& session, const Strings& names, const std::vector<CurveOptions>& curves) {
     session.print("stops," + join(names, ","));
     constexpr int first = -12, last = 12, per_stop = 4;
-    for (int i = first * per_stop; i <= last * per_stop; ++i) {
-        double stops = double(i) / per_stop;
-        Strings cells{format_number(stops)};
-        for (const std::string& name : names) {
-            CurveOptions curve;
-            curve.name = name;
-            std::vector<double> light;
-            std::string why;
-            if (!ToneAlgo::tone_curve_response(light, curve, {std::exp2(stops)}, why))
-                throw CommandError(why);
-            cells.push_back(format_number(std::min(1.0, std::max(0.0, light[0]))));
-        }
-        session.print(join(cells, ","));
+    std::vector<double> light;
+    for (int i = first * per_stop; i <= last * per_stop; ++i)
+        light.push_back(std::exp2(double(i) / per_stop));
+    std::vector<Strings> rows(light.size());
+    for (size_t i = 0; i < rows.size(); ++i)
+        rows[i].push_back(format_number(double(first) + double(i) / per_stop));
+    for (const CurveOptions& curve : curves) {
+        std::vector<double> shown;
+        std::string why;
+        if (!ToneAlgo::tone_curve_response(shown, curve, light, why))
+            throw CommandError(why);
+        for (size_t i = 0; i < rows.size(); ++i)
+            rows[i].push_back(format_number(std::min(1.0, std::max(0.0, shown[i]))));
     }
+    for (const Strings& row : rows)
+        session.print(join(row, ","));
+}
+
+// Those of the registry, or the one that is asked for, with what is said of it.
+std::vector<ToneCurveInfo> listed_curves(const Call& call, std::vector<CurveOptions>& curves) {
+    const CurveOptions asked = curve_options(call, {"curve"});
+    if (!asked.coeffs.empty() && !call.has("curve"))
+        throw CommandError("coeffs= needs the curve= of a file here");
+    std::vector<ToneCurveInfo> all;
+    for (const ToneCurveInfo& row : ToneAlgo::tone_curves()) {
+        if (call.has("curve") && row.name != asked.name)
+            continue;
+        all.push_back(row);
+        curves.push_back(asked);
+        curves.back().name = row.name;
+    }
+    if (!all.empty())
+        return all;
+    std::string why;
+    all.emplace_back();
+    curves.push_back(asked);
+    if (!ToneAlgo::tone_curve_of_file(all.back(), asked, why))
+        throw CommandError(why);
+    return all;
 }
 
 void run_tonecurves(Session& session, const Call& call) {
-    if (call.flag("table", false))
-        print_table(session);
-    else
-        for (const ToneCurveInfo& curve : ToneAlgo::tone_curves())
+    std::vector<CurveOptions> curves;
+    const auto listed = listed_curves(call, curves);
+    if (call.flag("table", false)) {
+        Strings names;
+        for (const ToneCurveInfo& curve : listed)
+            names.push_back(curve.name);
+        print_table(session, names, curves);
+    } else {
+        for (const ToneCurveInfo& curve : listed)
             print_curve(session, curve);
+    }
     session.outcome.produced = true;
+}
+
+bool has_white(const CurveOptions& options) {
+    if (options.name.find_first_of("./") != std::string::npos)
+        return true; // a file
+    for (const ToneCurveInfo& curve : ToneAlgo::tone_curves())
+        for (const ToneCurveParameter& parameter : curve.parameters)
+            if (options.coeffs.empty() && curve.name == options.name && parameter.name == "white")
+                return true;
+    return false;
+}
+
+// white= of a curve that has no such parameter is that of the file.
+void take_white(const Call& call, LutOptions& options) {
+    const auto white = options.curve.parameters.find("white");
+    const bool of_file = OIIO::Strutil::iends_with(call.argument(0), ".acv");
+    if (!of_file || white == options.curve.parameters.end())
+        return;
+    options.white = white->second;
+    if (!has_white(options.curve))
+        options.curve.parameters.erase(white);
 }
 
 LutOptions lut_options(const Session& session, const Call& call) {
     LutOptions options;
-    check_one_way(call, "curve");
-    options.curve = curve_options(call, "curve");
+    check_one_way(call, {"curve"});
+    options.curve = curve_options(call, {"curve"});
     options.view = view_options(session, call);
     if (options.view && call.has("encode"))
         throw CommandError("encode= is of tone curves: a view has its own");
     read_options(call, options);
+    take_white(call, options);
     return options;
 }
 
@@ -168,14 +225,15 @@ void run_exportlut(Session& session, const Call& call) {
               format_number(made.max_error) + " mean " + format_number(made.mean_error));
     lines.add("grey-error max", made.grey_max_error);
     session.report(lines.text);
+    session.out.flush();
+    if (!session.settings.quiet)
+        for (const std::string& remark : made.remarks)
+            session.complaints() << call.row().label() << ": " << remark << std::endl;
 }
 
 // What a curve or a view is, for --tonemap and --exportlut.
 Modifiers display_modifiers(bool measured) {
-    return concatenated(
-        {{{"curve", "NAME", "tone curve (aces): " + join(ToneAlgo::tone_curve_names(), ", ")}},
-         curve_modifiers(measured),
-         view_modifiers()});
+    return concatenated({{curve_modifier("curve")}, curve_modifiers(measured), view_modifiers()});
 }
 
 // How an exposure is measured.
@@ -204,6 +262,7 @@ Rows tone_commands() {
         command("calibrate", "Multiply the colour by an exposure that is measured", run_calibrate)
             .images(1, 1)
             .modifiers(method_modifiers(), pixel_modifiers())
+            .modifier("show", join(calibration_parts(), "|"), calibration_parts_text())
             .measures_shots(need_of_calibration)
             .keeps_header(),
         command("tonemap", "HDR to a display, by a tone curve or an OpenColorIO view", run_tonemap)
@@ -222,7 +281,10 @@ Rows tone_commands() {
         command("tonecurves", "Print all tone curves: parameters, formulas, sources",
                 run_tonecurves)
             .in(Group::Print)
-            .modifier("table", "0|1", "as numbers: stops, and the light of each curve (0)"),
+            .modifiers(
+                Modifiers{curve_modifier("curve", "this one alone (all)")},
+                Modifiers{{"table", "0|1", "as numbers: stops, and the light of each curve (0)"}},
+                curve_modifiers(false)),
     };
 }
 

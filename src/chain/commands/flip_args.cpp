@@ -15,6 +15,8 @@ namespace tonetool::chain {
 
 namespace {
 
+const Strings kFlipCurve = {"tonemapper", "curve"};
+
 std::string choices(const Strings& names) {
     return join(names, "|");
 }
@@ -56,7 +58,7 @@ Modifiers pair_modifiers() {
 
 Modifiers hdr_modifiers() {
     return concatenated(
-        {{{"tonemapper", "NAME", "tone curve (aces): " + join(ToneAlgo::flip_tonemappers(), ", ")}},
+        {{curve_modifier("tonemapper"), {"curve", kCurveHint, "the same as tonemapper="}},
          curve_modifiers(false, true),
          view_modifiers(),
          modifiers_of<HdrFlipOptions>()});
@@ -128,10 +130,10 @@ void read_flip_options(const Session& session, const Call& call, bool screen,
 }
 
 void read_hdr_options(const Session& session, const Call& call, HdrFlipOptions& options) {
-    check_one_way(call, "tonemapper");
+    check_one_way(call, kFlipCurve);
     options.view = view_options(session, call);
     read_view_spaces(options.view, options.pixels);
-    options.curve = curve_options(call, "tonemapper");
+    options.curve = curve_options(call, kFlipCurve);
     read_options(call, options);
     if (!options.view && (call.has("encoding") || call.has("peak") || call.has("exact")))
         throw CommandError("encoding=, peak= and exact= need display= or view=");

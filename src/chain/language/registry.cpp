@@ -46,6 +46,11 @@ bool names_file(const std::string& hint) {
     return last == "FILE" || last == "FILENAME";
 }
 
+bool value_names_file(const Modifier& modifier, const std::string& value) {
+    return names_file(modifier.hint) &&
+           (modifier.hint != kCurveHint || value.find_first_of("./") != std::string::npos);
+}
+
 bool Command::writes() const {
     return group == Group::Check || (!args.empty() && args.front() == kLimitsArgument) ||
            (group == Group::Write && std::any_of(args.begin(), args.end(), names_file));

@@ -118,8 +118,13 @@ struct Command {
 /// An argument that is a file which a command of comparisons writes.
 inline constexpr char kLimitsArgument[] = "LIMITS";
 
+/// The hint of a modifier that is a file where it has a '.' or a '/', else a name.
+inline constexpr char kCurveHint[] = "NAME|FILE";
+
 /// Whether an argument or modifier of that name or hint is a file, or may be one.
 bool names_file(const std::string& hint);
+/// The same of a value of that modifier.
+bool value_names_file(const Modifier& modifier, const std::string& value);
 
 /// A row as it is written: command("label NAME", "Label the current image", label).images(1, 1).
 class Row {

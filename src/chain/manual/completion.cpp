@@ -35,7 +35,8 @@ Strings values_of(const Modifier& modifier) {
     Strings values;
     Strings words = split(modifier.hint, '|');
     const size_t list = modifier.help.rfind(": ");
-    if (modifier.hint == "NAME" && list != std::string::npos) {
+    const bool named = modifier.hint == "NAME" || modifier.hint == kCurveHint;
+    if (named && list != std::string::npos) {
         words.clear();
         for (const std::string& word : split(modifier.help.substr(list + 2), ','))
             words.push_back(word.substr(word.find_first_not_of(' ')));

@@ -71,9 +71,10 @@ void locate_files(Session& session, const Command& row, Token& token, Strings& a
             arguments[i] = session.file(arguments[i]);
     for (auto& [key, value] : token.modifiers) {
         for (const Modifier& modifier : row.modifiers) {
-            if (modifier.key == key && names_file(modifier.hint)) {
+            if (modifier.key == key && value_names_file(modifier, value)) {
                 const std::string path = session.file(value);
-                const bool layer = modifier.hint != "FILE" && !OIIO::Filesystem::is_regular(path);
+                const bool layer = modifier.hint != "FILE" && modifier.hint != kCurveHint &&
+                                   !OIIO::Filesystem::is_regular(path);
                 value = layer ? value : path;
             }
         }

@@ -12,15 +12,19 @@ namespace {
 struct NamedEncoding {
     const char* name;
     Encoding encode;
+    double (*decode)(double);
     const char* space;
 };
 
 const NamedEncoding kEncodings[] = {
-    {"none", [](float v) { return v; }, "lin_rec709"},
-    {"srgb", [](float v) { return float(linear_to_srgb(double(v))); }, "sRGB"},
-    {"gamma2.2", [](float v) { return std::pow(v, 1.0f / 2.2f); }, "GammaCorrected2.2"},
-    {"rec1886", [](float v) { return std::pow(v, 1.0f / 2.4f); }, "GammaCorrected2.4"},
-    {"gamma2.6", [](float v) { return std::pow(v, 1.0f / 2.6f); }, "GammaCorrected2.6"}};
+    {"none", [](float v) { return v; }, [](double v) { return v; }, "lin_rec709"},
+    {"srgb", [](float v) { return float(linear_to_srgb(double(v))); }, srgb_to_linear, "sRGB"},
+    {"gamma2.2", [](float v) { return std::pow(v, 1.0f / 2.2f); },
+     [](double v) { return std::pow(v, 2.2); }, "GammaCorrected2.2"},
+    {"rec1886", [](float v) { return std::pow(v, 1.0f / 2.4f); },
+     [](double v) { return std::pow(v, 2.4); }, "GammaCorrected2.4"},
+    {"gamma2.6", [](float v) { return std::pow(v, 1.0f / 2.6f); },
+     [](double v) { return std::pow(v, 2.6); }, "GammaCorrected2.6"}};
 
 // What colour is divided by.
 float divisor(const float* pixel, const ToneChannels& which) {
@@ -96,6 +100,13 @@ Encoding find_encoding(const std::string& name) {
     for (const NamedEncoding& entry : kEncodings)
         if (name == entry.name)
             return entry.encode;
+    return nullptr;
+}
+
+double (*find_decoding(const std::string& name))(double) {
+    for (const NamedEncoding& entry : kEncodings)
+        if (name == entry.name)
+            return entry.decode;
     return nullptr;
 }
 

@@ -51,6 +51,8 @@ void linearize_row(const ColorSpace& space, bool rec709, ToneRow& row, size_t co
 /// An encoding by its name, of display light >= 0; null: there is none of that name.
 using Encoding = float (*)(float);
 Encoding find_encoding(const std::string& name);
+/// What brings its code values >= 0 back to light; null: there is none of that name.
+double (*find_decoding(const std::string& name))(double);
 /// What `oiio:ColorSpace` says of Rec.709 so encoded.
 std::string space_of_encoding(const std::string& name);
 

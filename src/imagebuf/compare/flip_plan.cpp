@@ -54,11 +54,21 @@ bool is_reinhard(const CurvePlan& curve) {
            curve.use.saturation == 1;
 }
 
+// The smallest light that is shown bright; of the curves of the registry it is the largest.
+std::optional<double> bright_of_table(const CurvePlan& curve) {
+    if (curve.table->falls_at)
+        throw Refusal(format("curve \"{}\" falls at x = {:g}: HDR-FLIP needs one that rises",
+                             curve.name, *curve.table->falls_at));
+    return tonemap::first_reach(curve.numbers, flip::kAnchorValue);
+}
+
 // Few curves are run by the kernels themselves; the others come to them as rows.
 void show_through(const CurvePlan& curve, FlipPlan& plan) {
     flip::Evaluation& evaluation = plan.evaluation;
     const auto coeffs = curve.coeffs();
-    if (coeffs.empty()) {
+    if (curve.table) {
+        plan.bright = bright_of_table(curve);
+    } else if (coeffs.empty()) {
         plan.bright = flip::exposure_anchor([&](const std::vector<double>& values) {
             std::vector<double> shown;
             for (double x : values)
@@ -107,6 +117,19 @@ bool needs_median(const HdrFlipOptions& o) {
     return !o.stop_exposure && o.num_exposures != 1;
 }
 
+// Exposures that follow from the images need a grey that is shown bright.
+void check_bright(const FlipPlan& plan) {
+    const HdrFlipOptions& o = plan.hdr_options;
+    if (plan.curve.table && !plan.bright && (needs_max(o) || needs_median(o)))
+        throw Refusal(
+            format("curve \"{}\" makes of greys at most {:g}{}, so there is no automatic "
+                   "exposure: it must reach {} above x = 0, or pass startExposure and "
+                   "stopExposure",
+                   plan.curve.name, plan.curve.table->largest,
+                   plan.curve.table->largest < flip::kAnchorValue ? "" : ", also of black",
+                   flip::kAnchorValue));
+}
+
 } // namespace
 
 FlipPlan plan_ldr(const FlipOptions& options) {
@@ -123,6 +146,7 @@ FlipPlan plan_hdr(const HdrFlipOptions& options) {
     plan_common(options, plan);
     plan_tone(options, plan);
     check_options(options);
+    check_bright(plan);
     return plan;
 }
 
@@ -188,7 +212,7 @@ Exposures choose_exposures(const FlipPlan& plan, const metrics::ExposureStats& s
 
 void check_curve(const FlipPlan& plan, const Exposures& exposures, double largest) {
     const std::vector<double>& coeffs = plan.hdr_options.curve.coeffs;
-    if (!plan.hdr || plan.hdr_options.view || coeffs.empty())
+    if (!plan.hdr || plan.hdr_options.view || !is_rational(plan.hdr_options.curve))
         return;
     const double stops = *std::max_element(exposures.stops.begin(), exposures.stops.end());
     const double exposed = std::min(largest * std::exp2(stops), double(kernels::kLargestExposed));

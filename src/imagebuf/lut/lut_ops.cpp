@@ -89,7 +89,7 @@ void append_matrices(const LutSource& source, const LutShaper& shaper, int size,
     steps.group->appendTransform(lut_matrix(agx ? kernels::kAgxIn : kernels::kAcesHillIn, {}));
     append(steps.group, shaper.transform());
     steps.group->appendTransform(
-        lut_table(size, [&](int, double v) { return source.inner(shaper.light(v)); }));
+        lut_table(size, [&](int c, double v) { return source.inner(c, shaper.light(v)); }));
     steps.group->appendTransform(lut_matrix(agx ? kernels::kAgxOut : kernels::kAcesHillOut, {}));
     if (agx) {
         steps.group->appendTransform(lut_range(false));
@@ -112,7 +112,7 @@ void append_luminance(const LutSource& source, const LutShaper& shaper, int size
     steps.group->appendTransform(to);
     steps.group->appendTransform(shaper.channels({false, false, true}));
     steps.group->appendTransform(lut_table(size, [&](int c, double v) {
-        return c < 2 ? std::exp2(v) - 1 : source.inner(shaper.light(v));
+        return c < 2 ? std::exp2(v) - 1 : source.inner(0, shaper.light(v));
     }));
     steps.group->appendTransform(back);
     steps.group->appendTransform(out);
@@ -123,7 +123,7 @@ void append_luminance(const LutSource& source, const LutShaper& shaper, int size
 void append_table(const LutSource& source, const LutShaper& shaper, int size, LutSteps& steps) {
     append(steps.group, shaper.transform());
     steps.table = lut_table(
-        size, [&](int, double v) { return source.encoded(source.inner(shaper.light(v))); });
+        size, [&](int c, double v) { return source.encoded(source.inner(c, shaper.light(v))); });
     steps.group->appendTransform(steps.table);
     steps.structure = format("1D {}", size);
 }
@@ -133,7 +133,7 @@ void append_scene_table(const LutSource& source, const LutShaper& shaper, int si
                         LutSteps& steps) {
     append(steps.group, shaper.transform());
     steps.group->appendTransform(
-        lut_table(size, [&](int, double v) { return source.inner(shaper.light(v)); }));
+        lut_table(size, [&](int c, double v) { return source.inner(c, shaper.light(v)); }));
     append_display(source, steps.group);
     steps.structure = format("1D {}", size);
 }
@@ -205,12 +205,12 @@ LutSteps scene_steps(const LutSource& source, const LutShaper& shaper, int size,
     return steps;
 }
 
-LutSteps shaped_steps(const LutSource& source, const LutShaper& shaper, int size) {
+LutSteps shaped_steps(const LutSource& source, const LutShaper& shaper, int size, bool cube) {
     LutSteps steps;
-    if (source.structure() == Structure::Channel)
-        append_table(source, shaper, size_or(size, kTableSize), steps);
-    else
+    if (cube)
         append_cube(source, shaper, size_or(size, kCubeSize), steps);
+    else
+        append_table(source, shaper, size_or(size, kTableSize), steps);
     return steps;
 }
 

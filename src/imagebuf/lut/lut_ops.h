@@ -24,7 +24,7 @@ struct LutSteps {
 LutSteps scene_steps(const LutSource& source, const LutShaper& shaper, int size,
                      bool fixed_functions);
 /// For formats of one table: the group has the shaper, which their readers must do, and the table.
-LutSteps shaped_steps(const LutSource& source, const LutShaper& shaper, int size);
+LutSteps shaped_steps(const LutSource& source, const LutShaper& shaper, int size, bool cube);
 
 /// Khronos PBR neutral without a cube.
 void append_neutral(const LutShaper& shaper, int size, ocio::GroupTransform& group);

@@ -69,7 +69,7 @@ void LutSource::open_curve(const LutOptions& options) {
     m_encoding = find_encoding(options.encode);
     if (!m_encoding)
         throw Refusal(unknown_name("encoding", options.encode, ToneAlgo::display_encodings()));
-    m_curve = plan_curve(options.curve, false);
+    m_curve = plan_curve(options.curve, false, options.encode);
     m_structure = structure_of(m_curve);
     m_name = "tone curve " + described(m_curve);
     m_input = "linear Rec.709";
@@ -99,13 +99,13 @@ void LutSource::exact(float* rgb, ptrdiff_t count) const {
     }
 }
 
-double LutSource::inner(double x) const {
+double LutSource::inner(int channel, double x) const {
     kernels::CurveNumbers numbers = m_curve.numbers;
     if (numbers.kind == CurveKind::Agx)
         return agx_sigmoid(x);
     if (numbers.kind == CurveKind::AcesHill)
         numbers.kind = CurveKind::Rational;
-    return kernels::curve_reference(numbers, x);
+    return kernels::curve_reference(numbers, size_t(channel), x);
 }
 
 double LutSource::encoded(double light) const {

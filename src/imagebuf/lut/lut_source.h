@@ -27,7 +27,7 @@ public:
     /// Scene light to code values, packed RGB in place. Negative components count as 0.
     void exact(float* rgb, ptrdiff_t count) const;
     /// What is done to one channel, or to luminance: display light, neither clamped nor encoded.
-    double inner(double x) const;
+    double inner(int channel, double x) const;
     /// Display light of one channel, clamped and encoded.
     double encoded(double light) const;
 

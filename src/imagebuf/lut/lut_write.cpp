@@ -3,6 +3,7 @@
 
 #include <OpenImageIO/strutil.h>
 #include <algorithm>
+#include <array>
 #include <locale>
 #include <sstream>
 
@@ -18,7 +19,11 @@ std::string triple(const float (&v)[3]) {
 }
 
 std::vector<std::string> lines_of(const LutRemarks& remarks) {
-    return {remarks.title, "input: " + remarks.taken(), "result: " + remarks.output};
+    std::vector<std::string> lines = {remarks.title, "input: " + remarks.taken(),
+                                      "result: " + remarks.output};
+    if (!remarks.note.empty())
+        lines.push_back(remarks.note);
+    return lines;
 }
 
 std::string cube_text(const LutSteps& steps, const LutRemarks& remarks) {
@@ -48,12 +53,18 @@ std::string cube_text(const LutSteps& steps, const LutRemarks& remarks) {
 
 std::string spi1d_text(const LutSteps& steps, const LutRemarks& remarks) {
     const unsigned long n = steps.table->getLength();
-    std::string text = format("Version 1\nFrom 0 1\nLength {}\nComponents 1\n{{\n", n);
+    bool grey = true;
+    std::array<std::string, 2> tables; // of red alone, and of all
     for (unsigned long i = 0; i < n; ++i) {
         float v[3];
         steps.table->getValue(i, v[0], v[1], v[2]);
-        text += format("    {:.6g}\n", v[0]);
+        grey = grey && v[0] == v[1] && v[0] == v[2];
+        tables[0] += format("    {:.6g}\n", v[0]);
+        tables[1] += "    " + triple(v) + "\n";
     }
+    std::string text =
+        format("Version 1\nFrom 0 1\nLength {}\nComponents {}\n{{\n", n, grey ? 1 : 3);
+    text += tables[grey ? 0 : 1];
     text += "}\n";
     for (const std::string& line : lines_of(remarks))
         text += "# " + line + "\n";
@@ -104,7 +115,7 @@ void check_format(const std::string& format, const LutSource& source) {
                                       : "no format has the extension \"." + format + "\"") +
                       "; valid: ." + OIIO::Strutil::join(formats, ", ."));
     const bool per_channel = source.structure() == LutSource::Structure::Channel;
-    if (format == "spi1d" && !per_channel)
+    if (format == "spi1d" && !per_channel && !source.curve().use.on_luminance)
         throw Refusal(source.name() +
                       ": a .spi1d file has one table per channel, but this mixes the "
                       "channels; valid: .cube, .spi3d, .clf, .ctf");
@@ -122,7 +133,7 @@ std::string lut_text(const std::string& format, const LutSteps& steps, const Lut
 }
 
 std::vector<std::string> ToneAlgo::lut_formats() {
-    return {"cube", "spi1d", "spi3d", "clf", "ctf"};
+    return {"cube", "spi1d", "spi3d", "clf", "ctf", "acv"};
 }
 
 } // namespace tonetool

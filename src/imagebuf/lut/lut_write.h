@@ -13,6 +13,7 @@ namespace tonetool {
 struct LutRemarks {
     std::string title, input, output;
     std::string shaper; ///< a formula of x; empty: the file takes the input itself
+    std::string note;   ///< empty: none
     std::string taken() const { return shaper.empty() ? input : input + ", x, as " + shaper; }
 };
 

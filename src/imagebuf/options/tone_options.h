@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The fields of CalibrationOptions, TonemapOptions, LutOptions and LightOptions that are numbers,
-// names or switches.
+// The fields of CurveOptions, CalibrationOptions, TonemapOptions, LutOptions and LightOptions that
+// are numbers, names or switches.
 #pragma once
 
 #include "imagebuf/options/option.h"
@@ -10,6 +10,24 @@
 
 namespace tonetool {
 
+/// Of curves from files alone.
+template <class See>
+void describe(const CurveOptions&, See&& see) {
+    using O = CurveOptions;
+    see(option("curvename", "curve_name", &O::curve_name,
+               "which curve of a file with several camera responses; NAME is NAMERed, NAMEGreen "
+               "and NAMEBlue, too")
+            .shown_as("NAME")
+            .unset("the only one"));
+    see(option("tableinput", "table_input", &O::table_input,
+               "what x of a curve's file is; logarithms are of light")
+            .one_of({"linear", "log2", "log10"}));
+    see(option("tableoutput", "table_output", &O::table_output,
+               "what the results of a curve's file are; linear: display light, encoded: as the "
+               "picture is encoded, density: light is 10^-(D - Dmin)")
+            .one_of({"linear", "encoded", "density"}));
+}
+
 /// Which pixels are measured.
 inline std::vector<std::string> count_names() {
     return {"lit", "all"};
@@ -17,6 +35,16 @@ inline std::vector<std::string> count_names() {
 inline std::string count_text() {
     return "pixels that are measured; lit: neither black on the background nor of alpha 0, all: "
            "every finite one";
+}
+
+/// What calibrate() can show beside the picture.
+inline std::vector<std::string> calibration_parts() {
+    return {"mean", "key", "exposure"};
+}
+inline std::string calibration_parts_text() {
+    return "what the exposure is made of instead of the picture, in R, G and B alike: the mean, "
+           "the "
+           "key, or the factor";
 }
 
 template <class See>

@@ -95,19 +95,20 @@ void Calibration::take_shot() {
 
 void Calibration::expose(double mean) {
     m_summary.mean = mean;
-    m_summary.key =
-        m_options.method == CalibrationMethod::Mean ? m_options.key : tonemap::auto_key(mean);
+    m_summary.key = key_of(mean);
     m_summary.exposure = std::log2(factor_of(mean));
     m_factor = float(factor_of(mean));
 }
 
 double Calibration::factor_of(double mean) const {
     double factor = std::exp2(m_options.stops);
-    if (m_options.method == CalibrationMethod::Mean)
-        factor *= tonemap::gain(m_options.key, mean);
-    else if (m_options.method == CalibrationMethod::AutoKey)
-        factor *= tonemap::gain(tonemap::auto_key(mean), mean);
+    if (m_options.method != CalibrationMethod::Manual)
+        factor *= tonemap::gain(key_of(mean), mean);
     return factor;
+}
+
+double Calibration::key_of(double mean) const {
+    return m_options.method == CalibrationMethod::Mean ? m_options.key : tonemap::auto_key(mean);
 }
 
 void Calibration::measure(const ImageBuf& image, const PixelOptions& pixels, int nthreads) {
@@ -189,13 +190,47 @@ void Calibration::row(int y, int xbegin, int xend, float* out) const {
         std::fill(out, out + (xend - xbegin), m_factor);
         return;
     }
+    std::vector<double> means(static_cast<size_t>(xend - xbegin));
+    means_row(y, xbegin, xend, means.data());
+    std::transform(means.begin(), means.end(), out,
+                   [&](double mean) { return float(factor_of(mean)); });
+}
+
+// The mean that each pixel's exposure follows from.
+void Calibration::means_row(int y, int xbegin, int xend, double* out) const {
+    if (uniform()) {
+        std::fill(out, out + (xend - xbegin), m_summary.mean);
+        return;
+    }
     std::vector<double> means(size_t(m_region.width()));
     m_means->row(y - m_region.ybegin, means.data());
-    for (int x = xbegin; x < xend; ++x)
-        out[x - xbegin] = float(factor_of(means[size_t(x - m_region.xbegin)]));
+    std::copy_n(means.begin() + (xbegin - m_region.xbegin), xend - xbegin, out);
+}
+
+void Calibration::shown_row(int y, int xbegin, int xend, float* out) const {
+    if (m_options.show == "exposure") {
+        row(y, xbegin, xend, out);
+        return;
+    }
+    std::vector<double> means(static_cast<size_t>(xend - xbegin));
+    means_row(y, xbegin, xend, means.data());
+    const bool key = m_options.show == "key";
+    std::transform(means.begin(), means.end(), out,
+                   [&](double mean) { return float(key ? key_of(mean) : mean); });
 }
 
 namespace {
+
+void check_shown(const CalibrationOptions& options) {
+    const std::vector<std::string> parts = calibration_parts();
+    if (options.show.empty())
+        return;
+    if (std::find(parts.begin(), parts.end(), options.show) == parts.end())
+        throw Refusal(unknown_name("show", options.show, parts));
+    if (options.method == CalibrationMethod::Manual && options.show != "exposure")
+        throw Refusal("show=" + options.show +
+                      " needs a calibration by means: method mean or auto (valid: exposure)");
+}
 
 void scaled(ImageBuf& dst, const ImageBuf& src, const CalibrationOptions& options,
             const PixelOptions& pixels, ROI roi, int nthreads, CalibrationSummary* summary) {
@@ -206,19 +241,25 @@ void scaled(ImageBuf& dst, const ImageBuf& src, const CalibrationOptions& option
                       "): calibration needs linear values; convert it first or pass from=");
     if (options.white_percentile)
         throw Refusal("white is of tone curves: it belongs to tonemap");
+    check_shown(options);
     const ROI part = part_of(src, roi);
     Calibration calibration;
     calibration.make(src, pixels, options, nthreads);
     ImageBuf out = copy_pixels(src, part, nthreads);
     const OIIO::ImageSpec& spec = out.spec();
     auto* data = static_cast<float*>(out.localpixels());
+    const bool picture = options.show.empty();
     make_parallel(nthreads)(spec.height, [&](int64_t y) {
         std::vector<float> factors(static_cast<size_t>(spec.width));
-        calibration.row(spec.y + int(y), spec.x, spec.x + spec.width, factors.data());
+        const int xend = spec.x + spec.width;
+        if (picture)
+            calibration.row(spec.y + int(y), spec.x, xend, factors.data());
+        else
+            calibration.shown_row(spec.y + int(y), spec.x, xend, factors.data());
         float* pixel = data + y * spec.width * spec.nchannels;
         for (float factor : factors) {
             for (int c : channels_of(choice))
-                pixel[c] *= factor;
+                pixel[c] = picture ? pixel[c] * factor : factor;
             pixel += spec.nchannels;
         }
     });

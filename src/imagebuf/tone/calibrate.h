@@ -26,12 +26,16 @@ public:
     float factor() const { return m_factor; }
     /// Factors of the pixels [xbegin, xend) of a row of the image.
     void row(int y, int xbegin, int xend, float* out) const;
+    /// What options.show asks for, in their place.
+    void shown_row(int y, int xbegin, int xend, float* out) const;
 
 private:
     void measure(const OIIO::ImageBuf& image, const PixelOptions& pixels, int nthreads);
     void take_shot();
     void expose(double mean);
     double factor_of(double mean) const;
+    double key_of(double mean) const;
+    void means_row(int y, int xbegin, int xend, double* out) const;
     double cells_of(const float* plane, int nthreads) const;
     double keep_lit(const OIIO::ImageBuf& image, const ColorPlanes& planes,
                     std::vector<float>& luminance, int nthreads) const;

@@ -40,6 +40,8 @@ public:
 
     void run(ImageBuf& dst, ROI roi) {
         check_readable(m_src, "source");
+        if (!m_options.calibration.show.empty())
+            throw Refusal("show is of calibrate");
         find_channels();
         if (m_options.view)
             open_view();
@@ -109,7 +111,7 @@ private:
                                   ? " (white is what was measured)"
                                   : "");
             },
-            [&] { return plan_curve(curve, false); });
+            [&] { return plan_curve(curve, false, m_options.encode); });
         const bool by_channel = m_clip == tonemap::Clip::Channel;
         m_curve.use.clamp = m_options.clamp && by_channel;
         m_clips = m_options.clamp && !by_channel;
@@ -117,6 +119,7 @@ private:
             m_curve.use.weights = luminance_weights();
         summary.curve = m_curve.name;
         summary.parameters = m_curve.parameters;
+        summary.table = m_curve.table_text();
         summary.on = m_curve.on;
         summary.space = m_space.name;
         summary.calibration = m_calibration.summary();
@@ -153,7 +156,7 @@ private:
 
     void check_white() const {
         if (m_options.calibration.white_percentile && !has_parameter(m_options.curve, "white"))
-            throw Refusal((m_options.curve.coeffs.empty() ? m_options.curve.name : "coeffs") +
+            throw Refusal((is_rational(m_options.curve) ? "coeffs" : m_options.curve.name) +
                           ": has no parameter white that could be measured");
     }
 

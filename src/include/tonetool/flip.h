@@ -31,7 +31,9 @@ struct FlipOptions : PairOptions {
 struct HdrFlipOptions : FlipOptions {
     /// The curve; its defaults are the paper's (aces with a prescale of 0.6). Six coefficients are
     /// applied per channel unless `on` says otherwise, and refused where the curve has a pole or
-    /// does not increase between 0 and the largest exposed value of either image.
+    /// does not increase between 0 and the largest exposed value of either image. A curve from a
+    /// file must not fall for greys; exposures follow from the smallest light that it shows at
+    /// 0.85, by the mean of its channels, and encoded values are those of sRGB.
     CurveOptions curve;
     /// Instead of the curve: an OpenColorIO view, so that what is compared is what a viewer sees on
     /// this display. The view gets linear Rec.709 and its result is brought to linear display light

@@ -19,13 +19,30 @@
 
 namespace tonetool {
 
-/// A tone curve of the registry, or six coefficients.
+/// A tone curve of the registry, a measured one in a file, or six coefficients.
 struct CurveOptions {
-    std::string name = "aces"; ///< see ToneAlgo::tone_curves()
-    /// Parameters of the curve by name; the others have their defaults.
+    /// See ToneAlgo::tone_curves(). With a '.' or a '/' it is a file that holds a table, of x and
+    /// one result or R, G, B: .spi1d, .cube of one dimension, .csv (x,y or x,r,g,b), what
+    /// OpenColorIO reads as one table of one dimension (.clf), or camera responses as the text of
+    /// the DoRF database or of the EMoR model. Between its rows are straight lines, its ends are
+    /// held, and it is applied per channel.
+    std::string name = "aces";
+    /// Parameters of the curve by name; the others have their defaults. A file has `white` alone:
+    /// the scene light that is x = 1 in it (1).
     std::map<std::string, double> parameters;
+    /// Parameters with a value for each of R, G and B, of curves that can have them ("film").
+    std::map<std::string, std::vector<double>> channel_parameters;
     /// y = (k0 x^2 + k1 x + k2) / (k3 x^2 + k4 x + k5) (HDR-FLIP paper, Eq. 1) instead of the name.
+    /// Of an EMoR file: the weights of its base functions, as many as it has or fewer.
     std::vector<double> coeffs;
+    /// Which curve of a file with several camera responses. If there are NAMERed, NAMEGreen and
+    /// NAMEBlue (also with a '-' or '_'), NAME is all three.
+    std::string curve_name;
+    /// What x of a file is: "linear", or the logarithm "log2" or "log10" of light.
+    std::string table_input = "linear";
+    /// What a file's results are: "linear" display light; "encoded" as the picture will be, so that
+    /// they are decoded here; "density" D, light is 10^-(D - Dmin), Dmin the least of a channel.
+    std::string table_output = "linear";
     /// "rgb": apply the curve to each channel; "luminance": T(L) (C/L)^saturation; empty: as the
     /// curve was published. Curves that mix the channels (agx, neutral, aces-hill) have no choice.
     std::string on;
@@ -71,6 +88,10 @@ struct CalibrationOptions {
     /// Set the curve's parameter `white` to this percentile of the calibrated luminance: above 0 to
     /// 100, which is the maximum.
     std::optional<double> white_percentile;
+    /// Of calibrate(): what is written instead of the picture, in R, G and B alike. "exposure": the
+    /// factor that the colour is multiplied by; "mean": the mean that it follows from; "key": what
+    /// that mean becomes. Empty: the picture.
+    std::string show;
     /// The shot that the mean and the white are of, instead of the image. The mean is then of
     /// pixels with light, without an epsilon; a percentile below 100 is read from a histogram, by
     /// interpolation within half a stop.
@@ -112,6 +133,8 @@ struct TonemapSummary {
     std::string curve; ///< name, "coeffs", or "display/view"
     std::map<std::string, double> parameters;
     std::string on; ///< "rgb", "luminance", "color"
+    /// Of a curve from a file: "4096 rows of x 0 to 16, rising"; empty: it is of the registry.
+    std::string table;
     CalibrationSummary calibration;
     int64_t nonfinite = 0; ///< pixels with NaN or Inf in R, G or B
     int64_t negative = 0;  ///< pixels with a negative component where the curve works
@@ -122,7 +145,8 @@ struct TonemapSummary {
 struct ToneCurveParameter {
     std::string name, help;
     double value = 0, low = 0, high = 0;
-    double flip_value = 0; ///< the default in HDR-FLIP
+    double flip_value = 0;    ///< the default in HDR-FLIP
+    bool per_channel = false; ///< R, G and B may have values of their own
 };
 struct ToneCurveInfo {
     std::string name, title, source, formula, note;
@@ -165,7 +189,13 @@ TONETOOL_API bool calibrate(OIIO::ImageBuf& dst, const OIIO::ImageBuf& src,
 TONETOOL_API std::vector<ToneCurveInfo> tone_curves();
 TONETOOL_API std::vector<std::string> tone_curve_names();
 
-/// Display light of a grey of each of these exposed values, as the curve gives it, unclamped.
+/// A curve from a file as tone_curves() shows those of the registry: its note says how many rows it
+/// has, over which light, and whether it rises.
+TONETOOL_API bool tone_curve_of_file(ToneCurveInfo& info, const CurveOptions& curve,
+                                     std::string& error);
+
+/// Display light of a grey of each of these exposed values, as the curve gives it, unclamped; the
+/// mean where R, G and B have curves of their own.
 TONETOOL_API bool tone_curve_response(std::vector<double>& response, const CurveOptions& curve,
                                       const std::vector<double>& values, std::string& error);
 

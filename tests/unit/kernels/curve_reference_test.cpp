@@ -120,6 +120,24 @@ TEST(CurveReference, Uchimura) {
                 1.65553950390, kExact);
 }
 
+TEST(CurveReference, FilmHasItsSampleValues) {
+    const struct {
+        double x, y;
+    } samples[] = {{0.045, 0.00374}, {0.18, 0.0316}, {0.72, 0.268}, {2.88, 0.695}};
+    for (const auto& s : samples)
+        EXPECT_NEAR(at(s.x, "film") / s.y, 1, 2e-3) << s.x;
+    EXPECT_NEAR(at(0.18, "film"), std::pow(10, -1.5), kExact);
+    EXPECT_NEAR(at(0, "film"), 1e-3, kExact);
+    // The slope of the density at the middle is gamma; dmin is taken out again.
+    const double step = 1e-5;
+    const std::map<std::string, double> given = {
+        {"middle", 0.3}, {"gamma", 2.5}, {"dmin", 0.2}, {"dmax", 2.9}};
+    const double above = std::log10(at(0.3 * std::pow(10, step), "film", given));
+    const double below = std::log10(at(0.3 * std::pow(10, -step), "film", given));
+    EXPECT_NEAR((above - below) / (2 * step), 2.5, 1e-6);
+    EXPECT_NEAR(at(1e12, "film", given), 1, 1e-9);
+}
+
 TEST(CurveReference, CurvesThatMixChannels) {
     using Color = std::array<double, 3>;
     const struct {

@@ -9,6 +9,7 @@
 
 #include "curve_cases.h"
 #include "kernels/curve_reference.h"
+#include "kernels/curve_table.h"
 #include "kernels/tone_curve.h"
 #include "target.h"
 
@@ -214,6 +215,48 @@ TEST(CurveRowsWeights, MayBeZero) {
             EXPECT_NEAR(out[1][2], 0.25 * std::pow(2, saturation), 1e-6);
         });
     }
+}
+
+CurveNumbers table_of(size_t rows, bool log2) {
+    TableRows table;
+    table.log2 = log2;
+    for (size_t i = 0; i < rows; ++i) {
+        const double share = double(i) / double(rows - 1), bent = share * share;
+        table.x.push_back(log2 ? 24 * share - 16 : 0.01 + 12 * bent);
+        for (size_t c = 0; c < 3; ++c)
+            table.y[c].push_back(std::pow(share, 1 + 0.5 * double(c)));
+    }
+    CurveNumbers numbers;
+    numbers.kind = CurveKind::Table;
+    numbers.table = std::make_shared<CurveTable>(std::move(table));
+    return numbers;
+}
+
+// Any number of rows, not only powers of two, below, among and beyond them.
+TEST(CurveRowsTable, AreCloseToTheReferenceImplementation) {
+    for (size_t rows : {2, 3, 4, 5, 17, 256, 257, 65536})
+        for (bool log2 : {false, true}) {
+            const CurveCase one = {std::to_string(rows) + (log2 ? " rows, log2" : " rows"),
+                                   table_of(rows, log2), true};
+            for (const Planes& in : {greys(), colors()})
+                for (const CurveUse& use : {CurveUse(), uses(true)[1]})
+                    expect_close(one, use, in);
+        }
+}
+
+// Rows that float does not tell apart are a step, never a NaN.
+TEST(CurveRowsTable, HasStepsWhereRowsAreOneInFloat) {
+    CurveNumbers numbers;
+    numbers.kind = CurveKind::Table;
+    const std::vector<double> y = {0, 0.25, 0.75, 1};
+    numbers.table = std::make_shared<CurveTable>(TableRows{{0, 1, 1 + 1e-12, 2}, {y, y, y}, false});
+    const Planes in = {{{0, 1, 1.5f, 2, 1e15f}, {0, 1, 1.5f, 2, 1e15f}, {0, 1, 1.5f, 2, 1e15f}}};
+    on_every_target([&] {
+        const Planes out = rows_of(numbers, CurveUse(), in);
+        const float expected[] = {0, 0.75f, 0.875f, 1, 1};
+        for (size_t i = 0; i < 5; ++i)
+            EXPECT_NEAR(out[1][i], expected[i], 1e-6) << i;
+    });
 }
 
 INSTANTIATE_TEST_SUITE_P(Registry, CurveRows, testing::ValuesIn([] {

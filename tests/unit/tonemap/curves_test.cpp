@@ -110,10 +110,14 @@ TEST(Curves, NeverFall) {
 TEST(Curves, KeepBlackBlack) {
     for (const Curve& row : all_curves())
         for (const auto& one : kernels::cases_of(row)) {
-            const bool lifted = one.numbers.kind == kernels::CurveKind::Uchimura &&
-                                one.numbers.p[5] > 0; // the pedestal
+            const auto& p = one.numbers.p;
+            double black = 0;
+            if (one.numbers.kind == kernels::CurveKind::Uchimura)
+                black = p[5]; // the pedestal
+            else if (one.numbers.kind == kernels::CurveKind::Film)
+                black = std::pow(10, p[2] - p[3]); // its densest
             const double y = std::max(curve_reference(one.numbers, 0), 0.0);
-            EXPECT_EQ(y, lifted ? one.numbers.p[5] : 0) << one.what;
+            EXPECT_DOUBLE_EQ(y, black) << one.what;
         }
 }
 
