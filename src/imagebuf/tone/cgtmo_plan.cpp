@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "imagebuf/options/cgtmo_options.h"
+#include "imagebuf/options/shot_options.h"
 #include "imagebuf/options/tone_options.h"
 #include "imagebuf/pixels/names.h"
 #include "metrics/refusal.h"
@@ -98,7 +99,10 @@ void plan_filter(const CgTmoOptions& o, LocalPlan& plan) {
 CgTmoOptions with_preset(const CgTmoOptions& options) {
     check_options(options);
     check_options(options.lights);
+    check_options(options.adapt);
     CgTmoOptions o = options;
+    if (o.method == "camera" && !o.lwa.empty())
+        throw Refusal("lwa and method=camera both say what the adaptation luminance is: say one");
     if (o.preset.empty())
         o.preset = o.filter == "guided" ? "default" : "classic";
     const Preset& preset = *std::find_if(std::begin(kPresets), std::end(kPresets),
@@ -114,7 +118,8 @@ CgTmoOptions with_preset(const CgTmoOptions& options) {
     o.lumsigma = o.lumsigma.value_or(o.base == "edges" ? 0 : preset.lumsigma);
     o.samples = o.samples.value_or(preset.samples);
     fill(o.count, preset.count);
-    fill(o.lwa, preset.lwa);
+    if (o.method != "camera")
+        fill(o.lwa, preset.lwa);
     fill(o.maximum, preset.maximum);
     o.max_percentile = o.max_percentile.value_or(preset.max_percentile);
     return o;

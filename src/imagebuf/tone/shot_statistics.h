@@ -22,10 +22,16 @@ inline bool adapts(const AdaptOptions& options) {
 struct ShotLight {
     ShotExposure exposure;
     double white = 0; ///< 0: no percentile was asked for
+    /// The least and the largest unit in the headers of the frames between the cuts; 0: none says.
+    double least_unit = 0, largest_unit = 0;
 };
 
 /// Refuses what is wrong with the options, the file or the frame.
 ShotLight light_of_shot(const AdaptOptions& options, std::optional<double> white_percentile = {});
+
+/// Refuses a unit that nothing needs: not of an image whose `method` needs none, in a shot of this
+/// mode or in none.
+void check_unit(const AdaptOptions& options, const std::string& mode, const std::string& method);
 
 /// "eye of frames 1 to 8".
 std::string shot_words(const ShotExposure& exposure);
