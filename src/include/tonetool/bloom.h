@@ -63,7 +63,7 @@ namespace ToneAlgo {
 ///   Red, green and blue have wavelengths of 611, 549 and 467 nm; a grey image has that of green.
 /// NaN, Inf: such pixels stay as they are and give no light; they are counted and warned about.
 ///   Negative components stay, too, and give none. Results do not depend on the ROI or threads to
-///   the bit; takes about 150 bytes a pixel where light goes as far as the image is wide.
+///   the bit; takes about 70 bytes a pixel beside the image where light goes as far as it is wide.
 /// Errors: no colour, deep and display-encoded images, unknown names, values out of range, options
 ///   of the other psf, each with what would be valid.
 TONETOOL_API bool bloom(OIIO::ImageBuf& dst, const OIIO::ImageBuf& src,
