@@ -146,8 +146,12 @@ LocalPlan plan_local(const CgTmoOptions& o) {
 }
 
 kernels::TapSets taps_of(const LocalPlan& plan, double sigma) {
+    // A mean of few samples shows where they change: it should not do so in columns. The other
+    // bases keep the pictures that they made.
+    const bool shows = plan.filter == BaseFilter::Guided && !plan.what.edges;
     if (plan.what.terms.in_steps)
-        return {tonemap::poisson_sets(plan.half, plan.samples), sigma};
+        return {tonemap::poisson_sets(plan.half, plan.samples), sigma,
+                shows ? kernels::RunOrigin::Hashed : kernels::RunOrigin::FirstColumn};
     return {{kernels::whole_window(plan.half)}, sigma};
 }
 
