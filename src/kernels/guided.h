@@ -66,25 +66,36 @@ struct Tap {
 };
 
 /// Pixels of a row that share one set of offsets. Runs begin at its multiples, counted from the
-/// first column of the image.
+/// origin of the row.
 inline constexpr int kGuidedRun = 64;
+
+/// Where the first run of a row begins: at the first column of the image, or up to a run before it,
+/// by a hash of the row, so that neighbouring rows do not change their sets at the same columns.
+enum class RunOrigin { FirstColumn, Hashed };
 
 /// The offsets that are sampled: one set for all pixels, or several sets among which a hash of the
 /// pixel's coordinates chooses, so that results do not depend on tiles or regions.
 class TapSets {
 public:
     /// `sets`: 1 or 64 of them, each with (0, 0); sigma in pixels.
-    TapSets(const std::vector<std::vector<Offset>>& sets, double sigma);
+    TapSets(const std::vector<std::vector<Offset>>& sets, double sigma,
+            RunOrigin origin = RunOrigin::FirstColumn);
 
     const std::vector<Tap>& at(int x, int y) const { return m_sets[choice(x, y)]; }
     int half() const { return m_half; } ///< largest |dx|, |dy|
     double sigma() const { return m_sigma; }
+    /// The first column of the run that a pixel is in; it may be outside the image.
+    int run_of(int x, int y) const { return x - (x + origin(y)) % kGuidedRun; }
+    /// How far before the multiples of a run's length they may begin.
+    int most_before() const { return m_origin == RunOrigin::Hashed ? kGuidedRun : 0; }
 
 private:
+    int origin(int y) const;
     size_t choice(int x, int y) const;
 
     std::vector<std::vector<Tap>> m_sets;
     double m_sigma;
+    RunOrigin m_origin;
     int m_half = 0;
 };
 

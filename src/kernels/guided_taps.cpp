@@ -7,7 +7,9 @@
 
 namespace tonetool::kernels {
 
-TapSets::TapSets(const std::vector<std::vector<Offset>>& sets, double sigma) : m_sigma(sigma) {
+TapSets::TapSets(const std::vector<std::vector<Offset>>& sets, double sigma, RunOrigin origin)
+    : m_sigma(sigma),
+      m_origin(origin) {
     const double log2_of_step = -1 / (2 * sigma * sigma * std::log(2.0));
     for (const auto& set : sets) {
         std::vector<Tap>& taps = m_sets.emplace_back();
@@ -23,14 +25,27 @@ TapSets::TapSets(const std::vector<std::vector<Offset>>& sets, double sigma) : m
     }
 }
 
+namespace {
+
 // Rounds of a multiplicative hash, of which the upper bits are the good ones.
+size_t hashed(uint32_t h, size_t below) {
+    h = (h ^ (h >> 15)) * 0x2c1b3c6du;
+    h = (h ^ (h >> 12)) * 0x297a2d39u;
+    return size_t(h >> 16) % below;
+}
+
+} // namespace
+
+int TapSets::origin(int y) const {
+    return m_origin == RunOrigin::Hashed ? int(hashed(uint32_t(y) * 0xc2b2ae35u + 1, kGuidedRun))
+                                         : 0;
+}
+
 size_t TapSets::choice(int x, int y) const {
     if (m_sets.size() == 1)
         return 0;
-    uint32_t h = uint32_t(x / kGuidedRun) * 0x9e3779b1u + uint32_t(y) * 0x85ebca6bu;
-    h = (h ^ (h >> 15)) * 0x2c1b3c6du;
-    h = (h ^ (h >> 12)) * 0x297a2d39u;
-    return size_t(h >> 16) % m_sets.size();
+    const auto run = uint32_t((x + origin(y)) / kGuidedRun);
+    return hashed(run * 0x9e3779b1u + uint32_t(y) * 0x85ebca6bu, m_sets.size());
 }
 
 std::vector<Offset> whole_window(int half) {

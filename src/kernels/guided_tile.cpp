@@ -21,7 +21,7 @@ ptrdiff_t run_columns(int columns) {
 
 ptrdiff_t pitch_of(const TapSets& taps, int columns) {
     // A vector is written beyond the last column.
-    return run_columns(columns) + 2 * whole_lines(taps.half()) + kLine;
+    return run_columns(columns) + 2 * taps.most_before() + 2 * whole_lines(taps.half()) + kLine;
 }
 
 size_t floats(const GuidedLayout& layout, const TapSets& taps) {
@@ -76,8 +76,10 @@ void GuidedTile::prepare(int y, int x0, int columns) {
 
 // Calls run() on the rows of a window while those around them are prepared.
 void GuidedTile::each_row(const Window& window, const std::function<void(int y, int x0)>& run) {
-    const int half = m_taps.half(), x0 = window.x0 / kGuidedRun * kGuidedRun;
-    const int runs = (window.x0 + window.width - x0 + kGuidedRun - 1) / kGuidedRun;
+    const int half = m_taps.half(), before = m_taps.most_before();
+    const int x0 = window.x0 / kGuidedRun * kGuidedRun - before;
+    const int end = window.x0 + window.width + before;
+    const int runs = (end - x0 + kGuidedRun - 1) / kGuidedRun;
     for (int y = window.y0 - half; y < window.y0 + half; ++y)
         prepare(y, x0, runs * kGuidedRun);
     for (int y = window.y0; y < window.y0 + window.height; ++y) {
@@ -122,10 +124,11 @@ void GuidedTile::filter_row(int y, const Window& window, int x0, float* out, flo
     const int end = window.x0 + window.width;
     const float* const values = m_image.value + (y - m_image.first_row) * m_image.stride;
     const float* const range = m_image.range ? m_image.range + (values - m_image.value) : nullptr;
-    for (int x = x0; x < end; x += kGuidedRun) {
-        const auto& taps = m_taps.at(x, y);
+    const int first = m_taps.run_of(window.x0, y);
+    for (int x = first; x < end; x += kGuidedRun) {
+        const auto& taps = m_taps.at(std::max(x, 0), y);
         if (y + 1 < window.y0 + window.height)
-            fetch(y + m_taps.half() + 1, x, x == x0, x + kGuidedRun >= end);
+            fetch(y + m_taps.half() + 1, x, x == first, x + kGuidedRun >= end);
         const GuidedRun run{m_table.data() + m_taps.half(), x - x0, m_layout.pitch, taps.data(),
                             ptrdiff_t(taps.size())};
         if (variance)

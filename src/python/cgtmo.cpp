@@ -96,7 +96,10 @@ void add_results(Module& module) {
         .field("depth", &S::depth, "Layer that was used; \"\": none.")
         .field("adaptation", &S::adaptation, "Lwa.")
         .field("maximum", &S::maximum, "Lmax.")
-        .field("adaptation_from", &S::adaptation_from, "\"lwa\", \"env\", \"shot\", \"image\".")
+        .field("adaptation_from", &S::adaptation_from,
+               "\"lwa\", \"camera\", \"env\", \"shot\", \"image\".")
+        .field("unit", &S::unit, "cd/m2 of a pixel value of 1, with a camera; else 0.")
+        .field("ev100", &S::ev100, "Exposure value of the camera at ISO 100; None: no camera.")
         .field("maximum_from", &S::maximum_from,
                "\"lmax\", \"lights\", \"groups\", \"env\", \"shot\", \"image\".")
         .field("adapted", &S::adapted, "Which shot that is; \"\": none.")

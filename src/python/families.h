@@ -15,6 +15,7 @@ void add_bias(Module& module);
 void add_errors(Module& module);
 void add_tmqi(Module& module);
 void add_shot(Module& module);
+void add_bloom(Module& module);
 void add_tonemap(Module& module);
 void add_curves(Module& module);
 void add_cgtmo(Module& module);

@@ -34,6 +34,7 @@ void add_everything(Module& module) {
     add_tmqi(module);
     add_shot(module);
     add_tonemap(module);
+    add_bloom(module);
     add_curves(module);
     add_cgtmo(module);
     add_lights(module);

@@ -68,12 +68,14 @@ const Table<CalibrationOptions>& table_of<CalibrationOptions>() {
             {{field<O>(
                  "method", &O::method,
                  "\"manual\": 2^stops; \"mean\": key / geometric mean; \"auto\": the same with the "
-                 "key by the mean (Krawczyk et al. 2005).")},
+                 "key by the mean in cd/m2 (Krawczyk et al. 2005); \"camera\": by a camera's "
+                 "settings "
+                 "(ISO 12232).")},
              described<O, CalibrationOptions>(),
              {field<O>("white_percentile", &O::white_percentile,
                        "The curve's parameter `white` from this percentile of the calibrated "
                        "luminance; 100: the maximum."),
-              field<O>("adapt", &O::adapt, "The shot that is measured; None: the image.")}})};
+              field<O>("adapt", &O::adapt, "The shot that is measured, and the unit; None: the image.")}})};
     return table;
 }
 

@@ -77,6 +77,8 @@ void add_results(Module& module) {
         .field("key", &C::key, "That was used; 0: none was.")
         .field("exposure", &C::exposure, "Stops, of the whole image.")
         .field("white", &C::white, "0: none was asked for.")
+        .field("unit", &C::unit, "cd/m2 of a pixel value of 1; 0: none was needed.")
+        .field("ev100", &C::ev100, "Exposure value of the camera at ISO 100; None: no camera.")
         .field("pixels", &C::pixels, "That the statistics are of.")
         .field("adapted", &C::adapted, "Which shot it was measured on; \"\": on the image.")
         .field("warnings", &C::warnings, "What a user must know, one sentence each.")

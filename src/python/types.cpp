@@ -149,7 +149,7 @@ const std::vector<std::string>& names_of<AlphaPolicy>() {
 
 template <>
 const std::vector<std::string>& names_of<CalibrationMethod>() {
-    static const std::vector<std::string> names = {"manual", "mean", "auto"};
+    static const std::vector<std::string> names = {"manual", "mean", "auto", "camera"};
     return names;
 }
 

@@ -13,7 +13,7 @@ namespace tonetool::tonemap {
 /// The lower limit of the mean and of key / mean, as in the article.
 inline constexpr double kLeastMean = 1e-3, kLeastGain = 1e-4;
 
-/// The key of an image of this geometric mean, meant for cd/m2: 1.03 - 2 / (2 + log10(1 + mean)).
+/// The key of an image of this geometric mean in cd/m2: 1.03 - 2 / (2 + log10(1 + mean)).
 double auto_key(double mean);
 
 /// key / mean with the limits above.

@@ -111,6 +111,29 @@ def test_calibrate(pair, program, tmp_path):
     assert same(found.image, tmp_path / "picture.exr") and found.summary.key > 0
 
 
+def test_camera(pair, program, tmp_path):
+    ref_file, _, ref, _ = pair
+    camera = {"method": "camera", "fnumber": 2.8, "shutter": 0.02, "iso": 400}
+    words = ":".join(f"{name}={value}" for name, value in camera.items())
+    program(ref_file, f"--calibrate:{words}:unit=50", "-d", "float", "-o", "picture.exr")
+    found = tonetool.calibrate(ref, **camera, adapt={"unit": 50})
+    assert same(found.image, tmp_path / "picture.exr")
+    assert found.summary.ev100 == pytest.approx(np.log2(100 * 2.8 ** 2 / (400 * 0.02)))
+    assert found.summary.unit == 50 and tonetool.calibrate(ref).summary.ev100 is None
+    local = tonetool.cg_tmo(ref, **camera, adapt={"unit": 50}).summary
+    assert local.adaptation_from == "camera" and local.ev100 == found.summary.ev100
+
+
+def test_bloom(pair, program, tmp_path):
+    ref_file, _, ref, _ = pair
+    program(ref_file, "--bloom:threshold=2s:amount=0.5:vision=mesopic:fov=50", "-d", "float", "-o",
+            "picture.exr")
+    found = tonetool.bloom(ref, threshold="2s", amount=0.5, vision="mesopic", fov=50, nthreads=2)
+    assert same(found.image, tmp_path / "picture.exr")
+    assert found.summary.threshold == pytest.approx(4 * found.summary.lwa)
+    assert 0 < found.summary.kept < 1 and found.summary.spreading > 0
+
+
 def test_exposure(pair, program, tmp_path):
     ref_file, _, ref, _ = pair
     program(ref_file, "--exposure", "-1.25", "-d", "float", "-o", "picture.exr")

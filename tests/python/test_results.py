@@ -107,6 +107,7 @@ MAKERS = {
     "shot_exposure": lambda: tonetool.shot_exposure(read_shot(), mode="smooth", frame=1),
     "tonemap": lambda: tonetool.tonemap(cornell()[0], curve="agx", calibration="mean"),
     "calibrate": lambda: tonetool.calibrate(cornell()[0], method="mean"),
+    "bloom": lambda: tonetool.bloom(cornell()[0], threshold="2s"),
     "cg_tmo": lambda: tonetool.cg_tmo(cornell()[0]),
     "luminance_stats": lambda: tonetool.luminance_stats(cornell()[0]),
     "find_color": lambda: tonetool.find_color(cornell()[0]),

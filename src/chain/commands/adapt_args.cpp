@@ -8,12 +8,13 @@ namespace tonetool::chain {
 
 namespace {
 
-void measure_light(const Session& session, const OIIO::ImageBuf& image,
-                   const PixelOptions& pixels) {
+void measure_light(const Session& session, const OIIO::ImageBuf& image, const PixelOptions& pixels,
+                   std::optional<double> unit) {
     FrameLight& light = *session.shot.light;
     std::string why;
     if (!ToneAlgo::frame_light(light, image, why, pixels))
         throw CommandError(why);
+    light.unit = unit.value_or(light.unit);
     light.frame = session.frame.number;
     light.view = session.frame.view;
     throw EndOfRun();
@@ -22,9 +23,10 @@ void measure_light(const Session& session, const OIIO::ImageBuf& image,
 // Modifiers that say how a shot is followed, where none is.
 void refuse_without_shot(const Call& call) {
     describe(AdaptOptions(), [&](const auto& row) {
-        if (std::string(row.key) != "adapt" && call.has(row.key))
-            throw CommandError(std::string(row.key) + "= is of adapt=shot, eye, smooth or FILE: "
-                                                      "here each image has its own exposure");
+        const std::string key = row.key; // the unit may be that of one image
+        if (key != "adapt" && key != "unit" && call.has(key))
+            throw CommandError(key + "= is of adapt=shot, eye, smooth or FILE: "
+                                     "here each image has its own exposure");
     });
 }
 
@@ -41,7 +43,7 @@ void adapt_to_shot(Session& session, const Call& call, const OIIO::ImageBuf& ima
     if (by_mode && (call.has("mode") || call.has("frame")))
         throw CommandError("mode= and frame= are of adapt=FILE, this is adapt=" + options.adapt);
     if (shot.light && shot.at == call.at)
-        measure_light(session, image, pixels);
+        measure_light(session, image, pixels, options.unit);
     if (const auto found = shot.measured.find(call.at); found != shot.measured.end()) {
         options.statistics = found->second;
         options.frame = session.frame.number;

@@ -48,6 +48,10 @@ void report_summary(Session& session, const std::string& label, const CgTmoSumma
     line("light-index", found.light_index.empty() ? "none" : found.light_index);
     line("adaptation", format_number(found.adaptation));
     line("adaptation-from", found.adaptation_from);
+    if (found.ev100) {
+        line("unit", format_number(found.unit));
+        line("ev100", format_number(*found.ev100));
+    }
     line("maximum", format_number(found.maximum));
     line("maximum-from",
          found.maximum_from + (found.maximum_light.empty() ? "" : " " + found.maximum_light));

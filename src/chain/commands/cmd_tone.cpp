@@ -25,6 +25,9 @@ void add_calibration(Lines& lines, const CalibrationSummary& found) {
         lines.add("key", found.key);
     }
     lines.add("exposure", found.exposure);
+    lines.add_positive("unit", found.unit);
+    if (found.ev100)
+        lines.add("ev100", *found.ev100);
     lines.add_positive("white", found.white);
     if (!found.adapted.empty())
         lines.add("adapted", found.adapted);
@@ -238,9 +241,9 @@ Modifiers display_modifiers(bool measured) {
 
 // How an exposure is measured.
 Modifiers method_modifiers() {
-    return concatenated({{{"method", "manual|mean|auto",
+    return concatenated({{{"method", "manual|mean|auto|camera",
                            "exposure: stops alone, from the geometric mean, with a key from the "
-                           "mean (manual)"}},
+                           "mean in cd/m2, by a camera (manual)"}},
                          modifiers_of<CalibrationOptions>(),
                          modifiers_of<AdaptOptions>()});
 }

@@ -31,6 +31,7 @@ void add_measuring_commands() {
     add_commands(Group::Measure, qc_commands(), own);
     add_commands(Group::Measure, against_commands(), own);
     add_commands(Group::Color, exposure_commands(), own);
+    add_commands(Group::Color, bloom_commands(), own);
     add_commands(Group::Color, tone_commands(), own);
     add_commands(Group::Color, cgtmo_commands(), own);
     add_commands(Group::Channels, light_commands(), own);

@@ -33,6 +33,7 @@ Rows noise_floor_commands();
 Rows qc_commands();
 Rows against_commands();
 Rows exposure_commands();
+Rows bloom_commands();
 Rows tone_commands();
 Rows cgtmo_commands();
 Rows light_commands();

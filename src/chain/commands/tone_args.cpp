@@ -165,10 +165,11 @@ void check_one_way(const Call& call, const Strings& keys) {
 
 CalibrationOptions calibration_options(const Call& call) {
     CalibrationOptions options;
-    auto method = call.choice("method", {"manual", "mean", "auto"}).value_or("manual");
-    options.method = method == "mean"   ? CalibrationMethod::Mean
-                     : method == "auto" ? CalibrationMethod::AutoKey
-                                        : CalibrationMethod::Manual;
+    auto method = call.choice("method", {"manual", "mean", "auto", "camera"}).value_or("manual");
+    options.method = method == "mean"     ? CalibrationMethod::Mean
+                     : method == "auto"   ? CalibrationMethod::AutoKey
+                     : method == "camera" ? CalibrationMethod::Camera
+                                          : CalibrationMethod::Manual;
     if (call.has("key") && options.method != CalibrationMethod::Mean)
         throw CommandError("key= is of a calibration by mean, this one is " + method);
     read_options(call, options);

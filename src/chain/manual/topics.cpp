@@ -148,11 +148,16 @@ const char* const kTonemap = R"(Showing an HDR picture
   tonetool picture.exr --tonemap:curve=agx -o picture.png
   tonetool picture.exr --tonemap:curve=agx:method=mean -o picture.png
   tonetool picture.exr --tonemap:curve=hable:stops=2 -o picture.png
+  tonetool picture.exr --tonemap:method=camera:fnumber=16:shutter=0.008:iso=100 -o picture.png
   tonetool picture.exr --cgtmo -o picture.png
+  tonetool picture.exr --bloom:threshold=6s --cgtmo -o picture.png
 
 curve= is one of the tone curves that --tonecurves lists; stops= sets the exposure, method=mean
-measures it, method=auto its key, too. The result is sRGB-encoded (encode= takes others) and clamped
-to 0 to 1. --cgtmo is a local tone mapper for rendered images: position, normal and albedo guide it.
+measures it, method=auto its key, too, and method=camera exposes as a camera does, by its settings or
+the header's. Both need to know what a pixel value of 1 is in cd/m2: unit=, else the header's
+whiteLuminance, else 1. The result is sRGB-encoded (encode= takes others) and clamped to 0 to 1.
+--cgtmo is a local tone mapper for rendered images: position, normal and albedo guide it. --bloom
+spreads bright light as the eye does, in linear light: before the tone mapping.
 A view of an OpenColorIO configuration instead of a curve: --help ocio. --tmqi scores the result.
 )";
 

@@ -2,6 +2,7 @@
 // The fields of CgTmoOptions, but for the pixels and the lights, which are structs of their own.
 #pragma once
 
+#include "imagebuf/options/camera_options.h"
 #include "imagebuf/options/option.h"
 #include "imagebuf/options/tone_options.h"
 #include "tonetool/cgtmo.h"
@@ -92,6 +93,11 @@ template <class See>
 void describe_curve(See&& see) {
     using O = CgTmoOptions;
     see(option("count", &O::count, count_text()).one_of(count_names()).unset("the preset's"));
+    see(option("method", &O::method,
+               "where the adaptation luminance comes from; measured: as lwa says, camera: what a "
+               "camera of these settings is exposed for")
+            .one_of({"measured", "camera"}));
+    describe(CameraOptions(), see);
     see(option("lwa", &O::lwa,
                "adaptation luminance: geometric, harmonic, arithmetic or median of the panorama "
                "(of the image without one), cells: of the means of cells of the image, or a number")

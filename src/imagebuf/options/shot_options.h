@@ -28,7 +28,10 @@ void describe(const AdaptOptions&, See&& see) {
     see(option("fps", &O::fps, "frames per second, for adapt=eye and smooth")
             .within(1e-3, 1e5)
             .unset("the header's, or 24"));
-    see(option("unit", &O::unit, "cd/m2 of a pixel value of 1, for adapt=eye")
+    see(option(
+            "unit", &O::unit,
+            "cd/m2 of a pixel value of 1, for method=auto and camera and for adapt=eye; 179 where "
+            "1 is 1 W/(m2 sr) of white light")
             .positive()
             .unset("the header's whiteLuminance, or 1"));
     see(option("cuts", &O::cuts,

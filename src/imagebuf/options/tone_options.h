@@ -3,6 +3,7 @@
 // are numbers, names or switches.
 #pragma once
 
+#include "imagebuf/options/camera_options.h"
 #include "imagebuf/options/option.h"
 #include "tonetool/lights.h"
 #include "tonetool/lut.h"
@@ -58,6 +59,7 @@ void describe(const CalibrationOptions&, See&& see) {
     see(option("level", &O::level,
                "local means over 2^N x 2^N cells of the image; 0: one mean for the image")
             .within(0, 20));
+    describe(CameraOptions(), see);
     see(option("count", &O::count, count_text())
             .one_of(count_names())
             .unset("lit; with skipblack or skiptransparent: all"));

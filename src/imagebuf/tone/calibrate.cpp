@@ -7,12 +7,14 @@
 #include <limits>
 
 #include "imagebuf/color/luminance_plane.h"
+#include "imagebuf/options/shot_options.h"
 #include "imagebuf/options/tone_options.h"
 #include "imagebuf/pixels/checks.h"
 #include "imagebuf/pixels/guard.h"
 #include "imagebuf/pixels/parallel.h"
 #include "imagebuf/pixels/row_source.h"
 #include "imagebuf/tone/counted_pixels.h"
+#include "imagebuf/tone/header_light.h"
 #include "imagebuf/tone/shot_statistics.h"
 #include "metrics/order_statistics.h"
 #include "metrics/refusal.h"
@@ -25,15 +27,37 @@ using OIIO::ImageBuf;
 using OIIO::ROI;
 using OIIO::Strutil::fmt::format;
 
+std::string name_of(CalibrationMethod method) {
+    constexpr const char* names[] = {"manual", "mean", "auto", "camera"};
+    return names[size_t(method)];
+}
+
+bool needs_unit(const CalibrationOptions& options) {
+    return options.method == CalibrationMethod::AutoKey ||
+           options.method == CalibrationMethod::Camera;
+}
+
+double unit_of(const ShotLight& shot) {
+    if (shot.least_unit != shot.largest_unit)
+        throw Refusal(format("adapt: the whiteLuminance of the frames is {} to {} (valid: unit=X)",
+                             shot.least_unit, shot.largest_unit));
+    return shot.largest_unit;
+}
+
 void check(const CalibrationOptions& options, const ImageBuf& image) {
     const OIIO::ImageSpec& spec = image.spec();
     const int most = tonemap::LocalMeans::most_levels(spec.width, spec.height);
     if (options.level < 0 || options.level > most)
         throw Refusal(format("level is {}: must be 0 to {} for an image of {} x {} pixels",
                              options.level, most, spec.width, spec.height));
-    if (options.level > 0 && options.method == CalibrationMethod::Manual)
+    const bool by_mean =
+        options.method == CalibrationMethod::Mean || options.method == CalibrationMethod::AutoKey;
+    if (options.level > 0 && !by_mean)
         throw Refusal("local means need a calibration by means: method mean or auto");
     check_options(options);
+    check_options(options.adapt);
+    if (options.method != CalibrationMethod::Camera)
+        refuse_camera(options, name_of(options.method));
     const bool skips = options.skip_black || options.skip_transparent;
     if (skips && options.count == "lit")
         throw Refusal("count=lit leaves out what skipblack and skiptransparent would: say one");
@@ -67,6 +91,14 @@ void Calibration::make(const ImageBuf& image, const PixelOptions& pixels,
     check(options, image);
     m_summary.exposure = options.stops;
     m_factor = float(std::exp2(options.stops));
+    const OIIO::ImageSpec& spec = image.spec();
+    const bool camera = options.method == CalibrationMethod::Camera;
+    if (camera || (!adapts(options.adapt) && needs_unit(options)))
+        m_summary.unit = unit_or_1(options.adapt.unit, header_unit(spec), m_summary.notes);
+    else if (!adapts(options.adapt))
+        check_unit(options.adapt, "", name_of(options.method));
+    if (camera)
+        expose_by_camera(spec);
     const bool measured = ToneAlgo::measures(options);
     if (adapts(options.adapt) && !measured)
         throw Refusal(
@@ -86,11 +118,29 @@ void Calibration::take_shot() {
     m_summary.pixels = light.counted;
     m_summary.adapted = shot_words(light);
     m_summary.warnings = light.warnings;
-    m_summary.notes = light.notes;
-    if (m_options.method != CalibrationMethod::Manual)
+    m_summary.notes.insert(m_summary.notes.end(), light.notes.begin(), light.notes.end());
+    if (!needs_unit(m_options))
+        check_unit(m_options.adapt, light.mode, name_of(m_options.method));
+    if (m_options.method == CalibrationMethod::AutoKey)
+        m_summary.unit = unit_or_1(m_options.adapt.unit, m_options.adapt.unit ? 0 : unit_of(shot),
+                                   m_summary.notes);
+    if (by_mean())
         expose(m_options.means == "cells" ? light.lwa : light.lwa_geometric);
     if (m_options.white_percentile)
         m_summary.white = shot.white * m_factor;
+}
+
+void Calibration::expose_by_camera(const OIIO::ImageSpec& spec) {
+    const tonemap::CameraSettings camera = camera_settings(m_options, spec);
+    const double scale = m_summary.unit / tonemap::saturation_luminance(camera);
+    m_summary.ev100 = tonemap::ev100(camera);
+    m_summary.exposure = m_options.stops + std::log2(scale);
+    m_factor = float(scale * std::exp2(m_options.stops));
+}
+
+double Calibration::key_of(double mean) const {
+    return m_options.method == CalibrationMethod::Mean ? m_options.key
+                                                       : tonemap::auto_key(mean * m_summary.unit);
 }
 
 void Calibration::expose(double mean) {
@@ -101,14 +151,7 @@ void Calibration::expose(double mean) {
 }
 
 double Calibration::factor_of(double mean) const {
-    double factor = std::exp2(m_options.stops);
-    if (m_options.method != CalibrationMethod::Manual)
-        factor *= tonemap::gain(key_of(mean), mean);
-    return factor;
-}
-
-double Calibration::key_of(double mean) const {
-    return m_options.method == CalibrationMethod::Mean ? m_options.key : tonemap::auto_key(mean);
+    return std::exp2(m_options.stops) * tonemap::gain(key_of(mean), mean);
 }
 
 void Calibration::measure(const ImageBuf& image, const PixelOptions& pixels, int nthreads) {
@@ -130,7 +173,7 @@ void Calibration::measure(const ImageBuf& image, const PixelOptions& pixels, int
         throw Refusal(
             "no pixel is left for the statistics (non-finite, black and transparent ones are "
             "left out as asked)");
-    if (m_options.method != CalibrationMethod::Manual)
+    if (by_mean())
         expose(m_options.means == "cells" ? of_cells : means->mean());
     if (m_options.level > 0)
         m_means = std::move(means);
@@ -227,7 +270,9 @@ void check_shown(const CalibrationOptions& options) {
         return;
     if (std::find(parts.begin(), parts.end(), options.show) == parts.end())
         throw Refusal(unknown_name("show", options.show, parts));
-    if (options.method == CalibrationMethod::Manual && options.show != "exposure")
+    const bool by_mean =
+        options.method == CalibrationMethod::Mean || options.method == CalibrationMethod::AutoKey;
+    if (!by_mean && options.show != "exposure")
         throw Refusal("show=" + options.show +
                       " needs a calibration by means: method mean or auto (valid: exposure)");
 }

@@ -33,8 +33,13 @@ private:
     void measure(const OIIO::ImageBuf& image, const PixelOptions& pixels, int nthreads);
     void take_shot();
     void expose(double mean);
-    double factor_of(double mean) const;
+    void expose_by_camera(const OIIO::ImageSpec& spec);
+    bool by_mean() const {
+        return m_options.method == CalibrationMethod::Mean ||
+               m_options.method == CalibrationMethod::AutoKey;
+    }
     double key_of(double mean) const;
+    double factor_of(double mean) const;
     void means_row(int y, int xbegin, int xend, double* out) const;
     double cells_of(const float* plane, int nthreads) const;
     double keep_lit(const OIIO::ImageBuf& image, const ColorPlanes& planes,

@@ -98,6 +98,8 @@ private:
         summary.maximum_light = scene.maximum_light;
         summary.light_index = scene.light_index;
         summary.adapted = scene.adapted;
+        summary.unit = scene.unit;
+        summary.ev100 = scene.ev100;
         summary.warnings.insert(summary.warnings.end(), scene.warnings.begin(),
                                 scene.warnings.end());
         summary.notes.insert(summary.notes.end(), scene.notes.begin(), scene.notes.end());
@@ -260,6 +262,10 @@ private:
                 spec.attribute(name, text);
         spec.attribute("tonemap:adaptation", float(summary.adaptation));
         spec.attribute("tonemap:maximum", float(summary.maximum));
+        if (summary.ev100) {
+            spec.attribute("tonemap:unit", float(summary.unit));
+            spec.attribute("tonemap:ev100", float(*summary.ev100));
+        }
     }
 
     const ImageBuf& m_src;

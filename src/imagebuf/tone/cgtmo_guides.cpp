@@ -18,9 +18,6 @@ namespace {
 using OIIO::ImageBuf;
 using OIIO::Strutil::fmt::format;
 
-// Blender's default, and not far from what others have.
-constexpr double kUsualView = 40;
-
 struct Slot {
     const char* name;
     std::string GuideOptions::*asked;

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "imagebuf/options/cgtmo_options.h"
+#include "imagebuf/options/shot_options.h"
 #include "imagebuf/options/tone_options.h"
 #include "imagebuf/pixels/names.h"
 #include "imagebuf/tone/shot_statistics.h"
@@ -102,7 +103,10 @@ void plan_filter(const CgTmoOptions& o, LocalPlan& plan) {
 CgTmoOptions with_preset(const CgTmoOptions& options) {
     check_options(options);
     check_options(options.lights);
+    check_options(options.adapt);
     CgTmoOptions o = options;
+    if (o.method == "camera" && !o.lwa.empty())
+        throw Refusal("lwa and method=camera both say what the adaptation luminance is: say one");
     if (o.preset.empty())
         o.preset = o.filter == "guided" ? "default" : "classic";
     const Preset& preset = *std::find_if(std::begin(kPresets), std::end(kPresets),
@@ -118,7 +122,8 @@ CgTmoOptions with_preset(const CgTmoOptions& options) {
     o.lumsigma = o.lumsigma.value_or(o.base == "edges" ? 0 : preset.lumsigma);
     o.samples = o.samples.value_or(preset.samples);
     fill(o.count, preset.count);
-    fill(o.lwa, preset.lwa);
+    if (o.method != "camera")
+        fill(o.lwa, preset.lwa);
     fill(o.maximum, preset.maximum);
     o.max_percentile = o.max_percentile.value_or(preset.max_percentile);
     return o;
@@ -151,8 +156,12 @@ LocalPlan plan_local(const CgTmoOptions& o) {
 }
 
 kernels::TapSets taps_of(const LocalPlan& plan, double sigma) {
+    // A mean of few samples shows where they change: it should not do so in columns. The other
+    // bases keep the pictures that they made.
+    const bool shows = plan.filter == BaseFilter::Guided && !plan.what.edges;
     if (plan.what.terms.in_steps)
-        return {tonemap::poisson_sets(plan.half, plan.samples), sigma};
+        return {tonemap::poisson_sets(plan.half, plan.samples), sigma,
+                shows ? kernels::RunOrigin::Hashed : kernels::RunOrigin::FirstColumn};
     return {{kernels::whole_window(plan.half)}, sigma};
 }
 

@@ -9,6 +9,7 @@
 #include "imagebuf/pixels/parallel.h"
 #include "imagebuf/pixels/row_source.h"
 #include "imagebuf/tone/counted_pixels.h"
+#include "imagebuf/tone/header_light.h"
 #include "imagebuf/tone/shot_statistics.h"
 #include "tonemap/cell_mean.h"
 #include "tonemap/luminance_means.h"
@@ -23,17 +24,6 @@ using OIIO::ROI;
 
 // Added to luminances that are above 0.
 constexpr double kNoEpsilon = 1e-30;
-
-// Of the header: a number above 0, or 0.
-double header_number(const OIIO::ImageSpec& spec, const char* name) {
-    const OIIO::ParamValue* found = spec.find_attribute(name);
-    double value = found ? double(found->get_float()) : 0;
-    if (found && found->type() == OIIO::TypeRational) {
-        const int* parts = static_cast<const int*>(found->data());
-        value = parts[1] != 0 ? double(parts[0]) / parts[1] : 0;
-    }
-    return std::isfinite(value) && value > 0 ? value : 0;
-}
 
 void measure(FrameLight& light, const ImageBuf& src, const PixelOptions& options, int nthreads) {
     check_readable(src, "source");
@@ -73,8 +63,8 @@ void measure(FrameLight& light, const ImageBuf& src, const PixelOptions& options
     for (double& v : light.thumbnail)
         v = std::round(v * kThumbnailSteps) / kThumbnailSteps;
     const OIIO::ImageSpec& spec = src.nativespec();
-    light.unit = header_number(spec, "whiteLuminance");
-    light.fps = header_number(spec, "FramesPerSecond");
+    light.unit = header_unit(spec);
+    light.fps = header_number(spec, {"FramesPerSecond"});
 }
 
 } // namespace

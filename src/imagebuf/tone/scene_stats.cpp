@@ -11,6 +11,7 @@
 #include "imagebuf/pixels/checks.h"
 #include "imagebuf/pixels/parallel.h"
 #include "imagebuf/tone/counted_pixels.h"
+#include "imagebuf/tone/header_light.h"
 #include "imagebuf/tone/shot_statistics.h"
 #include "metrics/order_statistics.h"
 #include "metrics/refusal.h"
@@ -80,6 +81,7 @@ private:
     void maximum_from(Source source, std::string& why);
     void take_lights(Source source, std::string& why);
     void find_adaptation();
+    double camera_mean();
     double image_mean() const;
     double shot_mean() const {
         return m_options.lwa == "geometric" ? m_shot->lwa_geometric : m_shot->lwa;
@@ -122,7 +124,7 @@ void SceneMeasure::count(const ShownPixels& shown) {
 
 void SceneMeasure::check() {
     const CgTmoOptions& o = m_options;
-    if (!number_of(o.lwa))
+    if (o.method != "camera" && !number_of(o.lwa))
         check_one_of("lwa", o.lwa,
                      {"cells", "geometric", "harmonic", "arithmetic", "median", "a number"});
     if (o.lights.table.empty() && o.maximum == "lights")
@@ -140,14 +142,22 @@ void SceneMeasure::check() {
 }
 
 void SceneMeasure::find_shot() {
-    if (!adapts(m_options.adapt))
+    const bool camera = m_options.method == "camera";
+    if (!camera)
+        refuse_camera(m_options, m_options.method);
+    if (!adapts(m_options.adapt)) {
+        if (!camera)
+            check_unit(m_options.adapt, "", m_options.method);
         return;
+    }
     if (!ToneAlgo::measures(m_options))
         throw Refusal("adapt: nothing is measured of the image (valid: without lwa=X, lmax=X and "
                       "what stands for them)");
     if (const std::string why = ToneAlgo::not_of_shots(m_options); !why.empty())
         throw Refusal("adapt: " + why + ", or adapt=frame");
     m_shot = light_of_shot(m_options.adapt).exposure;
+    if (!camera)
+        check_unit(m_options.adapt, m_shot->mode, m_options.method);
     m_out.adapted = shot_words(*m_shot);
     m_out.notes = m_shot->notes;
     m_out.warnings = m_shot->warnings;
@@ -289,10 +299,25 @@ double SceneMeasure::panorama_mean() const {
     return m_options.lwa == "harmonic" ? m_panorama->harmonic : m_panorama->geometric;
 }
 
+// What a camera is exposed for.
+double SceneMeasure::camera_mean() {
+    const OIIO::ImageSpec& spec = m_image.spec();
+    const tonemap::CameraSettings camera = camera_settings(m_options, spec);
+    m_out.unit = unit_or_1(m_options.adapt.unit, header_unit(spec), m_out.notes);
+    m_out.ev100 = tonemap::ev100(camera);
+    return tonemap::saturation_luminance(camera) * tonemap::kMeanOfSaturation / m_out.unit;
+}
+
 void SceneMeasure::find_adaptation() {
     const auto given = number_of(m_options.lwa);
-    m_out.adaptation_from = given ? "lwa" : m_panorama ? "env" : m_shot ? "shot" : "image";
-    m_out.adaptation = given        ? *given
+    const bool camera = m_options.method == "camera";
+    m_out.adaptation_from = camera       ? "camera"
+                            : given      ? "lwa"
+                            : m_panorama ? "env"
+                            : m_shot     ? "shot"
+                                         : "image";
+    m_out.adaptation = camera       ? camera_mean()
+                       : given      ? *given
                        : m_panorama ? panorama_mean()
                        : m_shot     ? shot_mean()
                                     : image_mean();

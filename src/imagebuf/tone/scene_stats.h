@@ -3,6 +3,7 @@
 // image, its lights and a panorama of the scene.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,6 +18,8 @@ struct SceneStats {
     std::string adaptation_from, maximum_from, maximum_light, light_index;
     int64_t counted = 0; ///< pixels whose light was measured
     std::string adapted; ///< of which frames the shot is that stands for the image; empty: of none
+    double unit = 0;     ///< with a camera
+    std::optional<double> ev100; ///< of the camera
     std::vector<std::string> warnings, notes;
     PagedArray<float> luminance; ///< packed; NaN where the colour was not finite
 };

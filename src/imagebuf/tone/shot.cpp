@@ -89,8 +89,15 @@ double fps_of(const AdaptOptions& options, const std::vector<ShotFrame>& frames,
 void check_mode_of(const AdaptOptions& options, const std::string& mode) {
     if (options.tau && mode == "shot")
         throw Refusal("tau is of adapt=eye and smooth: one exposure for a shot has no time");
-    if (options.unit && mode != "eye")
-        throw Refusal(format("unit is of adapt=eye, this is {}", mode));
+}
+
+void find_units(const std::vector<ShotFrame>& scene, ShotLight& out) {
+    for (const ShotFrame& frame : scene) {
+        if (!(frame.unit > 0))
+            continue;
+        out.least_unit = out.least_unit > 0 ? std::min(out.least_unit, frame.unit) : frame.unit;
+        out.largest_unit = std::max(out.largest_unit, frame.unit);
+    }
 }
 
 // A frame, and the scene between two cuts that it is in.
@@ -152,6 +159,7 @@ ShotLight light_of_shot(const AdaptOptions& options, std::optional<double> white
     exposure.lwa_geometric = found.lwa_geometric;
     exposure.lmax = found.lmax;
     out.white = found.white;
+    find_units(scene, out);
     for (const ShotFrame& frame : scene)
         exposure.counted += frame.counted;
     if (const std::string lack = tonemap::lacking(scene); !lack.empty())
@@ -159,6 +167,17 @@ ShotLight light_of_shot(const AdaptOptions& options, std::optional<double> white
                                            "which the statistics of the shot lack",
                                            exposure.first, exposure.last, lack));
     return out;
+}
+
+void check_unit(const AdaptOptions& options, const std::string& mode, const std::string& method) {
+    if (options.unit && mode != "eye")
+        throw Refusal(format("unit is of {}adapt=eye, and this is {}",
+                             method.empty() ? ""
+                                            : "method=camera, --calibrate's and --tonemap's "
+                                              "method=auto, and ",
+                             method.empty() ? mode
+                             : mode.empty() ? "method=" + method
+                                            : "method=" + method + ", adapt=" + mode));
 }
 
 std::string shot_words(const ShotExposure& exposure) {
@@ -170,7 +189,11 @@ std::string shot_words(const ShotExposure& exposure) {
 namespace ToneAlgo {
 
 bool shot_exposure(ShotExposure& exposure, const AdaptOptions& options, std::string& error) {
-    return contained(error, [&] { exposure = light_of_shot(options).exposure; });
+    return contained(error, [&] {
+        ShotLight light = light_of_shot(options);
+        check_unit(options, light.exposure.mode, "");
+        exposure = std::move(light.exposure);
+    });
 }
 
 bool steady_window(std::vector<int>& numbers, const AdaptOptions& options, std::string& error) {
@@ -187,7 +210,7 @@ double shot_likeness(const FrameLight& a, const FrameLight& b) {
 namespace {
 
 bool wants_lwa(const CgTmoOptions& o) {
-    return o.env.empty() && !number_of(o.lwa);
+    return o.method != "camera" && o.env.empty() && !number_of(o.lwa);
 }
 bool wants_lmax(const CgTmoOptions& o) {
     return !o.lmax && o.lights.table.empty() && o.maximum != "env";
@@ -226,7 +249,9 @@ bool measures(const CgTmoOptions& options) {
 }
 
 bool measures(const CalibrationOptions& options) {
-    return options.method != CalibrationMethod::Manual || options.white_percentile.has_value();
+    const auto method = options.method;
+    return method == CalibrationMethod::Mean || method == CalibrationMethod::AutoKey ||
+           options.white_percentile.has_value();
 }
 
 std::string not_of_shots(const CgTmoOptions& options) {

@@ -22,6 +22,8 @@ inline bool adapts(const AdaptOptions& options) {
 struct ShotLight {
     ShotExposure exposure;
     double white = 0; ///< 0: no percentile was asked for
+    /// The least and the largest unit in the headers of the frames between the cuts; 0: none says.
+    double least_unit = 0, largest_unit = 0;
 };
 
 /// Refuses what is wrong with the options, the file or the frame.
@@ -29,6 +31,10 @@ ShotLight light_of_shot(const AdaptOptions& options, std::optional<double> white
 
 /// ToneAlgo::steady_window, but that errors are thrown.
 std::vector<int> steady_window_of(const AdaptOptions& options);
+
+/// Refuses a unit that nothing needs: not of an image whose `method` needs none, in a shot of this
+/// mode or in none.
+void check_unit(const AdaptOptions& options, const std::string& mode, const std::string& method);
 
 /// "eye of frames 1 to 8".
 std::string shot_words(const ShotExposure& exposure);

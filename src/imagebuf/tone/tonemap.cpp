@@ -242,6 +242,10 @@ private:
         if (!summary.calibration.adapted.empty())
             spec.attribute("tonemap:adapted", summary.calibration.adapted);
         spec.attribute("tonemap:exposure", float(summary.calibration.exposure));
+        if (summary.calibration.unit > 0)
+            spec.attribute("tonemap:unit", float(summary.calibration.unit));
+        if (summary.calibration.ev100)
+            spec.attribute("tonemap:ev100", float(*summary.calibration.ev100));
     }
 
     void warn() {

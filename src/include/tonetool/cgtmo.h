@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "tonetool/camera_numbers.h"
 #include "tonetool/export.h"
 #include "tonetool/lights.h"
 #include "tonetool/pixels.h"
@@ -24,7 +25,8 @@ namespace tonetool {
 struct SteadyPlanes;
 using SteadyFrame = std::shared_ptr<const SteadyPlanes>;
 
-struct CgTmoOptions {
+/// The camera's settings are of method "camera" alone.
+struct CgTmoOptions : CameraOptions {
     PixelOptions pixels; ///< the beauty and its colour space
     /// "default": the base keeps edges of light (`base`), and the statistics are those of a scene
     /// (`count`, `lwa`, `max_percentile`); "classic": the base is a mean of log luminance, and
@@ -89,6 +91,9 @@ struct CgTmoOptions {
     /// Which pixels are measured. "lit": those that show something, neither black on the background
     /// nor of alpha 0; "all": every finite pixel. Empty: the preset's.
     std::string count;
+    /// "measured": Lwa is what `lwa` says; "camera": it is what a camera of these settings is
+    /// exposed for, 0.104 of the luminance that saturates it (ISO 12232), in cd/m2 over adapt.unit.
+    std::string method = "measured";
     /// Adaptation luminance: "geometric", "harmonic", "arithmetic", "median" of the panorama, or
     /// of the image without one; "cells": the geometric mean of the means of about 2300 square
     /// cells of the image, which noise hardly moves, or that of the panorama's pixels; or a number.
@@ -129,11 +134,13 @@ struct CgTmoSummary {
     std::string layer, space;
     std::string position, normal, albedo, depth; ///< the layers that were used; empty: none
     double adaptation = 0, maximum = 0;          ///< Lwa and Lmax
-    std::string adaptation_from;                 ///< "lwa", "env", "shot", "image"
-    std::string maximum_from;  ///< "lmax", "lights", "groups", "env", "shot", "image"
-    std::string adapted;       ///< "shot of frames 1 to 8", if "shot" is one of these; else empty
-    std::vector<int> steady;   ///< the frames that steady averages; empty: none
-    std::string maximum_light; ///< the light or light group with that maximum
+    std::string adaptation_from;                 ///< "lwa", "camera", "env", "shot", "image"
+    double unit = 0;             ///< cd/m2 of a pixel value of 1, with a camera; else 0
+    std::optional<double> ev100; ///< CalibrationSummary::ev100
+    std::string maximum_from;    ///< "lmax", "lights", "groups", "env", "shot", "image"
+    std::string adapted;         ///< "shot of frames 1 to 8", if "shot" is one of these; else empty
+    std::vector<int> steady;     ///< the frames that steady averages; empty: none
+    std::string maximum_light;   ///< the light or light group with that maximum
     /// Where the index of a pixel's light came from: a layer, "groups"; empty: no index.
     std::string light_index;
     double footprint = 0;   ///< median, in the unit of positions; 0: unknown

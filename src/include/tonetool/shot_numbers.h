@@ -54,7 +54,9 @@ struct AdaptOptions {
     /// Seconds; unset: 0.4 of "smooth", 0.4 (rods) to 0.1 (cones) by the light of "eye".
     std::optional<double> tau;
     std::optional<double> fps; ///< frames per second; unset: the headers', else 24
-    /// cd/m2 of a pixel value of 1, for "eye"; unset: the headers' whiteLuminance, else 1.
+    /// cd/m2 of a pixel value of 1: what "eye" adapts to, and what CalibrationMethod's AutoKey and
+    /// Camera and CgTmoOptions's method "camera" need of the image, whether it is in a shot or not.
+    /// Unset: the headers' whiteLuminance, else 1.
     std::optional<double> unit;
     /// First frames of scenes, "1,97"; "none"; "auto": where neighbours are not alike.
     std::string cuts = "auto";

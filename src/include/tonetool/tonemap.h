@@ -13,6 +13,7 @@
 #include <utility>
 #include <vector>
 
+#include "tonetool/camera_numbers.h"
 #include "tonetool/export.h"
 #include "tonetool/pixels.h"
 #include "tonetool/shot_numbers.h"
@@ -63,11 +64,15 @@ struct ViewOptions {
 enum class CalibrationMethod {
     Manual,  ///< 2^stops
     Mean,    ///< key / geometric mean of the luminance, times 2^stops
-    AutoKey, ///< as Mean, but the key follows from the mean (Krawczyk et al. 2005): 1.03 - 2 / (2 +
-             ///< log10(1 + mean))
+    AutoKey, ///< as Mean, but the key follows from the mean in cd/m2 (Krawczyk et al. 2005): 1.03 -
+             ///< 2 / (2 + log10(1 + mean unit))
+    /// By a camera, ISO 12232: the luminance that saturates its sensor, 78 N^2 / (0.65 S T) cd/m2,
+    /// becomes 1, times 2^stops. Nothing is measured.
+    Camera,
 };
 
-struct CalibrationOptions {
+/// The camera's settings are of CalibrationMethod::Camera alone; the unit is AdaptOptions::unit.
+struct CalibrationOptions : CameraOptions {
     CalibrationMethod method = CalibrationMethod::Manual;
     double stops = 0;  ///< -126 to 126
     double key = 0.18; ///< the value that the mean is brought to, with Mean; 1e-4 to 100
@@ -104,6 +109,9 @@ struct CalibrationSummary {
     double key = 0;      ///< the key that was used; 0 where none was
     double exposure = 0; ///< stops that brought the mean of the whole image to the key
     double white = 0;    ///< the measured white; 0 where it was not asked for
+    double unit = 0;     ///< cd/m2 of a pixel value of 1; 0 where none was needed
+    /// The exposure value of the camera at ISO 100, log2(100 N^2 / (S T)).
+    std::optional<double> ev100;
     int64_t pixels = 0;  ///< pixels in the statistics
     std::string adapted; ///< "shot of frames 1 to 8"; empty: measured on the image
     std::vector<std::string> warnings, notes;

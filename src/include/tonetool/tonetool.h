@@ -5,6 +5,7 @@
 #include "tonetool/against.h"
 #include "tonetool/attribute.h"
 #include "tonetool/bias.h"
+#include "tonetool/bloom.h"
 #include "tonetool/cgtmo.h"
 #include "tonetool/color_tags.h"
 #include "tonetool/compare.h"

@@ -14,7 +14,7 @@ from stock_surface import (EXPRESSIONS, HIDDEN, SHARED, all_commands, all_modifi
 from versions import not_taken
 
 # Only tonetool has these; tests/cli/test_*.py run them.
-OWN_COMMANDS = set("""suite only key approve reason by again retire approved accept against dry-run merge-list bad-frames exit-zero table github summary images ctest figure biascheck noisefloor hdrflip ldrflip flipdiff exposure calibrate tonemap cgtmo lightindex errormap
+OWN_COMMANDS = set("""suite only key approve reason by again retire approved accept against dry-run merge-list bad-frames exit-zero table github summary images ctest figure biascheck noisefloor hdrflip ldrflip flipdiff exposure bloom calibrate tonemap cgtmo lightindex errormap
     tmqi luminancestats qc exportlut report json csv junit contactsheet pictures state statistics
     merge doctor licenses h compat progress parallel-frames memory warnings-exit filmstrip tonecurves""".split())
 

@@ -57,6 +57,11 @@ const TapSets& some() {
     return taps;
 }
 
+const TapSets& hashed() {
+    static const TapSets taps(tonemap::poisson_sets(20, 61), 8, RunOrigin::Hashed);
+    return taps;
+}
+
 std::vector<float> filtered(const GuidePlanes& image, const GuidedTerms& terms, const TapSets& taps,
                             Window window = {}) {
     if (window.width == 0)
@@ -290,6 +295,43 @@ TEST(GuidedRows, AreCloseAmongTargets) {
         for (size_t i = 0; i < best.size(); ++i)
             ASSERT_LE(off(here[i], double(best[i])), 2 * kCloseIfHard) << i;
     });
+}
+
+TEST(GuidedRows, OfHashedOriginsAreCloseToTheReferenceImplementation) {
+    const GuidedScene scene(190, 27, 16);
+    worst_of(chosen(scene.view(), kP | kN | kA | kL), terms_of(0), hashed(), kClose);
+}
+
+TEST(GuidedRows, OfHashedOriginsDoNotDependOnTheWindow) {
+    const GuidedScene scene(210, 31, 17);
+    const auto image = chosen(scene.view(), kP | kN | kA | kL);
+    const auto all = filtered(image, {}, hashed());
+    for (const Window& window :
+         {Window{0, 0, 1, 31}, {63, 5, 2, 20}, {64, 0, 64, 9}, {101, 3, 109, 28}}) {
+        const auto part = filtered(image, {}, hashed(), window);
+        for (int y = 0; y < window.height; ++y)
+            for (int x = 0; x < window.width; ++x)
+                ASSERT_TRUE(same(part[size_t(y * window.width + x)],
+                                 all[size_t((y + window.y0) * 210 + x + window.x0)]))
+                    << x << " " << y;
+    }
+}
+
+TEST(TapSets, OfHashedOriginsHaveOtherBordersInEachRow) {
+    std::vector<int> borders(kGuidedRun);
+    int alike = 0;
+    for (int y = 0; y < 4096; ++y) {
+        const int first = hashed().run_of(200, y);
+        EXPECT_EQ(&hashed().at(first, y), &hashed().at(first + kGuidedRun - 1, y));
+        EXPECT_EQ(hashed().run_of(first, y), first);
+        EXPECT_LE(first, 200);
+        EXPECT_GT(first + kGuidedRun, 200);
+        ++borders[size_t(first % kGuidedRun)];
+        alike += y > 0 && first == hashed().run_of(200, y - 1);
+    }
+    for (int count : borders)
+        EXPECT_NEAR(count, 64, 40);
+    EXPECT_NEAR(alike, 64, 40);
 }
 
 TEST(TapSets, AreChosenByPlaceAlone) {

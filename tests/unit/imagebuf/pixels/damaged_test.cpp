@@ -130,6 +130,9 @@ std::vector<Function> pictures() {
         all.push_back({"tonemap", how, [roi](const Call& c) {
                            return tonemap(c.dst, c.bad, linear<TonemapOptions>(), nullptr, roi);
                        }});
+        all.push_back({"bloom", how, [roi](const Call& c) {
+                           return bloom(c.dst, c.bad, linear<BloomOptions>(), nullptr, roi);
+                       }});
         all.push_back({"exposure", how,
                        [roi](const Call& c) { return exposure(c.dst, c.bad, 1, kLinear, roi); }});
         all.push_back(
