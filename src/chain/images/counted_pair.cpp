@@ -72,7 +72,9 @@ void CountedPair::equalize() {
     for (OIIO::ImageBuf::Iterator<float> a(m_images[0]); !a.done(); ++a, ++b, ++mark) {
         for (int c = 0; *mark != 0 && c < m_images[0].nchannels(); ++c) {
             const float value = a[c];
-            a[c] = b[c] = std::isfinite(value) ? value : 0.0F;
+            const float kept = std::isfinite(value) ? value : 0.0F;
+            a[c] = kept;
+            b[c] = kept;
         }
     }
 }
