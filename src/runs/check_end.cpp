@@ -9,7 +9,7 @@
 #include <set>
 #include <utility>
 
-#include "runs/frame_jobs.h"
+#include "runs/frame_context.h"
 #include "runs/loop.h"
 #include "runs/rehearsal.h"
 #include "runs/shots.h"

@@ -9,8 +9,9 @@
 #include <sstream>
 
 #include "runs/check_end.h"
-#include "runs/frame_jobs.h"
+#include "runs/checked_frames.h"
 #include "runs/interruption.h"
+#include "runs/measured_frames.h"
 #include "runs/rehearsal.h"
 #include "runs/shots.h"
 #include "sequence/results/check_files.h"

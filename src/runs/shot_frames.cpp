@@ -5,7 +5,7 @@
 #include <sstream>
 
 #include "chain/session/runner.h"
-#include "runs/frame_jobs.h"
+#include "runs/frame_context.h"
 #include "sequence/frames/file_sequence.h"
 #include "text/error.h"
 

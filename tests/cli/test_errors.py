@@ -21,7 +21,7 @@ def test_error_text(tonetool):
     (["--hdrflp"], "did you mean --hdrflip"),
     (["--"], 'unknown command "--"'),
     (["--hdrflip:tonemaper=aces"], 'did you mean "tonemapper"'),
-    (["--hdrflip:nonsense=1"], "valid: tonemapper, white"),
+    (["--hdrflip:nonsense=1"], "valid: tonemapper, curve, white"),
     (["--hdrflip:fail"], 'malformed modifier "fail"'),
     (["--hdrflip:fail="], '"fail" has no value'),
     (["--hdrflip:"], "empty modifier"),

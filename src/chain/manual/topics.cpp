@@ -82,6 +82,14 @@ out, links to folders are followed.
   -o errors/%N.png                an output has each wildcard that differs; its folders are made
   --wildcardoff                   the words after it are plain text, as all are with --compat
 
+A suite file gives cases their own limits, masks and reasons to be skipped, or compares them with the
+images that somebody has approved, which --approve alone writes:
+
+  tonetool --suite suite.toml --json run.json --report page.html
+  tonetool --suite suite.toml --only 'hair/*'
+  tonetool --approve run.json 'hair/*' --reason 'new hair shader'
+  tonetool --approved approved    what is approved, by whom and why, and whether it is whole
+
 In a crontab % is written \\%, in a .bat file %%N. What holds over time (--qc, fail=auto) holds over the
 frames of one name and method; exposures=shot and --bad-frames are of shots alone. See --help check.
 )";
@@ -158,6 +166,10 @@ the header's. Both need to know what a pixel value of 1 is in cd/m2: unit=, else
 whiteLuminance, else 1. The result is sRGB-encoded (encode= takes others) and clamped to 0 to 1.
 --cgtmo is a local tone mapper for rendered images: position, normal and albedo guide it. --bloom
 spreads bright light as the eye does, in linear light: before the tone mapping.
+The frames of a shot have one exposure (adapt=shot); adapt=frame, eye, smooth and FILE are others:
+
+  tonetool --frames 1-240 shot.#.exr --cgtmo -o picture.#.png
+
 A view of an OpenColorIO configuration instead of a curve: --help ocio. --tmqi scores the result.
 )";
 

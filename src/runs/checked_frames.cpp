@@ -1,17 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "runs/frame_jobs.h"
+#include "runs/checked_frames.h"
 
-#include <OpenImageIO/sysutil.h>
 #include <algorithm>
-#include <filesystem>
 #include <ostream>
 #include <sstream>
 
-#include "chain/manual/help.h"
 #include "chain/session/runner.h"
 #include "runs/check_end.h"
 #include "runs/packed.h"
-#include "runs/shots.h"
 #include "sequence/frames/file_stamp.h"
 #include "sequence/results/automatic_limits.h"
 #include "sequence/results/probe.h"
@@ -24,7 +20,6 @@ namespace tonetool::runs {
 
 namespace {
 
-using chain::Runner;
 using chain::Session;
 using sequence::FrameResult;
 using sequence::State;
@@ -32,14 +27,6 @@ using sequence::Status;
 
 std::string in_words(const FrameResult& result) {
     return status_name(result.status) + (result.message.empty() ? "" : " (" + result.message + ")");
-}
-
-// Of what one comparison alone would take, half of the computer's memory; --memory says otherwise.
-uint64_t share_of_memory(int parallel) {
-    constexpr uint64_t enough = uint64_t(1) << 29;
-    return parallel < 2
-               ? 0
-               : std::max(enough, OIIO::Sysutil::physical_memory() / 2 / uint64_t(parallel));
 }
 
 // Whether a command that draws a pair for the report runs whatever comes of the others.
@@ -67,259 +54,7 @@ bool may_fail_later(const FramePlan& plan) {
     return more;
 }
 
-// Of cases: the folders of their names are made as they are written.
-void make_folders(const FramePlan& plan, const FrameRun& run) {
-    for (const size_t at : plan.check.outputs) {
-        const std::filesystem::path folder = std::filesystem::path(run.words[at]).parent_path();
-        const std::string& pattern = plan.line.texts[at];
-        if (!sequence::has_names(pattern) || plan.check.dry_run || folder.empty())
-            continue;
-        const std::string fixed =
-            sequence::NamePattern(sequence::without_range(pattern), true).fixed_part();
-        const std::string root = fixed.substr(0, fixed.rfind('/') + 1);
-        std::error_code why; // a write tells what is wrong
-        if (root.empty() || std::filesystem::is_directory(root, why))
-            std::filesystem::create_directories(folder, why);
-    }
-}
-
-// Of a case: the reference would pass as its own test.
-bool same_file(const FramePlan& plan, const CheckPlan& check, const Strings& words) {
-    const Strings files = words_at(words, check.inputs.size() == 2 ? check.inputs : plan.sequences);
-    std::error_code none;
-    return plan.named && check.compares && files.size() > 1 &&
-           std::filesystem::equivalent(files[0], files[1], none);
-}
-
-std::string crashed(const std::string& how) {
-    return "the libraries that read or compare its files crashed: " + how;
-}
-
-sequence::SuiteCase said_by_suite(const FrameRun& run) {
-    sequence::SuiteCase said;
-    said.line = run.of_suite.line;
-    said.why = run.of_suite.why;
-    if (run.of_suite.own)
-        said.check = run.of_suite.own->check.essence;
-    return said;
-}
-
-// What is wrong with the folder of the state, or "": what was measured is right all the same.
-std::string keep_in(const State& state, const sequence::Item& item, const sequence::Origin& origin,
-                    const sequence::FileLog& files, const sequence::Kept& found) {
-    try {
-        state.keep(item, origin, files, found);
-        return "";
-    } catch (const std::exception& problem) {
-        return problem.what();
-    }
-}
-
-// "19 of 24 frames kept in st"; empty without a state.
-template <class IsKept>
-std::string kept_in(const std::optional<State>& state, const FramePlan& plan,
-                    const IsKept& is_kept) {
-    if (!state)
-        return "";
-    size_t count = 0;
-    const size_t all = plan.runs.size();
-    for (size_t i = 0; i < all; ++i)
-        count += is_kept(i) ? 1 : 0;
-    return std::to_string(count) + " of " + std::to_string(all) +
-           (plan.named ? " case" : " frame") + (all == 1 ? "" : "s") + " kept in " +
-           plan.check.argument("state");
-}
-
 } // namespace
-
-sequence::Item FrameContext::item(size_t index) const {
-    return plan.runs[index].frame.item();
-}
-
-Session FrameContext::session(size_t index, std::ostream& out, std::ostream& err) const {
-    const FrameRun& run = plan.runs[index];
-    Session session(out, err,
-                    plan.suite ? plan.suite->case_line(run.frame.item())
-                               : full_command_line(plan.line, run.words, plan.line.compat));
-    set_for_line(session, plan);
-    session.frame = run.frame;
-    session.in_all_frames = [this](size_t at) {
-        Strings names;
-        for (const FrameRun& other : plan.runs)
-            if (at < other.words.size())
-                names.push_back(other.words[at]);
-        return names;
-    };
-    session.check.shot = shot ? &*shot : nullptr;
-    session.shot = lights;
-    if (plan.loops && !plan.named)
-        session.shot.find = [this, index](size_t at, int number) {
-            return frames->find(*this, index, at, number);
-        };
-    session.written = written;
-    session.settings.parallel = plan.parallel;
-    session.settings.memory = share_of_memory(plan.parallel);
-    return session;
-}
-
-void FrameContext::run_commands(Session& session, size_t index, const Strings& words) const {
-    const FrameRun& run = plan.runs[index];
-    const Strings files = words_at(words, plan.sequences);
-    const sequence::Probe gone = sequence::missing_of(files);
-    if (plan.named && gone.status != Status::Missing)
-        make_folders(plan, run);
-    if (gone.status == Status::Missing)
-        session.check.absent = absent_approved(session, files);
-    if (same_file(plan, plan.check_of(run), words)) {
-        session.error("", "reference and test are the same file");
-    } else if (gone.status != Status::Missing || !session.check.absent.empty()) {
-        Runner(session, words).run_all();
-        if (session.outcome.misused)
-            session.out << chain::help_text();
-    } else {
-        session.error("", run.absent.empty() ? gone.message : run.absent);
-    }
-}
-
-// The first of the files, if it alone is missing and the line compares with the approved version.
-std::string FrameContext::absent_approved(const Session& session, const Strings& files) const {
-    const bool may_be = session.check.result && plan.check.has("against") && files.size() > 1;
-    const Strings others(files.begin() + (files.empty() ? 0 : 1), files.end());
-    return may_be && sequence::missing_of(others).status != Status::Missing ? files.front() : "";
-}
-
-void FrameContext::print_error(size_t index, const std::string& error, std::ostream& err) const {
-    std::ostringstream nowhere;
-    session(index, nowhere, err).error("", error);
-}
-
-// ---- plain frames
-
-Ran PlainFrames::run(size_t index, std::ostream& out, std::ostream& err) {
-    Session session = m_context.session(index, out, err);
-    m_context.run_commands(session, index, m_context.plan.runs[index].words);
-    static const char* const words[] = {"done", "error", "warnings", "a threshold was exceeded"};
-    const int status = session.exit_status();
-    return {status, words[status], session.outcome.aborted};
-}
-
-Ran PlainFrames::failed(size_t index, Status status, const std::string& why, std::ostream& err) {
-    m_context.print_error(index, status == Status::Crashed ? crashed(why) : why, err);
-    return {1, "error", true};
-}
-
-// ---- what is measured before
-
-MeasuredFrames::MeasuredFrames(const FrameContext& context, std::string what,
-                               const std::optional<State>* state)
-    : m_context(context),
-      m_what(std::move(what)),
-      m_state(state),
-      m_texts(context.plan.runs.size()),
-      m_errors(context.plan.runs.size()) {}
-
-MeasuredFrames::Measured MeasuredFrames::measure(size_t index, std::ostream& err) const {
-    const sequence::Item item = m_context.item(index);
-    if (keeps()) {
-        if (auto kept = (*m_state)->find(item, origin(index)))
-            return {std::move(kept->result), ""};
-    }
-    std::ostringstream nowhere;
-    Session session = m_context.session(index, nowhere, err);
-    session.settings.dry_run = true;
-    const auto found = run_words(index, session);
-    if (session.outcome.errors > 0 || !found)
-        return {std::nullopt, session.outcome.first_error};
-    Measured measured{found, ""};
-    if (keeps()) {
-        measured.error = keep_in(**m_state, item, origin(index), session.files, {*found, "", ""});
-        if (!measured.error.empty())
-            m_context.print_error(index, measured.error, err);
-    }
-    return measured;
-}
-
-Ran MeasuredFrames::run(size_t index, std::ostream&, std::ostream& err) {
-    const Measured measured = measure(index, err);
-    const bool found = measured.text.has_value();
-    return {found && measured.error.empty() ? 0 : 1, (found ? "" : "no ") + m_what, false,
-            packed({found ? *measured.text : "", measured.error})};
-}
-
-Ran MeasuredFrames::failed(size_t index, Status status, const std::string& why, std::ostream& err) {
-    const std::string error = status == Status::Crashed ? crashed(why) : why;
-    m_context.print_error(index, error, err);
-    return {1, "no " + m_what, false, packed({"", error})};
-}
-
-void MeasuredFrames::take(size_t index, Ran& ran) {
-    Strings texts = unpacked(ran.found, 2);
-    if (!texts[0].empty())
-        m_texts[index] = std::move(texts[0]);
-    m_errors[index] = texts[1];
-}
-
-sequence::Origin MeasuredFrames::origin(size_t index) const {
-    const FramePlan& plan = m_context.plan;
-    return {words_at(plan.runs[index].words, plan.check.essence_at), m_what};
-}
-
-std::string MeasuredFrames::kept() const {
-    if (!keeps())
-        return "";
-    return "the " + m_what + " of " + kept_in(*m_state, m_context.plan, [this](size_t index) {
-               return (*m_state)->find(m_context.item(index), origin(index)).has_value();
-           });
-}
-
-Strings MeasuredFrames::texts() const {
-    Strings all;
-    for (const auto& found : m_texts)
-        if (found)
-            all.push_back(*found);
-    return all;
-}
-
-std::string MeasuredFrames::first_error() const {
-    const auto first = std::find_if(m_errors.begin(), m_errors.end(),
-                                    [](const std::string& error) { return !error.empty(); });
-    return first == m_errors.end() ? "" : *first;
-}
-
-std::optional<std::string> ExposureFrames::run_words(size_t index, Session& session) const {
-    const Frame& frame = m_context.plan.runs[index].frame;
-    sequence::ExposureSample found{frame.number, frame.view, -1, 0};
-    session.check.sample = &found;
-    m_context.run_commands(session, index, m_context.plan.runs[index].words);
-    if (found.max_luminance < 0)
-        return std::nullopt;
-    return sequence::to_json({found});
-}
-
-sequence::ExposureSamples ExposureFrames::samples() const {
-    sequence::ExposureSamples all;
-    for (const std::string& text : texts())
-        all.push_back(sequence::samples_from_json(text).at(0));
-    return all;
-}
-
-// A frame that does not come to the command has no part in its shot.
-std::optional<std::string> LightFrames::run_words(size_t index, Session& session) const {
-    FrameLight light;
-    session.shot.at = m_at;
-    session.shot.light = &light;
-    m_context.run_commands(session, index, m_context.plan.runs[index].words);
-    return light.histogram.empty() ? std::nullopt : std::optional(shot_text({"shot", {light}}));
-}
-
-std::vector<FrameLight> LightFrames::lights() const {
-    std::vector<FrameLight> all;
-    for (const std::string& text : texts())
-        all.push_back(shot_of_text(text).frames.at(0));
-    return all;
-}
-
-// ---- the check
 
 CheckedFrames::CheckedFrames(const FrameContext& context, const std::optional<State>& state,
                              sequence::PictureStore& pictures)
@@ -328,23 +63,6 @@ CheckedFrames::CheckedFrames(const FrameContext& context, const std::optional<St
       m_pictures(pictures),
       m_images(case_images(context.plan.check, context.plan.check.essence)),
       m_results(context.plan.runs.size()) {}
-
-FrameResult unchecked_frame(const FramePlan& plan, size_t index) {
-    const FrameRun& run = plan.runs[index];
-    const auto& inputs = plan.check_of(run).inputs;
-    const bool of_inputs = plan.sequences.empty() || (plan.named && inputs.size() == 2);
-    const Strings names = words_at(run.words, of_inputs ? inputs : plan.sequences);
-    FrameResult result;
-    result.of_suite = said_by_suite(run);
-    result.frame = run.frame.number;
-    result.view = run.frame.view;
-    result.name = run.frame.name;
-    result.method = run.frame.method;
-    result.test_frame = run.test_frame;
-    result.reference = names.size() > 1 ? names[0] : "";
-    result.test = names.empty() ? "" : names[names.size() > 1 ? 1 : 0];
-    return result;
-}
 
 CheckedFrames::Checked CheckedFrames::not_checked(size_t index, Status status,
                                                   const std::string& why) const {
@@ -602,7 +320,7 @@ void CheckedFrames::take(size_t index, Ran& ran) {
     result.name = m_context.plan.runs[index].frame.name; // to the byte, whatever JSON makes of it
     result.method = m_context.plan.runs[index].frame.method;
     // As the suite has it now, if the result was found.
-    const sequence::SuiteCase said = said_by_suite(m_context.plan.runs[index]);
+    const sequence::SuiteCase said = unchecked_frame(m_context.plan, index).of_suite;
     result.of_suite.check = said.check;
     result.of_suite.line = said.line;
     result.of_suite.why = said.why;
