@@ -322,6 +322,9 @@ bool frame_camera(std::vector<double>& camera, const ImageBuf& src, std::string&
         found.layer = chosen_color(deciding_spec(src), o.pixels).layer;
         LocalPlan plan = plan_local(o);
         guides.read(plan.what, found);
+        if (!guides.positions_are_of_scene()) // a file that cannot be read is an error all the
+                                              // same
+            (void)copy_pixels(src, part_of(src, {}), nthreads);
         const auto fit = camera_of(guides).camera;
         camera = fit ? std::vector<double>(fit->begin(), fit->end()) : std::vector<double>();
     });
