@@ -25,7 +25,7 @@ def names_of(registry):
 
 
 @pytest.fixture
-def shop(make_image, tmp_path, testimages):
+def shop(tonetool, make_image, tmp_path, testimages):
     """The files that the examples of help name."""
     for name in ("ref.exr", "test.exr", "picture.exr", "shot.exr"):
         make_image(name, width=32, height=32)
@@ -35,6 +35,13 @@ def shop(make_image, tmp_path, testimages):
     for folder in ("refs", "renders", "out/bdpt", "out/pt"):
         (tmp_path / folder).mkdir(parents=True)
         make_image(f"{folder}/lamp.exr", width=32, height=32)
+    for name in (f"{folder}/hair/long.exr" for folder in ("renders", "refs", "out/bdpt", "out/pt")):
+        (tmp_path / name).parent.mkdir()
+        make_image(name, width=32, height=32)
+    (tmp_path / "suite.toml").write_text('tonetool-suite = 1\nreference = "approved"\ntest = "renders/%N.exr"\n'
+                                         'check = "--hdrflip:fail=mean=0.3"\n')
+    tonetool("--suite", "suite.toml", "--json", "run.json", "-q", status=1)
+    tonetool("--approve", "run.json", "*", "--reason", "first")
     (tmp_path / "ocio").symlink_to(ROOT / "ocio")
     for shot in ("gallery", "cornell"):
         for side in ("ref", "test"):

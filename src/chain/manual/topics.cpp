@@ -83,12 +83,12 @@ out, links to folders are followed.
   --wildcardoff                   the words after it are plain text, as all are with --compat
 
 A suite file gives cases their own limits, masks and reasons to be skipped, or compares them with the
-images that somebody has approved, which --approve alone writes:
+images that somebody has approved. Only a line of its own approves any, as
+tonetool --approve run.json 'hair/*' --reason 'new hair shader'; --approved lists what is approved.
 
   tonetool --suite suite.toml --json run.json --report page.html
   tonetool --suite suite.toml --only 'hair/*'
-  tonetool --approve run.json 'hair/*' --reason 'new hair shader'
-  tonetool --approved approved    what is approved, by whom and why, and whether it is whole
+  tonetool --approved approved
 
 In a crontab % is written \\%, in a .bat file %%N. What holds over time (--qc, fail=auto) holds over the
 frames of one name and method; exposures=shot and --bad-frames are of shots alone. See --help check.
@@ -168,7 +168,7 @@ whiteLuminance, else 1. The result is sRGB-encoded (encode= takes others) and cl
 spreads bright light as the eye does, in linear light: before the tone mapping.
 The frames of a shot have one exposure (adapt=shot); adapt=frame, eye, smooth and FILE are others:
 
-  tonetool --frames 1-240 shot.#.exr --cgtmo -o picture.#.png
+  tonetool shot.#.exr --cgtmo -o picture.#.png
 
 A view of an OpenColorIO configuration instead of a curve: --help ocio. --tmqi scores the result.
 )";
