@@ -8,6 +8,7 @@
 #include "chain/session/runner.h"
 #include "runs/check_end.h"
 #include "runs/packed.h"
+#include "runs/shots.h"
 #include "sequence/frames/file_stamp.h"
 #include "sequence/results/automatic_limits.h"
 #include "sequence/results/probe.h"
@@ -83,7 +84,7 @@ std::string CheckedFrames::approval_problem(const FrameRun& run) const {
         return run.of_suite.problem;
     const store::Store approved = m_context.plan.suite->store();
     for (const store::ApprovedImage& image : run.of_suite.images) {
-        const std::string why = approved.problem(run.frame.name, image);
+        std::string why = approved.problem(run.frame.name, image);
         if (!why.empty())
             return why;
     }

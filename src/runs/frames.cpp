@@ -300,7 +300,9 @@ FramePlan plan_frames(chain::ParsedLine line, const std::string& directory, bool
         return word.is("merge") || word.is("merge-list");
     });
     const auto suite = merges ? nullptr : suite_of(line);
-    Scan scan = scan_line(suite ? suite->line() : std::move(line), for_images);
+    if (suite)
+        line = suite->line();
+    Scan scan = scan_line(std::move(line), for_images);
     scan.directory = directory;
     scan.plan.check = plan_check(scan.plan.line);
     scan.plan.suite = suite;

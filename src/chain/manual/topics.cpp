@@ -90,7 +90,7 @@ tonetool --approve run.json 'hair/*' --reason 'new hair shader'; --approved list
   tonetool --suite suite.toml --only 'hair/*'
   tonetool --approved approved
 
-In a crontab % is written \\%, in a .bat file %%N. What holds over time (--qc, fail=auto) holds over the
+In a crontab % is written \%, in a .bat file %%N. What holds over time (--qc, fail=auto) holds over the
 frames of one name and method; exposures=shot and --bad-frames are of shots alone. See --help check.
 )";
 

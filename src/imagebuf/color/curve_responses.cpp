@@ -106,7 +106,7 @@ std::vector<const Response*> chosen(const CurveText& text, const std::vector<Res
 
 std::vector<double> values_of_line(const CurveText& text, size_t i) {
     const auto words = text.words(i);
-    const auto values = text.numbers(i, words, 0, words.size());
+    auto values = text.numbers(i, words, 0, words.size());
     text.check_rows(values.size());
     return values;
 }
@@ -195,7 +195,8 @@ MeasuredRows read_model(const CurveText& text, const std::vector<double>& weight
         text.fail(
             format("has {} base function(s), but coeffs= has {} numbers", bases, weights.size()));
     for (size_t k = 0; k < weights.size(); ++k) {
-        const auto& base = section(text, all, format("h({})", k + 1), out.x.size());
+        const std::string name = format("h({})", k + 1);
+        const auto& base = section(text, all, name, out.x.size());
         for (size_t i = 0; i < y.size(); ++i)
             y[i] += weights[k] * base[i];
     }
