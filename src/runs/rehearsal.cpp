@@ -199,7 +199,7 @@ std::string mistakes_of(const FramePlan& plan) {
     for (const FrameRun& run : plan.runs) {
         if (!run.of_suite.skip.empty() || !known.insert(run.of_suite.own.get()).second)
             continue;
-        const std::string mistakes = mistakes_of(plan, run);
+        std::string mistakes = mistakes_of(plan, run);
         if (!mistakes.empty())
             return mistakes;
     }

@@ -13,7 +13,7 @@ inline constexpr const char* kLabelFont = "DejaVuSans";
 inline std::string label_font_file() {
     for (const char* folder : {"/usr/share/fonts/truetype/dejavu/", "/usr/share/fonts/dejavu/",
                                "/usr/share/fonts/TTF/"}) {
-        const std::string file = folder + std::string(kLabelFont) + ".ttf";
+        std::string file = folder + std::string(kLabelFont) + ".ttf";
         if (OIIO::Filesystem::is_regular(file))
             return file;
     }
