@@ -25,11 +25,11 @@ LUMINANCE = np.array([0.2126, 0.7152, 0.0722])
 GUIDES = [f"ViewLayer.{layer}.{axis}" for layer, axes in
           (("Position", "XYZ"), ("Normal", "XYZ"), ("DiffCol", "RGB"), ("Depth", "Z")) for axis in axes]
 
-# The sheet: parts of 30x18 pixels, each of 8x8, which are whole blocks of a JPEG.
-SCALE, PART, GAP, LINE = 8, (30, 18), 8, 24
+# The sheet: parts of 24x16 pixels, each of 8x8, which are whole blocks of a JPEG.
+SCALE, PART, GAP, LINE = 8, (24, 16), 8, 24
 FONT = "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf"
 INK, DIM, MARK = (0.9, 0.9, 0.9), (0.45, 0.45, 0.45), (1, 0.1, 0.1)
-QUALITY = 80
+QUALITY = 62
 
 
 def layer(path, *names):
@@ -200,3 +200,156 @@ def print_tables(scenes, found):
     print_table(["shot, kind", "exposure jumps %", "noise seen"],
                 [[f"{name}, {kind}", f"{jump:.2f}", f"{seen:.3f}" if name == "still" else "-"]
                  for name, (_, kinds) in found.items() for kind, (_, _, jump, seen) in kinds.items()])
+
+
+# --- The sheet ---
+
+
+def encoded(light):
+    light = np.clip(light, 0, 1)
+    return np.where(light <= 0.0031308, 12.92 * light, 1.055 * light ** (1 / 2.4) - 0.055)
+
+
+def grey(plane):
+    return np.repeat(np.clip(plane, 0, 1)[..., None], 3, -1)
+
+
+def part(pixels, place):
+    x, y = place
+    return pixels[y:y + PART[1], x:x + PART[0]]
+
+
+def enlarged(pixels, tall=1):
+    return np.kron(pixels, np.ones((SCALE * tall, SCALE, 1)))
+
+
+def levelled(pixels):
+    """Encoded, with the same median of the luminance."""
+    return encoded(pixels * (0.25 / np.median(pixels @ LUMINANCE)))
+
+
+def of(scenes, scene):
+    """What a row shows of one scene: by kind, with the light first."""
+    kinds = {kind: scenes[scene, kind] for kind in KINDS}
+    return kinds["default"], kinds.values()
+
+
+def order_row(scenes):
+    place = (46, 20)
+    any_kind, kinds = of(scenes, "cornell")
+    cells = [("", enlarged(grey(0.55 + part(ln(any_kind.light), place) / 12)))]
+    for one in kinds:
+        cell = enlarged(part(encoded(grey(one.shown @ LUMINANCE)), place))
+        for y, x in np.argwhere(part(one.wrong, place)) * SCALE:
+            cell[y + 3:y + 5, x + 3:x + 5] = MARK
+        cells.append((f"{one.order:.1f} %", cell))
+    return "1  Order: pixels in the wrong order (dots)", cells
+
+
+def noise_row(scenes):
+    place = (22, 21)
+    any_kind, kinds = of(scenes, "cornell")
+    cells = [("1", any_kind.noisy), *((f"{one.noise_noisy:.2f}", one.noisy_shown) for one in kinds)]
+    return ("2  Noise: what is left of that of the light",
+            [(text, enlarged(levelled(part(pixels, place)))) for text, pixels in cells])
+
+
+def hue_row(scenes):
+    place = (46, 20)
+    any_kind, kinds = of(scenes, "cornell")
+    light = part(any_kind.light, place)
+    cells = [("", light / light.max()), *((f"{one.turned:.0f} degrees", part(one.shown, place))
+                                          for one in kinds)]
+    return ("3  Hue: how far the clip turns it",
+            [(text, enlarged(encoded(pixels))) for text, pixels in cells])
+
+
+def sampling_row(scenes):
+    place = (29, 19)
+    any_kind, kinds = of(scenes, "nightstreet")
+    cells = [("", encoded(part(any_kind.shown, place))),
+             *((f"{one.sampling:.1f} %", grey(0.5 + 3 * part(one.error, place))) for one in kinds)]
+    return ("4  Samples: the error of 80 pixels for the whole window",
+            [(text, enlarged(pixels)) for text, pixels in cells])
+
+
+def plot(paths):
+    """Exposures over the frames, 10 % up and down, the last path in front."""
+    width, height = PART[0] * SCALE, PART[1] * SCALE
+    out = oiio.ImageBuf(oiio.ImageSpec(width, height, 3, "float"))
+    iba.fill(out, (0.1, 0.1, 0.1))
+    for level in (-5, 0, 5):
+        y = round(height * (0.5 - level / 20))
+        iba.render_box(out, 8, y, width - 9, y, DIM, True)
+        iba.render_text(out, 8, y - 3, f"{level:+} %" if level else "0", 11, FONT, DIM)
+    for ink, path in zip([DIM, INK][-len(paths):], paths):
+        points = [(round(44 + frame * (width - 60) / 7), round(height * (0.5 - value / 20)))
+                  for frame, value in enumerate(path)]
+        for (x, y), (to_x, to_y) in zip(points, points[1:]):
+            for down in (0, 1):
+                iba.render_line(out, x, y + down, to_x, to_y + down, ink, True)
+        for x, y in points:
+            iba.render_box(out, x - 2, y - 2, x + 2, y + 3, ink, True)
+    return out.get_pixels(oiio.FLOAT)
+
+
+def exposure_row(found):
+    _, kinds = found["anim"]
+    names = list(kinds)
+    cells = [("", enlarged(encoded(part(kinds["adapt=shot"][0][0], (12, 6)))))]
+    for shown in (names[0:1], names[1:2], names[2:4]):
+        cells.append((f"{kinds[shown[-1]][2]:.1f} %", plot([kinds[name][1] for name in shown])))
+    return "5  Flicker: exposure of 8 frames, largest jump", cells
+
+
+def noise_over_frames_row(found):
+    place, row = (56, 2), 7
+    _, kinds = found["still"]
+    where = enlarged(levelled(part(kinds["adapt=shot"][0][0], place)))
+    where[[row * SCALE - 1, (row + 1) * SCALE]] = (1, 1, 0)
+    cells = [("", where)]
+    for name, text in zip(("preset=classic, adapt=frame", "adapt=shot", "adapt=shot, steady=1"),
+                          ("preset=classic: ", "default: ", "steady=1: ")):
+        shown, _, _, seen = kinds[name]
+        lines = np.stack([part(ln(one), place)[row] for one in shown])
+        cells.append((f"{text}{seen:.2f}", enlarged(grey(0.5 + 1.2 * (lines - lines.mean())), 3)))
+    return "    Flicker: one row of pixels, 5 frames downwards, noise that is seen", cells
+
+
+def draw(scenes, found, sheet):
+    rows = [order_row(scenes), noise_row(scenes), hue_row(scenes), sampling_row(scenes),
+            exposure_row(found), noise_over_frames_row(found)]
+    width, tall = PART[0] * SCALE + GAP, PART[1] * SCALE + 2 * LINE
+    pixels = np.zeros((LINE + len(rows) * tall, 4 * width - GAP, 3), np.float32)
+    words = [(0, name, column, INK) for column, name in enumerate(("the scene", *KINDS))]
+    for y, (title, cells) in zip(range(LINE, pixels.shape[0], tall), rows):
+        words.append((y, title, 0, INK))
+        for column, (text, cell) in enumerate(cells):
+            pixels[y + LINE:y + LINE + cell.shape[0],
+                   column * width:column * width + cell.shape[1]] = cell
+            words.append((y + tall - LINE, text, column, INK))
+    out = oiio.ImageBuf(oiio.ImageSpec(pixels.shape[1], pixels.shape[0], 3, "uint8"))
+    out.set_pixels(out.roi, pixels)
+    for y, text, column, ink in words:
+        iba.render_text(out, column * width + 2, y + LINE - 7, text, 14, FONT, ink)
+    out.specmod().attribute("oiio:ColorSpace", "sRGB")
+    out.specmod().attribute("Compression", f"jpeg:{QUALITY}")
+    if not out.write(sheet):
+        sys.exit(out.geterror())
+
+
+def main(program, folder, sheet=None):
+    with tempfile.TemporaryDirectory() as made:
+        tonetool = Program(program, made)
+        scenes = {(scene, kind): Measured(tonetool, folder, scene, kind)
+                  for scene in SCENES for kind in KINDS}
+        found = shots(tonetool, folder)
+    print_tables(scenes, found)
+    if sheet:
+        draw(scenes, found, sheet)
+
+
+if __name__ == "__main__":
+    if len(sys.argv) not in (3, 4):
+        sys.exit(__doc__)
+    main(*sys.argv[1:])
