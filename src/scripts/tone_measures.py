@@ -1,6 +1,8 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""What TMQI does not see in pictures of --cgtmo, as Markdown tables: tone_measures.py TONETOOL TESTIMAGES [SHEET]
+"""What TMQI does not see in pictures of --cgtmo, as Markdown tables:
+
+    tone_measures.py TONETOOL TESTIMAGES [SHEET]
 
 Of the renders in the folder TESTIMAGES: the order of neighbours, the noise of flat surfaces, the hue of
 what is clipped, the error of the samples, and flicker over frames. SHEET is a picture of the five."""
@@ -115,8 +117,8 @@ def noise_gain(render, light, shown):
 
 
 def hue_turned(free, shown):
-    """Per cent of the pixels with a component beyond white while their luminance is not, and the angle in degrees
-    by which the clip turns the hue of all but 5 % of them."""
+    """Per cent of the pixels with a component beyond white while their luminance is not, and the largest angle
+    in degrees by which the clip turns the hue of all but 5 % of them."""
     clipped = (free.max(-1) > 1.0001) & (free @ LUMINANCE <= 1)
     chroma = [(pixels - pixels.mean(-1, keepdims=True))[clipped] for pixels in (free, shown)]
     length = [np.linalg.norm(one, axis=-1) for one in chroma]
@@ -126,9 +128,9 @@ def hue_turned(free, shown):
 
 
 def flicker(lights, shown):
-    """Of pixels whose light changes by less than a fifth between two frames: how the exposure goes from the
-    first frame on, the largest step of it in per cent, and the change of the picture's light over that of the light,
-    which is noise where the shot is still."""
+    """Of pixels whose light changes by less than a fifth between two frames: the exposure of each frame
+    against the first one, and its largest step, in per cent; and the change of the picture over that of the
+    light, which is noise where the shot is still."""
     steps, seen, there = [], [], []
     for before, after, old, new in zip(lights, lights[1:], shown, shown[1:]):
         change, picture = ln(after) - ln(before), ln(new) - ln(old)
@@ -193,8 +195,8 @@ def print_table(head, rows):
 
 
 def print_tables(scenes, found):
-    print_table(["scene, kind", "wrong order %", "clipped, too %", "noise", "noise, 8 samples",
-                 "beyond white %", "hue turned", "sampling %"],
+    print_table(["scene, kind", "wrong order %", "after the clip %", "noise", "of 8 samples", "clipped %",
+                 "hue turned", "samples %"],
                 [[f"{scene}, {kind}", *one.cells()] for (scene, kind), one in scenes.items()])
     print()
     print_table(["shot, kind", "exposure jumps %", "noise seen"],
