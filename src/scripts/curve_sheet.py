@@ -13,7 +13,7 @@ from pathlib import Path
 import OpenImageIO as oiio
 from OpenImageIO import ImageBufAlgo as iba
 
-WIDTH, COLUMNS, LABEL, GAP = 260, 6, 22, 4
+WIDTH, COLUMNS, LABEL, GAP = 260, 5, 22, 4
 FONT = "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf"
 INK = (0.85, 0.85, 0.85)
 
@@ -46,6 +46,7 @@ def main(program, image, sheet, modifiers=""):
         iba.paste(out, i % COLUMNS * (cell.width + GAP), i // COLUMNS * (cell.height + GAP), 0, 0,
                   one)
     out.specmod().attribute("oiio:ColorSpace", "sRGB")
+    out.specmod().attribute("Compression", "jpeg:86")
     if not out.write(sheet):
         sys.exit(out.geterror())
 
