@@ -2,6 +2,7 @@
 #include "tonemap/bloom.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace tonetool::tonemap {
@@ -81,10 +82,11 @@ PointSpread normalized(const SpreadSize& size, const Mean& mean,
         if (x < out.width && y < out.height)
             out.share[size_t(y) * size_t(out.width) + size_t(x)] = value;
     };
+    const double most = size.radius * size.radius;
     std::vector<double> sums(size_t(reach) + 1, 0.0); // of rows
     parallel(reach + 1, [&](int64_t row) {
         const int y = int(row);
-        for (int x = y; x <= reach && std::hypot(x, y) <= size.radius; ++x) {
+        for (int x = y; x <= reach && double(x) * x + double(y) * y <= most; ++x) {
             const double value = mean(x, y);
             put(x, y, value);
             put(y, x, value);
@@ -128,14 +130,26 @@ PointSpread eye_spread(Vision vision, double wavelength, double pixel, const Spr
 
 PointSpread gaussian_spread(double r, const SpreadSize& size,
                             const kernels::ParallelFor& parallel) {
-    const auto at = [r](double distance) {
+    // The means over pixels of the two factors of each Gaussian.
+    std::array<std::vector<double>, 4> means;
+    for (size_t k = 0; k < means.size(); ++k) {
+        const double sigma = r / double(8 >> k);
+        for (int x = 0; x <= int(size.radius); ++x) {
+            double sum = 0;
+            for (int i = 0; i < kSamples; ++i) {
+                const double off = (x + (i + 0.5) / kSamples - 0.5) / sigma;
+                sum += std::exp(-off * off / 2);
+            }
+            means[k].push_back(sum / (kSamples * sigma));
+        }
+    }
+    const auto mean = [&](int x, int y) {
         double sum = 0;
-        for (double sigma : {r / 8, r / 4, r / 2, r})
-            sum += std::exp(-distance * distance / (2 * sigma * sigma)) / (sigma * sigma);
+        for (const std::vector<double>& of : means)
+            sum += of[size_t(x)] * of[size_t(y)];
         return sum;
     };
-    return normalized(
-        size, [&](int x, int y) { return pixel_mean(x, y, at); }, parallel);
+    return normalized(size, mean, parallel);
 }
 
 } // namespace tonetool::tonemap

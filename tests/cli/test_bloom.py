@@ -231,3 +231,10 @@ def test_display_encoded_images_are_refused(tonetool, make_image):
     make_image("s.png", kind="uint8")
     assert "linear" in tonetool("s.png", "--bloom", "-o", "o.exr", status=1).err
     tonetool("s.png", "--bloom:from=rec709", "-o", "o.exr")
+
+
+def test_a_radius_beyond_the_image_takes_no_longer_than_its_circle(tonetool, lamp, read):
+    """Its kernel is a product, row by column."""
+    lamp("p.exr", width=30, height=1, at=(3, 0))
+    tonetool("p.exr", "--bloom:psf=gaussian:radius=2000", "-d", "float", "-o", "o.exr", timeout=60)
+    assert 0 < read("o.exr")[0][..., :3].sum() < 1  # nearly all of it leaves the frame

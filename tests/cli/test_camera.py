@@ -185,9 +185,19 @@ def test_frames_of_two_units(tonetool, scene):
     assert "whiteLuminance" in err and "10" in err and "20" in err and "unit=X" in err
     ran = tonetool(*words, "--calibrate:method=auto:unit=10", "-o", "o.#.exr")
     assert values(ran, "unit") == [10, 10]
+    scene("t.0001.exr")
+    assert "some frames have no whiteLuminance, and others have 20 (valid: unit=X)" in \
+        tonetool(*words, "--calibrate:method=auto", "-o", "o.#.exr", status=1).err
 
 
 def test_help_says_the_unit(tonetool):
     for command in ("calibrate", "tonemap", "cgtmo"):
         text = " ".join(tonetool("--help", command).out.split())
         assert "cd/m2 of a pixel value of 1" in text and "whiteLuminance" in text and "179" in text
+
+
+@pytest.mark.parametrize("name, value", [("aperture", 0.0), ("expTime", -0.02)])
+def test_a_header_with_a_wrong_setting(tonetool, scene, name, value):
+    scene("w.exr", **{**HEADER, name: value})
+    err = tonetool("w.exr", "--tonemap:method=camera", "-o", "o.png", status=1).err
+    assert f"the header's {name} is {value:g}: must be above 0" in err

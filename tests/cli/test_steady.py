@@ -346,7 +346,7 @@ def test_what_moves_is_steadied_along_its_motion(make, write, tmp_path):
     ("steady=1:adapt=frame", "steady=1 is of the frames of a shot"),
     ("steady=1:base=mean", "steady=1 is of base=edges"),
     ("steady=1:preset=classic", "steady=1 is of base=edges"),
-    ("steady=1:filter=wls", "steady=1 is of base=edges"),
+    ("steady=1:filter=wls", "steady=1 is of filter=guided with base=edges"),
     ("motion=Vector", "motion is of steady=1"),
     ("steady=1:motion=Vector", 'there is no channel "Vector.X"')])
 def test_what_does_not_fit_is_refused(make, write, options, why):

@@ -38,6 +38,11 @@ bool needs_unit(const CalibrationOptions& options) {
 }
 
 double unit_of(const ShotLight& shot) {
+    if (shot.least_unit == 0 && shot.largest_unit > 0)
+        throw Refusal(
+            format("adapt: some frames have no whiteLuminance, and others have {} (valid: "
+                   "unit=X)",
+                   shot.largest_unit));
     if (shot.least_unit != shot.largest_unit)
         throw Refusal(format("adapt: the whiteLuminance of the frames is {} to {} (valid: unit=X)",
                              shot.least_unit, shot.largest_unit));

@@ -65,7 +65,13 @@ void check_edges(const CgTmoOptions& o) {
                                                      {"steady=1", o.steady}};
     for (const auto& [name, given] : of_edges)
         if (given && !edges)
-            throw Refusal(format("{} is of base=edges, and this is base=mean", name));
+            throw Refusal(o.filter == "guided"
+                              ? format("{} is of base=edges, and this is base=mean (valid: "
+                                       "base=edges, preset=default)",
+                                       name)
+                              : format("{} is of filter=guided with base=edges, and this is "
+                                       "filter={}",
+                                       name, o.filter));
     if (!o.motion.empty() && !o.steady)
         throw Refusal("motion is of steady=1, which is not on");
 }

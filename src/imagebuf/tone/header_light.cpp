@@ -26,6 +26,11 @@ double setting(const char* name, std::optional<double> given, const OIIO::ImageS
     if (given)
         return *given;
     const double found = header_number(spec, names);
+    for (const char* header : names)
+        if (const auto* wrong = found > 0 ? nullptr : spec.find_attribute(header))
+            throw Refusal(format("method=camera: the header's {} is {}: must be above 0 (valid: "
+                                 "{}=X)",
+                                 title, wrong->get_string(), name));
     if (!(found > 0))
         throw Refusal(format("method=camera: the header has no {} (valid: {}=X)", title, name));
     return found;
@@ -49,8 +54,9 @@ double unit_or_1(std::optional<double> given, double of_header, std::vector<std:
     if (given)
         return *given;
     if (!(of_header > 0))
-        notes.emplace_back("no header says whiteLuminance: a pixel value of 1 is taken for 1 cd/m2 "
-                           "(unit= says what it is)");
+        notes.emplace_back(
+            "no header says whiteLuminance above 0: a pixel value of 1 is taken for 1 cd/m2 "
+            "(unit= says what it is)");
     return of_header > 0 ? of_header : 1;
 }
 

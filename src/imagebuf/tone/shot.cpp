@@ -92,12 +92,16 @@ void check_mode_of(const AdaptOptions& options, const std::string& mode) {
 }
 
 void find_units(const std::vector<ShotFrame>& scene, ShotLight& out) {
+    bool any_without = false;
     for (const ShotFrame& frame : scene) {
+        any_without = any_without || !(frame.unit > 0);
         if (!(frame.unit > 0))
             continue;
         out.least_unit = out.least_unit > 0 ? std::min(out.least_unit, frame.unit) : frame.unit;
         out.largest_unit = std::max(out.largest_unit, frame.unit);
     }
+    if (any_without)
+        out.least_unit = 0;
 }
 
 // A frame, and the scene between two cuts that it is in.
