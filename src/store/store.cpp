@@ -96,6 +96,10 @@ void each_file(const std::string& folder, const std::string& below, const Visit&
         each_file(folder, one, visit);
 }
 
+std::string name_of_record(const std::string& file) {
+    return file.substr(0, file.size() - std::string(kRecordEnding).size());
+}
+
 } // namespace
 
 std::string Store::record_file(const std::string& name) const {
@@ -106,27 +110,28 @@ std::vector<std::string> Store::names() const {
     std::set<std::string> names;
     each_file(m_folder, "", [&](const std::string& file) {
         if (ends_with(file, kRecordEnding))
-            names.insert(file.substr(0, file.size() - std::string(kRecordEnding).size()));
+            names.insert(name_of_record(file));
     });
     return {names.begin(), names.end()};
 }
 
 std::vector<std::string> Store::names_without_record() const {
-    const std::vector<std::string> all = names();
-    const std::set<std::string> known(all.begin(), all.end());
-    std::set<std::string> found;
+    std::set<std::string> known, images, found;
     each_file(m_folder, "", [&](const std::string& file) {
-        if (!is_image_name(file.substr(file.rfind('/') + 1)))
-            return;
-        std::string name = fs::path(file).replace_extension().replace_extension().string();
+        if (ends_with(file, kRecordEnding))
+            known.insert(name_of_record(file));
+        else if (is_image_name(last_part(file)))
+            images.insert(fs::path(file).replace_extension().replace_extension().string());
+    });
+    for (std::string name : images) {
         if (known.count(name) > 0)
-            return;
+            continue;
         const size_t at = name.rfind('@'); // a key, unless the name has that sign itself
         if (at != std::string::npos && name.find('/', at) == std::string::npos)
             name.resize(at);
         if (known.count(name) == 0)
             found.insert(name);
-    });
+    }
     return {found.begin(), found.end()};
 }
 

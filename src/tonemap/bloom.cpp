@@ -24,14 +24,19 @@ Weights weights_of(Vision vision) {
     return all[size_t(vision)];
 }
 
+// The place of one of the samples of a pixel, along one axis.
+double sample(int pixel, int i) {
+    return pixel + (i + 0.5) / kSamples - 0.5;
+}
+
 // A function of the distance in pixels as the mean over a pixel.
 template <class Function>
 double pixel_mean(int x, int y, const Function& function) {
     double sum = 0;
     for (int j = 0; j < kSamples; ++j) {
-        const double dy = y + (j + 0.5) / kSamples - 0.5;
+        const double dy = sample(y, j);
         for (int i = 0; i < kSamples; ++i) {
-            const double dx = x + (i + 0.5) / kSamples - 0.5;
+            const double dx = sample(x, i);
             sum += function(std::sqrt(dx * dx + dy * dy));
         }
     }
@@ -137,7 +142,7 @@ PointSpread gaussian_spread(double r, const SpreadSize& size,
         for (int x = 0; x <= int(size.radius); ++x) {
             double sum = 0;
             for (int i = 0; i < kSamples; ++i) {
-                const double off = (x + (i + 0.5) / kSamples - 0.5) / sigma;
+                const double off = sample(x, i) / sigma;
                 sum += std::exp(-off * off / 2);
             }
             means[k].push_back(sum / (kSamples * sigma));

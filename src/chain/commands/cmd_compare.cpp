@@ -49,19 +49,9 @@ struct Compared {
 // The same pixels twice: most likely a slip of the command line.
 void warn_of_same_file(Session& session, const Call& call, const Image& test, const Look& look) {
     const Image& reference = *call.images.front();
-    const auto part_of = [](const Image& image, const PixelOptions& options, ColorChoice& color) {
-        const std::vector<OIIO::ImageSpec> headers = headers_of(image);
-        PartChoice found;
-        std::string ignored;
-        (void)ToneAlgo::find_part(headers, options, found, ignored);
-        (void)ToneAlgo::find_color(headers.at(size_t(found.part)), options, color, ignored);
-        return size_t(found.part);
-    };
-    ColorChoice r, t;
-    const size_t of_reference = part_of(reference, look.reference, r);
-    const size_t of_test = part_of(test, look.tests, t);
-    if (same_file(reference, of_reference, test, of_test) && r.r == t.r && r.g == t.g &&
-        r.b == t.b) {
+    const auto r = looked_at(reference, look.reference), t = looked_at(test, look.tests);
+    if (r && t && same_file(reference, r->part, test, t->part) && r->color.r == t->color.r &&
+        r->color.g == t->color.g && r->color.b == t->color.b) {
         session.warning(call.row().label(), "reference \"" + reference.name() + "\" and test \"" +
                                                 test.name() + "\" are the same file");
     }

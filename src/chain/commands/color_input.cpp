@@ -3,7 +3,7 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <optional>
+#include <utility>
 
 #include "text/error.h"
 #include "tonetool/color_tags.h"
@@ -31,27 +31,6 @@ void refuse_all(const Image& image) {
 bool is_judged(const Session& session, const Call& call) {
     return call.row().group == Group::Compare && (call.has("fail") || call.has("warn") ||
                                                   call.row().always_judges || session.check.result);
-}
-
-/// The layer that is compared, and all layers of colour, of the subimage that is looked at.
-struct Picture {
-    std::string layer;
-    Strings layers;
-    bool has(const std::string& one) const {
-        return std::find(layers.begin(), layers.end(), one) != layers.end();
-    }
-};
-
-std::optional<Picture> picture_of(const Image& image, const PixelOptions& options) {
-    const std::vector<OIIO::ImageSpec> headers = headers_of(image);
-    PartChoice part;
-    ColorChoice color;
-    std::string ignored;
-    if (!options.layer.empty() || !ToneAlgo::find_part(headers, options, part, ignored) ||
-        !ToneAlgo::find_color(headers.at(size_t(part.part)), options, color, ignored))
-        return std::nullopt;
-    return Picture{color.layer.empty() ? "R,G,B" : color.layer,
-                   ToneAlgo::color_layers(headers.at(size_t(part.part)))};
 }
 
 std::string left_out(const Image& image, const PartChoice& choice) {
@@ -152,18 +131,41 @@ Part& checked_part(Session& session, const Call& call, const Image& image,
     return part;
 }
 
+std::optional<LookedAt> looked_at(const Image& image, const PixelOptions& options) {
+    std::vector<OIIO::ImageSpec> headers = headers_of(image);
+    PartChoice part;
+    LookedAt found;
+    std::string ignored;
+    if (!ToneAlgo::find_part(headers, options, part, ignored))
+        return std::nullopt;
+    found.part = size_t(part.part);
+    found.header = std::move(headers.at(found.part));
+    if (!ToneAlgo::find_color(found.header, options, found.color, ignored))
+        return std::nullopt;
+    return found;
+}
+
 void check_same_picture(Session& session, const Call& call, const Image& reference,
                         const PixelOptions& of_reference, const Image& test,
                         const PixelOptions& of_test) {
-    const auto r = picture_of(reference, of_reference), t = picture_of(test, of_test);
-    if (!r || !t || r->layer == t->layer)
+    if (!of_reference.layer.empty() || !of_test.layer.empty())
         return;
-    const bool test_has_both = t->has(r->layer);
-    if (!test_has_both && !r->has(t->layer))
+    const auto r = looked_at(reference, of_reference), t = looked_at(test, of_test);
+    if (!r || !t || r->color.layer == t->color.layer)
+        return;
+    const auto name = [](const LookedAt& of) {
+        return of.color.layer.empty() ? std::string("R,G,B") : of.color.layer;
+    };
+    const auto has = [](const LookedAt& of, const std::string& layer) {
+        const Strings layers = ToneAlgo::color_layers(of.header);
+        return std::find(layers.begin(), layers.end(), layer) != layers.end();
+    };
+    const bool test_has_both = has(*t, name(*r));
+    if (!test_has_both && !has(*r, name(*t)))
         return; // a picture that was written out on its own
-    const std::string& layer = test_has_both ? r->layer : t->layer;
-    const std::string text = "the picture of \"" + reference.name() + "\" is " + r->layer +
-                             ", that of \"" + test.name() + "\" " + t->layer + ", and both have " +
+    const std::string layer = name(test_has_both ? *r : *t);
+    const std::string text = "the picture of \"" + reference.name() + "\" is " + name(*r) +
+                             ", that of \"" + test.name() + "\" " + name(*t) + ", and both have " +
                              layer + " (layer=" + layer + " compares that)";
     if (is_judged(session, call))
         throw CommandError(text);

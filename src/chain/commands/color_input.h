@@ -2,6 +2,8 @@
 // Converts images of the stack to the inputs of the library's measuring functions.
 #pragma once
 
+#include <optional>
+
 #include "chain/commands/commands.h"
 #include "tonetool/parts.h"
 
@@ -33,6 +35,15 @@ Part& checked_part(Session& session, const Call& call, const Image& image,
 /// applied, and as a warning an ICC profile, which is not.
 void tell_encoding(Session& session, const Call& call, const Image& image,
                    const OIIO::ImageSpec& header, const PixelOptions& options);
+
+/// The subimage and the channels that a command looks at, as find_part() and find_color() choose
+/// them.
+struct LookedAt {
+    size_t part = 0;
+    OIIO::ImageSpec header; ///< of the subimage
+    ColorChoice color;
+};
+std::optional<LookedAt> looked_at(const Image& image, const PixelOptions& options);
 
 /// For images whose pictures are compared, where no layer is asked for: that of one must not be of
 /// another name than that of the other while the other has a layer of its name. An error in

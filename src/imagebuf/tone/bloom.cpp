@@ -100,7 +100,7 @@ private:
             return;
         FrameLight light;
         std::string why;
-        if (!ToneAlgo::frame_light(light, m_src, why, m_options.pixels, m_nthreads))
+        if (!ToneAlgo::frame_light(light, m_out, why, m_options.pixels, m_nthreads))
             throw Refusal(why);
         summary.lwa = light.lwa;
         summary.threshold = light.lwa * std::exp2(number);
@@ -109,7 +109,7 @@ private:
     void measure() {
         find_threshold();
         ColorReader reader;
-        reader.open(m_src, m_options.pixels, m_out.roi(), false, m_nthreads);
+        reader.open(m_out, m_options.pixels, m_out.roi(), false, m_nthreads);
         ColorPlanes planes = reader.planes();
         m_share = read_luminance(reader, planes, m_nthreads);
         summary.layer = m_choice.layer;

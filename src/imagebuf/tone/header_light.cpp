@@ -25,15 +25,14 @@ double setting(const char* name, std::optional<double> given, const OIIO::ImageS
                const char* title, std::initializer_list<const char*> names) {
     if (given)
         return *given;
-    const double found = header_number(spec, names);
+    if (const double found = header_number(spec, names); found > 0)
+        return found;
     for (const char* header : names)
-        if (const auto* wrong = found > 0 ? nullptr : spec.find_attribute(header))
+        if (const OIIO::ParamValue* wrong = spec.find_attribute(header))
             throw Refusal(format("method=camera: the header's {} is {}: must be above 0 (valid: "
                                  "{}=X)",
                                  title, wrong->get_string(), name));
-    if (!(found > 0))
-        throw Refusal(format("method=camera: the header has no {} (valid: {}=X)", title, name));
-    return found;
+    throw Refusal(format("method=camera: the header has no {} (valid: {}=X)", title, name));
 }
 
 } // namespace
