@@ -6,15 +6,14 @@
 #include <algorithm>
 #include <filesystem>
 #include <ostream>
-#include <set>
 #include <utility>
 
 #include "runs/frame_context.h"
 #include "runs/loop.h"
 #include "runs/rehearsal.h"
 #include "runs/shots.h"
+#include "runs/written_over.h"
 #include "sequence/frames/file_sequence.h"
-#include "sequence/frames/file_stamp.h"
 #include "sequence/report/report_files.h"
 #include "sequence/results/check_files.h"
 #include "sequence/results/ci_texts.h"
@@ -29,82 +28,11 @@
 #include "text/error.h"
 #include "text/printable.h"
 #include "text/text.h"
-#include "text/token.h"
 #include "tonetool/write.h"
 
 namespace tonetool::runs {
 
 namespace {
-
-std::string normal(const std::string& file) {
-    return std::filesystem::path(file).lexically_normal().string();
-}
-
-// A file that is written at the end, and what is in its place before.
-struct EndFile {
-    std::string command, file; // "json", and its argument
-    std::string path;
-    sequence::Stamp stamp;
-
-    bool is(const std::string& other) const {
-        if (path == normal(other))
-            return true;
-        const sequence::Stamp found = sequence::stamp_of(stamp.inode == 0 ? "" : other);
-        return found.inode != 0 && found.inode == stamp.inode && found.device == stamp.device;
-    }
-    [[noreturn]] void refuse(const std::string& other, const std::string& why) const {
-        throw CommandError("--" + command + ": \"" + file + "\" " +
-                           (file == other ? "" : "is the file \"" + other + "\", which ") + why +
-                           " (valid: a file of its own)");
-    }
-};
-
-std::vector<EndFile> places_of(const CheckPlan& check) {
-    std::vector<EndFile> places;
-    for (const auto& [command, file] : check.written()) {
-        const bool is_file = command != "merge" && command != "state" && command != "pictures" &&
-                             command != "exit-zero" && command != "accept" && command != "github" &&
-                             command != "images" && command != "ctest";
-        if (is_file && file != "-")
-            places.push_back({command, file, normal(file), sequence::stamp_of(file)});
-    }
-    return places;
-}
-
-// The names of files that a run of the line reads, images and others.
-Strings files_read(const chain::ParsedLine& line, const CheckPlan& check, const Strings& texts) {
-    Strings files = words_at(texts, check.inputs);
-    for (const chain::Word& word : line.words) {
-        if (!word.row)
-            continue;
-        const bool reads = !word.row->writes() || word.is("accept") || word.is("suite");
-        for (size_t i = 0; i < word.arguments.size() && reads; ++i)
-            if (chain::names_file(word.argument_name(i)))
-                files.push_back(texts[word.arguments[i]]);
-        for (const auto& [key, text] : parse_token(texts[word.at], true).modifiers) {
-            for (const chain::Modifier& modifier : word.row->modifiers)
-                if (modifier.key == key && chain::value_names_file(modifier, text))
-                    files.push_back(text);
-        }
-    }
-    return files;
-}
-
-void refuse_in_run(const FramePlan& plan, const std::vector<EndFile>& places, const Strings& texts,
-                   const Strings& read) {
-    const Strings outputs = words_at(texts, plan.check.outputs);
-    for (const EndFile& place : places) {
-        for (const std::string& file : read) {
-            // The JSON of a check has the exposures that were read of it.
-            const bool keeps = place.command == "json" && file == plan.check.exposures;
-            if (!keeps && place.is(file))
-                place.refuse(file, "is read, and would be written over");
-        }
-        for (const std::string& file : outputs)
-            if (place.is(file))
-                place.refuse(file, "is written as an image, too");
-    }
-}
 
 void write_table(const sequence::ShotResult& shot, const CheckPlan& check,
                  const std::string& file) {
@@ -163,47 +91,6 @@ sequence::CaseFiles images_at_end(const sequence::ShotResult& shot, const CheckP
     return kept;
 }
 
-// What --figure names must be there before anything runs.
-void check_figure(const FramePlan& plan) {
-    const CheckPlan& check = plan.check;
-    const auto need = [&](const char* key, const Strings& asked,
-                          std::string sequence::Item::*member) {
-        std::set<std::string> there;
-        for (const FrameRun& run : plan.runs)
-            there.insert(run.frame.item().*member);
-        for (const std::string& one : asked)
-            if (there.count(one) == 0)
-                throw CommandError(std::string("--figure: ") + key + " has \"" + one +
-                                   "\" (there are: " + join({there.begin(), there.end()}, ", ") +
-                                   ")");
-    };
-    if (!check.has("figure"))
-        return;
-    need("names", check.figure.names, &sequence::Item::name);
-    need("methods", check.figure.methods, &sequence::Item::method);
-}
-
-// An image that a case may get is one that is read.
-void refuse_images(const FramePlan& plan) {
-    const auto images = case_images(plan.check, plan.check.essence);
-    if (!images)
-        return;
-    std::set<std::string> read;
-    for (const FrameRun& run : plan.runs)
-        for (const std::string& file : files_read(plan.line_of(run), plan.check_of(run), run.words))
-            read.insert(normal(file));
-    for (size_t i = 0; i < plan.runs.size(); ++i) {
-        const sequence::CaseFiles::Of files = images->files(unchecked_frame(plan, i));
-        for (const auto& kind : sequence::CaseFiles::kAll) {
-            const std::string& file = files.*kind.second;
-            if (read.count(normal(file)) > 0)
-                throw CommandError("--images: \"" + file +
-                                   "\" is read, and would be written "
-                                   "over (valid: a folder of its own)");
-        }
-    }
-}
-
 // What a person types next, after a look.
 std::string approve_hint(const sequence::ShotResult& shot, const CheckPlan& check) {
     constexpr size_t most = 8;
@@ -229,19 +116,6 @@ std::string approve_hint(const sequence::ShotResult& shot, const CheckPlan& chec
 }
 
 } // namespace
-
-void refuse_to_write_over(const FramePlan& plan, const Strings& parts) {
-    refuse_images(plan);
-    check_figure(plan);
-    const std::vector<EndFile> places = places_of(plan.check);
-    if (places.empty())
-        return;
-    if (plan.check.has("merge"))
-        refuse_in_run(plan, places, plan.line.texts, parts);
-    for (const FrameRun& run : plan.runs)
-        refuse_in_run(plan, places, run.words,
-                      files_read(plan.line_of(run), plan.check_of(run), run.words));
-}
 
 Strings words_at(const Strings& words, const std::vector<size_t>& places) {
     Strings found;

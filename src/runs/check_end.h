@@ -24,10 +24,6 @@ std::string picture_folder(const CheckPlan& check);
 /// The images of --images; nullopt where there are to be none. `words`: of the check.
 std::optional<sequence::CaseImages> case_images(const CheckPlan& check, const Strings& words);
 
-/// A CommandError where a file that is written at the end is one that the line, with the words of
-/// one of its runs, reads or writes itself, by whatever name. `parts`: of --merge.
-void refuse_to_write_over(const FramePlan& plan, const Strings& parts = {});
-
 /// What --accept lets pass, if it is there; a runtime_error where its file is damaged or of another
 /// check than this one.
 std::vector<sequence::Acceptance> accepted_by(const CheckPlan& plan, const Strings& check);

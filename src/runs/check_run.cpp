@@ -14,6 +14,7 @@
 #include "runs/measured_frames.h"
 #include "runs/rehearsal.h"
 #include "runs/shots.h"
+#include "runs/written_over.h"
 #include "sequence/results/check_files.h"
 #include "text/error.h"
 #include "text/printable.h"
@@ -68,6 +69,7 @@ private:
 int PlanRun::run() {
     sequence::check_places(m_plan.check.written_places());
     refuse_to_write_over(m_plan);
+    check_figure(m_plan);
     m_accepted = accepted_by(m_plan.check, m_plan.check.essence);
     if (m_plan.check.only_validates || judges_frames()) {
         try_outputs(m_plan);

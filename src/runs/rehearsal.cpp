@@ -12,6 +12,7 @@
 
 #include "chain/session/runner.h"
 #include "runs/check_end.h"
+#include "runs/stack_of_files.h"
 #include "runs/workers.h"
 #include "sequence/results/check_files.h"
 #include "sequence/results/probe.h"
@@ -24,7 +25,6 @@ namespace tonetool::runs {
 
 namespace {
 
-using chain::Call;
 using chain::Group;
 using chain::Word;
 using OIIO::Strutil::fmt::format;
@@ -37,79 +37,36 @@ struct LayerAsked {
     size_t file;
 };
 
-// What the words before a command leave on the stack, as long as that is files as they are: the
-// places of their words, nullopt for what a command has made.
-class StackOfFiles {
+// The layers that commands name, of the files that they get as they are.
+class LayersAsked {
 public:
-    StackOfFiles(const chain::ParsedLine& line, const CheckPlan& check)
-        : m_line(line),
-          m_check(check) {}
-
-    /// Up to the first command of which this is not known.
-    void follow() {
-        for (const Word& word : m_line.words)
-            if (m_line.texts[word.at].find('{') != std::string::npos || !take(word))
-                break;
+    void note(const StackedCommand& command) {
+        const Word& word = command.word;
+        const size_t all = command.stack.size(), first = all - command.pops;
+        if (word.is("qc"))
+            ask(command, "layer", first, all);
+        if (!word.is("against") && (word.row->group != Group::Compare || word.row->pops <= 0))
+            return;
+        const auto& keys = word.row->modifiers;
+        const bool other = std::any_of(keys.begin(), keys.end(),
+                                       [](const auto& one) { return one.key == "ldrlayer"; });
+        ask(command, "layer", first, other ? first + 1 : all);
+        ask(command, "ldrlayer", first + 1, all);
     }
-    const std::vector<LayerAsked>& layers_asked() const { return m_asked; }
-    /// The comparison for which there are too few images, and what is wrong with that; empty if
-    /// there is none.
-    const std::pair<std::string, std::string>& shortage() const { return m_shortage; }
+    const std::vector<LayerAsked>& asked() const { return m_asked; }
 
 private:
-    bool take(const Word& word) {
-        if (!word.row) {
-            m_files.emplace_back(word.at);
-            return m_check.is_input(word.at);
+    void ask(const StackedCommand& command, const std::string& key, size_t begin, size_t end) {
+        for (const auto& [name, layer] : command.word.token.modifiers) {
+            if (name != key || layer.find('{') != std::string::npos)
+                continue;
+            for (size_t i = begin; i < end; ++i)
+                if (const StackedImage& image = command.stack[i]; image.file && image.unchanged)
+                    m_asked.push_back({command.word.row->label(), layer, *image.file});
         }
-        if (word.is("qc"))
-            return !m_files.empty() && ask(word, "layer", m_files.size() - 1, m_files.size());
-        if (word.is("against") || (word.row->group == Group::Compare && word.row->pops > 0))
-            return take_comparison(word);
-        const bool sets = word.row->group == Group::General || word.row->group == Group::Check ||
-                          word.row->manner || word.row->whole_line;
-        return sets && word.row->pops == 0 && word.row->pushes == 0;
     }
 
-    bool take_comparison(const Word& word) {
-        const Call call(*word.row, word.token, {});
-        size_t pops = 0;
-        try {
-            pops = size_t(call.pops());
-        } catch (const CommandError& problem) { // tests=0
-            m_shortage = {word.row->label(), problem.what()};
-            return false;
-        }
-        if (pops > m_files.size()) {
-            m_shortage = {word.row->label(), chain::too_few_images(pops, m_files.size())};
-            return false;
-        }
-        const size_t first = m_files.size() - pops;
-        const auto& all = word.row->modifiers;
-        const bool other = std::any_of(all.begin(), all.end(),
-                                       [](const auto& one) { return one.key == "ldrlayer"; });
-        ask(word, "layer", first, other ? first + 1 : m_files.size());
-        ask(word, "ldrlayer", first + 1, m_files.size());
-        if (word.is("against")) // leaves its files where they are
-            return true;
-        m_files.resize(first);
-        m_files.resize(first + size_t(std::max(call.pushes(), 0)));
-        return call.pushes() >= 0;
-    }
-
-    bool ask(const Word& word, const std::string& key, size_t begin, size_t end) {
-        for (const auto& [name, layer] : word.token.modifiers)
-            for (size_t i = begin; i < end && name == key; ++i)
-                if (m_files[i])
-                    m_asked.push_back({word.row->label(), layer, *m_files[i]});
-        return true;
-    }
-
-    const chain::ParsedLine& m_line;
-    const CheckPlan& m_check;
-    std::vector<std::optional<size_t>> m_files;
     std::vector<LayerAsked> m_asked;
-    std::pair<std::string, std::string> m_shortage;
 };
 
 // Why a file has not the layer; empty where it has, nullopt where its headers cannot be read.
@@ -177,13 +134,15 @@ std::string mistakes_of(const FramePlan& plan, const FrameRun& run) {
     chain::Runner(session, run.words).check_all();
     if (session.outcome.errors > 0)
         return text.str();
-    StackOfFiles stack(plan.line_of(run), plan.check_of(run));
-    stack.follow();
-    if (const auto& [command, lack] = stack.shortage(); !lack.empty()) {
-        session.error(command, lack);
+    LayersAsked layers;
+    const Followed followed =
+        follow_stack(plan.line_of(run), plan.check_of(run),
+                     [&](const StackedCommand& command) { layers.note(command); });
+    if (!followed.mistake.empty()) {
+        session.error(followed.command, followed.mistake);
         return text.str();
     }
-    for (const LayerAsked& asked : stack.layers_asked()) {
+    for (const LayerAsked& asked : layers.asked()) {
         const std::string lack = lack_of_all(plan, run, asked);
         if (!lack.empty()) {
             session.error(asked.command, lack);
@@ -251,6 +210,25 @@ std::string fixed_name(const FramePlan& plan, size_t at, const std::string& file
 }
 
 } // namespace
+
+void check_figure(const FramePlan& plan) {
+    const CheckPlan& check = plan.check;
+    const auto need = [&](const char* key, const Strings& asked,
+                          std::string sequence::Item::*member) {
+        std::set<std::string> there;
+        for (const FrameRun& run : plan.runs)
+            there.insert(run.frame.item().*member);
+        for (const std::string& one : asked)
+            if (there.count(one) == 0)
+                throw CommandError(std::string("--figure: ") + key + " has \"" + one +
+                                   "\" (there are: " + join({there.begin(), there.end()}, ", ") +
+                                   ")");
+    };
+    if (!check.has("figure"))
+        return;
+    need("names", check.figure.names, &sequence::Item::name);
+    need("methods", check.figure.methods, &sequence::Item::method);
+}
 
 void try_outputs(const FramePlan& plan) {
     const CheckPlan& check = plan.check;

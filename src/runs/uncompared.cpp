@@ -2,13 +2,10 @@
 #include "runs/uncompared.h"
 
 #include <algorithm>
-#include <deque>
 #include <filesystem>
 #include <map>
-#include <optional>
-#include <utility>
 
-#include "chain/session/call.h"
+#include "runs/stack_of_files.h"
 #include "text/error.h"
 
 namespace tonetool::runs {
@@ -16,118 +13,46 @@ namespace tonetool::runs {
 namespace {
 
 namespace fs = std::filesystem;
-using chain::Call;
 using chain::Group;
-using chain::Word;
 
-// Runs the numbers of images that commands take and leave.
-class Rundown {
+// Notes what the commands of a line do with its files.
+class Uses {
 public:
-    Rundown(const chain::ParsedLine& line, const CheckPlan& check) : m_line(line), m_check(check) {}
+    void note(const StackedCommand& command) {
+        const chain::Command& row = *command.word.row;
+        const bool looks = row.group == Group::Write || row.group == Group::Print;
+        use(command.stack,
+            row.takes_all ? command.stack.size() : std::max<size_t>(command.pops, looks ? 1 : 0));
+        if (row.group == Group::Compare && command.pops >= 2)
+            note_sides(command.stack, command.pops);
+    }
 
-    Reading reading() {
-        for (const Word& word : m_line.words)
-            if (!take(word))
-                return {};
-        if (!m_waiting.empty())
+    Reading reading(const Followed& followed) {
+        if (!followed.all)
             return {};
         m_reading.certain = true;
-        for (const size_t at : m_read)
+        for (const size_t at : followed.files)
             if (std::find(m_used.begin(), m_used.end(), at) == m_used.end())
                 m_reading.unused.push_back(at);
         return m_reading;
     }
 
 private:
-    // The place of an image's file; nullopt for what a command has made or a label names.
-    using Slot = std::optional<size_t>;
-
-    // An expression may look at an image.
-    bool is_plain(const Word& word) const {
-        for (size_t at = word.at; at < word.end(); ++at) {
-            const std::string& text = m_line.texts[at];
-            const size_t brace = text.find('{');
-            if (brace != std::string::npos && text.find('.', brace) != std::string::npos &&
-                text.find("FRAME_NUMBER", brace) != brace + 1)
-                return false;
-        }
-        return true;
+    void use(const std::vector<StackedImage>& stack, size_t count) {
+        for (size_t i = stack.size() - std::min(count, stack.size()); i < stack.size(); ++i)
+            if (stack[i].file)
+                m_used.push_back(*stack[i].file);
     }
 
-    bool take(const Word& word) {
-        if (!is_plain(word))
-            return false;
-        if (!word.row) {
-            if (!word.token.is_command)
-                push(word.at);
-            return !word.token.is_command && run_waiting();
-        }
-        if (word.row->control || !word.missing.empty())
-            return false;
-        if (word.is("i")) {
-            push(word.arguments.empty() ? word.at : word.arguments.front());
-            return run_waiting();
-        }
-        m_waiting.push_back(&word);
-        return run_waiting();
+    void note_sides(const std::vector<StackedImage>& stack, size_t pops) {
+        const size_t first = stack.size() - pops;
+        for (size_t i = first; i < stack.size(); ++i)
+            if (stack[i].file)
+                (i == first ? m_reading.references : m_reading.tests).push_back(*stack[i].file);
     }
 
-    void push(size_t at) {
-        const bool file = m_check.is_input(at);
-        m_stack.push_back(file ? Slot(at) : std::nullopt);
-        if (file)
-            m_read.push_back(at);
-    }
-
-    bool run_waiting() {
-        while (!m_waiting.empty()) {
-            const Word& word = *m_waiting.front();
-            const Call call(*word.row, word.token, {});
-            const int pops = call.pops();
-            if (pops > int(m_stack.size()))
-                return true;
-            m_waiting.pop_front();
-            if (!run(word, size_t(std::max(pops, 0)), call.pushes()))
-                return false;
-        }
-        return true;
-    }
-
-    void use(size_t count) {
-        for (size_t i = m_stack.size() - std::min(count, m_stack.size()); i < m_stack.size(); ++i)
-            if (m_stack[i])
-                m_used.push_back(*m_stack[i]);
-    }
-
-    bool run(const Word& word, size_t pops, int pushes) {
-        const bool looks = word.row->group == Group::Write || word.row->group == Group::Print;
-        use(word.row->takes_all ? m_stack.size() : std::max<size_t>(pops, looks ? 1 : 0));
-        if (word.row->group == Group::Compare && pops >= 2)
-            note_sides(pops);
-        if (pushes == chain::kAnyNumber)
-            return looks && pops == 0; // an output leaves the images as they are
-        if (word.is("swap"))
-            std::swap(m_stack[m_stack.size() - 1], m_stack[m_stack.size() - 2]);
-        if (pushes == int(pops)) // what is made of an image counts as that image
-            return true;
-        m_stack.resize(m_stack.size() - pops);
-        m_stack.resize(m_stack.size() + size_t(pushes));
-        return true;
-    }
-
-    void note_sides(size_t pops) {
-        const size_t first = m_stack.size() - pops;
-        for (size_t i = first; i < m_stack.size(); ++i)
-            if (m_stack[i])
-                (i == first ? m_reading.references : m_reading.tests).push_back(*m_stack[i]);
-    }
-
-    const chain::ParsedLine& m_line;
-    const CheckPlan& m_check;
     Reading m_reading;
-    std::vector<Slot> m_stack;
-    std::deque<const Word*> m_waiting;
-    std::vector<size_t> m_read, m_used;
+    std::vector<size_t> m_used;
 };
 
 // "refs/%N.exr" for "refs/a.exr".
@@ -177,7 +102,9 @@ void refuse_shell_wildcard(const std::string& word) {
 
 Reading reading_of(const chain::ParsedLine& line, const CheckPlan& check) {
     try {
-        return Rundown(line, check).reading();
+        Uses uses;
+        const auto note = [&](const StackedCommand& command) { uses.note(command); };
+        return uses.reading(follow_stack(line, check, note));
     } catch (const std::exception&) {
         return {}; // what is wrong is told when the command runs
     }

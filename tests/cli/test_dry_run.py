@@ -110,6 +110,22 @@ def test_a_layer_that_one_frame_has_is_no_mistake_of_the_line(tonetool, make_ima
     assert 'no colour layer "Key"' in ran.err
 
 
+def test_a_comparison_may_wait_for_its_images(tonetool, shot):
+    plain = tonetool("--frames", "1-2", *PAIR, "--hdrflip:fail=0.5").out
+    assert tonetool("--frames", "1-2", "--hdrflip:fail=0.5", *PAIR).out == plain
+    assert tonetool("--frames", "1-2", PAIR[0], "--hdrflip:fail=0.5", PAIR[1]).out == plain
+    ran = tonetool("--frames", "1-2", "--hdrflip:fail=0.5:layer=Nope", *PAIR, status=1)
+    assert '"ref.0001.exr": no colour layer "Nope"' in ran.err
+    ran = tonetool("--frames", "1-2", "--hdrflip:fail=0.5", PAIR[0], status=1)
+    assert "needs 2 image(s), the stack has 1" in ran.err
+
+
+def test_a_layer_that_a_command_makes_is_there(tonetool, shot):
+    key = ["--ch", "ViewLayer.Combined.R,ViewLayer.Combined.G,ViewLayer.Combined.B", "--chnames",
+           "Key.R,Key.G,Key.B"]
+    tonetool("--frames", "1-2", PAIR[0], *key, PAIR[1], *key, "--hdrflip:fail=0.9:layer=Key")
+
+
 def test_words_that_differ_between_frames_are_left_to_them(tonetool, shot):
     words = [*PAIR, "--hdrflip:fail={FRAME_NUMBER/100}", "--if", "0", "--hdrflip:fail=gone.json",
              "--endif"]
