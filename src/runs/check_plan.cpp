@@ -98,6 +98,8 @@ private:
                 word.row->shot_need(chain::Call(*word.row, std::move(token), {}));
             if (!need.mode.empty())
                 m_plan.shots.push_back({word.at, need});
+            else if (!need.lack.empty())
+                m_shot_lack = "\"" + text(word.at) + "\": " + need.lack;
         } catch (const CommandError&) {
         }
     }
@@ -319,6 +321,8 @@ private:
         }
         if (!m_plan.has("statistics") || m_plan.has("merge") || m_plan.exposures == "shot")
             return;
+        if (m_plan.shots.empty() && !m_shot_lack.empty())
+            throw CommandError("--statistics: " + m_shot_lack);
         if (m_plan.shots.empty()) {
             throw CommandError("--statistics measures what exposures=shot and adapt=shot need: no "
                                "command has it (valid: --hdrflip:exposures=shot; --cgtmo, or "
@@ -336,7 +340,8 @@ private:
     CheckPlan m_plan;
     std::set<std::string> m_labels;
     int m_shot_commands = 0;
-    int m_depth = 0; ///< of --if, --while and --for
+    std::string m_shot_lack; ///< of a command that would measure what a shot's statistics lack
+    int m_depth = 0;         ///< of --if, --while and --for
 };
 
 } // namespace

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <numeric>
 
@@ -209,6 +210,10 @@ std::vector<double> thumbnail_of(const float* plane, int width, int height) {
             cells.push_back(std::log(std::max(mean, kLeastMean)));
         }
     return cells;
+}
+
+std::pair<double, double> thumbnail_range() {
+    return {std::log(kLeastMean), std::log(double(std::numeric_limits<float>::max()))};
 }
 
 std::vector<int64_t> light_histogram(const float* plane, int64_t pixels) {

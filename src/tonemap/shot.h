@@ -4,6 +4,7 @@
 
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "tonetool/shot_numbers.h"
@@ -16,6 +17,8 @@ inline constexpr int kLightBins = 64;
 /// The logarithms of the means of the cells of a plane of luminance without padding; what is not
 /// finite or negative is 0. Cells are at least a pixel wide.
 std::vector<double> thumbnail_of(const float* plane, int width, int height);
+/// The least and the largest that they can be.
+std::pair<double, double> thumbnail_range();
 /// Of the values above 0; NaN and what stands for black pixels are not counted.
 std::vector<int64_t> light_histogram(const float* plane, int64_t pixels);
 

@@ -75,12 +75,22 @@ def test_a_missing_setting_is_named(tonetool, scene, command, lacks, title, opti
     (":method=camera:fnumber=0:shutter=1:iso=1", ["fnumber 0", "1e-30"]),
     (":method=camera:fnumber=1:shutter=-1:iso=1", ["shutter -1", "1e-30"]),
     (SUNNY + ":unit=0", ["unit 0", "1e-30"]),
+    (SUNNY.replace("0.008", "1/0"), ['shutter "1/0" is not a number']),
+    (SUNNY.replace("0.008", "1/-125"), ["shutter -0.008 is out of range"]),
+    (SUNNY.replace("0.008", "1/125s"), ['shutter "1/125s" is not a number']),
 ])
 @pytest.mark.parametrize("command", ["calibrate", "tonemap"])
 def test_errors(tonetool, scene, command, options, words):
     err = tonetool(scene(), f"--{command}{options}", "-o", "o.exr", status=1).err
     for word in words:
         assert word in err
+
+
+def test_a_time_may_be_a_fraction(tonetool, scene, read):
+    whole = tonetool(scene(), "--calibrate" + SUNNY, "-o", "a.exr")
+    fraction = tonetool(scene(), "--calibrate" + SUNNY.replace("0.008", "1/125"), "-o", "b.exr")
+    assert fraction.fact("ev100") == whole.fact("ev100") == "14.9658"
+    assert np.array_equal(read("a.exr")[0], read("b.exr")[0])
 
 
 def test_a_key_of_the_mean_needs_a_unit(tonetool, scene):

@@ -167,6 +167,9 @@ def test_merge_refuses_what_does_not_fit(tonetool, shot, write, tmp_path):
     tonetool("--frames", "1-6", shot, shot, "--hdrflip:exposures=shot", "--statistics", "e.json")
     ran = tonetool("--merge", "a.json", "e.json", "--statistics", "m.json", status=1)
     assert "tonetool-exposures" in ran.err and "tonetool-shot" in ran.err
+    for name in ("a.json", "e.json"):
+        assert "--merge joins statistics with --statistics FILE" in tonetool(
+            "--merge", name, "--json", "m.json", status=1).err
 
 
 # ---- what is exposed by the shot, and what is not
@@ -397,6 +400,15 @@ def test_errors(tonetool, shot, words, why):
     (lambda f: f["frames"][0].update(lwa=-1), '"lwa" is -1'),
     (lambda f: f["frames"][0].update(lwa="x"), '"lwa" is "x", not a number'),
     (lambda f: f["frames"][1].update(counted=0), "frame 2: some of lwa"),
+    (lambda f: f["frames"][1].update(counted=7), "must be \"counted\", 7"),
+    (lambda f: f["frames"][1].update(lwa=1e300), 'must not be above "maximum"'),
+    (lambda f: f["frames"][1].update(lmax=1e30), 'must not be above "maximum"'),
+    (lambda f: f["frames"][1].update(maximum=1e300), '"maximum" is 1e+300'),
+    (lambda f: f["frames"][1].update(shown=1.5), '"shown" is 1.5: must be from 0 to 1'),
+    (lambda f: f["frames"][1].update(unit=-3), '"unit" is -3'),
+    (lambda f: f["frames"][1].update(fps=-24), '"fps" is -24'),
+    (lambda f: f["frames"][1]["thumbnail"].__setitem__(3, 1e9), '"thumbnail" is 1000000000'),
+    (lambda f: f["frames"][1]["histogram"].__setitem__(3, -2), '"histogram" is -2'),
     (lambda f: f["frames"][1]["thumbnail"].pop(), '"thumbnail" has 575'),
     (lambda f: f["frames"][1]["histogram"].pop(), '"histogram" has 63'),
     (lambda f: f["frames"].clear(), "there is no frame"),
@@ -416,6 +428,9 @@ def test_statistics_need_one_command_that_measures(tonetool, shot):
     ran = tonetool("--frames", "1-6", shot, "--cgtmo:adapt=frame", "--statistics", "s.json",
                    status=1)
     assert "no command has it" in ran.err
+    ran = tonetool("--frames", "1-6", shot, "--cgtmo:maxpercentile=99", "--statistics", "s.json",
+                   status=1)
+    assert '"--cgtmo:maxpercentile=99": maxpercentile=99 is not in the statistics' in ran.err
     ran = tonetool("--frames", "1-6", shot, "--calibrate:method=mean", "--cgtmo", "--statistics",
                    "s.json", status=1)
     assert "both measure a shot" in ran.err

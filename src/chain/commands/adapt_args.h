@@ -16,10 +16,11 @@ bool names_shot_mode(const std::string& adapt);
 template <class Options>
 ShotNeed shot_need(const Call& call, const Options& options) {
     const std::string adapt = call.text("adapt").value_or("");
-    if (!(adapt.empty() || names_shot_mode(adapt)) || !ToneAlgo::measures(options) ||
-        (adapt.empty() && !ToneAlgo::not_of_shots(options).empty()))
+    if (!(adapt.empty() || names_shot_mode(adapt)) || !ToneAlgo::measures(options))
         return {};
-    return {adapt.empty() ? "shot" : adapt, !adapt.empty()};
+    if (const std::string lack = ToneAlgo::not_of_shots(options); adapt.empty() && !lack.empty())
+        return {"", false, lack};
+    return {adapt.empty() ? "shot" : adapt, !adapt.empty(), ""};
 }
 
 /// Completes what the modifiers say by the shot that was measured for this call. In the run that

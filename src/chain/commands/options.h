@@ -38,8 +38,11 @@ Modifiers modifiers_of() {
     return rows;
 }
 
+/// The commands of oiiotool read 1/125 as 1; those of these tables are not among them.
 inline void read_value(const Call& call, const char* key, const Range& range, double& value) {
-    value = call.number(key, range).value_or(value);
+    const auto text = call.text(key);
+    value = text && text->find('/') != std::string::npos ? checked_fraction(key, *text, range)
+                                                         : call.number(key, range).value_or(value);
 }
 inline void read_value(const Call& call, const char* key, const Range& range, int& value) {
     value = call.integer(key, range).value_or(value);

@@ -60,6 +60,7 @@ using Count = int (*)(const Call&);
 struct ShotNeed {
     std::string mode;   ///< "shot", "eye", "smooth"; empty: nothing
     bool asked = false; ///< by name; else where there are several frames
+    std::string lack;   ///< why what it would measure is not in the statistics of a shot
 };
 using ShotNeedOf = ShotNeed (*)(const Call&);
 inline void do_nothing(Session&, const Call&) {}

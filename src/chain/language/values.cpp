@@ -34,6 +34,16 @@ double checked_number(const std::string& what, const std::string& value, Range r
     return *number;
 }
 
+double checked_fraction(const std::string& what, const std::string& value, Range range) {
+    const size_t slash = value.find('/');
+    const auto over = parse_number(value.substr(0, slash));
+    const auto under = parse_number(slash == std::string::npos ? "" : value.substr(slash + 1));
+    if (!over || !under || *under == 0)
+        return checked_number(what, value, range);
+    checked_number(what, format_number(*over / *under), range);
+    return *over / *under;
+}
+
 int checked_integer(const std::string& what, const std::string& value, Range range) {
     std::optional<int> number = parse_integer(value);
     if (!number) {

@@ -11,6 +11,8 @@ namespace tonetool {
 
 /// "what "value" is not a number (valid: ...)" as a CommandError, for values of any origin.
 double checked_number(const std::string& what, const std::string& value, Range range);
+/// The same, but that it may be a fraction: 1/125, 24000/1001.
+double checked_fraction(const std::string& what, const std::string& value, Range range);
 int checked_integer(const std::string& what, const std::string& value, Range range);
 void check_choice(const std::string& what, const std::string& value, const Strings& valid);
 

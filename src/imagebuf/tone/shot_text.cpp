@@ -4,6 +4,8 @@
 #include <OpenImageIO/strutil.h>
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <numeric>
 #include <tuple>
 
 #include "imagebuf/pixels/checks.h"
@@ -26,6 +28,8 @@ constexpr size_t kThumbnailCells =
     size_t(tonemap::kThumbnailWidth) * size_t(tonemap::kThumbnailHeight);
 
 constexpr size_t kCameraNumbers = std::tuple_size_v<tonemap::Projection>;
+// Means are of doubles, the maximum is a float.
+constexpr double kRounding = 1e-6;
 
 // The numbers of a frame in their order; unit and fps are left out where the header has none.
 template <class Light, class Visit>
@@ -55,23 +59,48 @@ std::string line_of(const ordered_json& value) {
     return value.dump(-1, ' ', false, ordered_json::error_handler_t::replace);
 }
 
+// What no measured frame has: a file that was edited, or of another program.
 void check_light(const FrameLight& light) {
     const auto fail = [&](const std::string& what) {
         throw Refusal(format("frame {}: {}", light.frame, what));
     };
-    visit_numbers(light, [&](const char* key, double value) {
+    const auto within = [&](const char* key, double value, double least, double most) {
+        if (!(value >= least && value <= most))
+            fail(format("\"{}\" is {}: must be from {} to {}", key, value, least, most));
+    };
+    const auto not_negative = [&](const char* key, double value) {
         if (!(value >= 0) || !std::isfinite(value))
             fail(format("\"{}\" is {}: must be finite and not below 0", key, value));
-    });
+    };
+    visit_numbers(light, not_negative);
+    not_negative("unit", light.unit);
+    not_negative("fps", light.fps);
+    within("maximum", light.maximum, 0, std::numeric_limits<float>::max());
+    within("shown", light.shown, 0, 1);
+    for (const auto& [key, value] :
+         {std::pair("lwa", light.lwa), std::pair("lwa_geometric", light.lwa_geometric),
+          std::pair("lmax", light.lmax)})
+        if (value > light.maximum * (1 + kRounding))
+            fail(format("\"{}\" is {}: must not be above \"maximum\", {}", key, value,
+                        light.maximum));
     const bool lit = light.lwa > 0;
     if (lit != (light.lwa_geometric > 0) || lit != (light.lmax > 0) || lit != (light.counted > 0))
         fail("some of lwa, lwa_geometric, lmax and counted are 0, others are not");
     if (light.histogram.size() != size_t(tonemap::kLightBins))
         fail(format("\"histogram\" has {} counts: must be {}", light.histogram.size(),
                     tonemap::kLightBins));
+    for (const int64_t count : light.histogram)
+        not_negative("histogram", double(count));
+    const double in_bins = std::accumulate(light.histogram.begin(), light.histogram.end(), 0.0);
+    if (in_bins != double(light.counted))
+        fail(format("the counts of \"histogram\" are {} together: must be \"counted\", {}", in_bins,
+                    light.counted));
     if (light.thumbnail.size() != kThumbnailCells)
         fail(format("\"thumbnail\" has {} numbers: must be {}", light.thumbnail.size(),
                     kThumbnailCells));
+    const auto [darkest, brightest] = tonemap::thumbnail_range();
+    for (const double cell : light.thumbnail)
+        within("thumbnail", cell, std::floor(darkest), std::ceil(brightest));
     if (!light.camera.empty() && light.camera.size() != kCameraNumbers)
         fail(format("\"camera\" has {} numbers: must be {}", light.camera.size(), kCameraNumbers));
 }

@@ -68,8 +68,17 @@ ShotResult shot_of(const std::string& text, const std::vector<std::string>& reco
 } // namespace
 
 void check_format(const ordered_json& from, const std::string& format, int version) {
-    if (!from.is_object() || from.value("format", std::string()) != format)
-        throw std::runtime_error("has no \"format\": \"" + format + "\"");
+    const bool named = from.is_object() && from.contains("format");
+    const std::string is = named ? shown_json(from.at("format")) : "";
+    if (is != "\"" + format + "\"") {
+        const bool statistics = is == "\"tonetool-shot\"" || is == "\"tonetool-exposures\"";
+        throw std::runtime_error(
+            (named ? "has \"format\": " + is + ", not \"" : "has no \"format\": \"") + format +
+            "\"" +
+            (statistics && format == kResultsFormat
+                 ? " (valid: results of --json; --merge joins statistics with --statistics FILE)"
+                 : ""));
+    }
     const int found = whole_number<int>(from.at("version"), "version");
     if (found != version) {
         throw std::runtime_error(
