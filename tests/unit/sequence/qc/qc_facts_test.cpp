@@ -39,7 +39,8 @@ ImageBuf render(unsigned seed) {
         if (random() % 4000 == 0)
             p[1] = 500;
         if (p.x() > 100 && p.x() < 130 && p.y() > 40 && p.y() < 90)
-            p[0] = p[1] = p[2] = 0;
+            for (int c = 0; c < 3; ++c)
+                p[c] = 0;
     }
     return image;
 }
