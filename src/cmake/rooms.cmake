@@ -2,6 +2,8 @@
 # The folder of all sources: also where the Python module alone is the project.
 get_filename_component(TONETOOL_SOURCE_DIR ${CMAKE_CURRENT_LIST_DIR}/../.. ABSOLUTE)
 
+option(TONETOOL_UNITY_BUILD "Compile several sources of a folder together, in half the time" ON)
+
 # The rooms, from the ground up. A room links only the rooms above it in this list, so that the
 # link lines keep the order.
 function(tonetool_room name)

@@ -24,7 +24,7 @@ py::object compared(std::vector<py::object>& images, const ThreadedAgainst& opti
     return py::cast(facts);
 }
 
-void add_results(Module& module) {
+void add_against_results(Module& module) {
     using N = AgainstName;
     ResultClass<N>(module, "AgainstName", "A layer of one of the files.")
         .field("name", &N::name, "\"\" for the plain R, G, B.")
@@ -63,7 +63,7 @@ void add_results(Module& module) {
 } // namespace
 
 void add_against(Module& module) {
-    add_results(module);
+    add_against_results(module);
     define_names(module, "against_kinds", "What a layer may hold for against_facts().",
                  "The checks of chain(\"--against\").", ToneAlgo::against_kinds);
     define(

@@ -11,12 +11,12 @@ namespace tonetool::python {
 
 namespace {
 
-struct CallOptions : AttributeOptions {
+struct AttributeCall : AttributeOptions {
     int nthreads = 0;
 };
 
-Fields<CallOptions> attribute_keywords() {
-    using O = CallOptions;
+Fields<AttributeCall> attribute_keywords() {
+    using O = AttributeCall;
     return joined<O>(
         {described<O, AttributeOptions>(),
          ignore_fields<O>(),
@@ -40,7 +40,7 @@ struct AttributeObject : AttributeResult {
     std::vector<std::string> findings;
 };
 
-py::object attributed(std::vector<py::object>& images, const CallOptions& options) {
+py::object attributed(std::vector<py::object>& images, const AttributeCall& options) {
     const InputImage reference(images[0], "attribute: reference");
     const InputImage test(images[1], "attribute: test");
     AttributeObject out;
@@ -59,7 +59,7 @@ void add_rows(Module& module, const char* name, const char* text) {
     rows.finish();
 }
 
-void add_results(Module& module) {
+void add_attribute_results(Module& module) {
     add_rows<AttributedLight>(module, "AttributedLight",
                               "A light group, and how the error changes with it.");
     add_rows<AttributedMatte>(module, "AttributedMatte",
@@ -87,7 +87,7 @@ void add_results(Module& module) {
 } // namespace
 
 void add_attribute(Module& module) {
-    add_results(module);
+    add_attribute_results(module);
     define(
         module,
         Description{

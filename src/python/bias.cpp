@@ -12,12 +12,12 @@ namespace tonetool::python {
 
 namespace {
 
-const std::string kSource =
+const std::string kBiasSource =
     "Welch 1947; Efron, JASA 64, 1969; Hall, JRSS B 54, 1992; Benjamini and Hochberg, JRSS B 57, "
     "1995; Schuirmann 1987; Jung, Hanika, Dachsbacher, JCGT 9(2), 2020.";
 const std::string kSourceLimits = "Hahn and Meeker, \"Statistical Intervals\", 1991.";
 
-struct CallOptions : BiasOptions {
+struct BiasCall : BiasOptions {
     int nthreads = 0;
 };
 
@@ -35,8 +35,8 @@ struct BiasObject {
     py::object map;
 };
 
-Fields<CallOptions> fields() {
-    using O = CallOptions;
+Fields<BiasCall> bias_fields() {
+    using O = BiasCall;
     return joined<O>(
         {described<O, BiasOptions>(),
          ignore_fields<O>(),
@@ -72,7 +72,7 @@ private:
     std::vector<const OIIO::ImageBuf*> m_pointers;
 };
 
-py::object run_bias(std::vector<py::object>& images, const CallOptions& options) {
+py::object run_bias(std::vector<py::object>& images, const BiasCall& options) {
     const BiasImages references(images[0], "bias_check: references"),
         tests(images[1], "bias_check: tests");
     BiasSummary summary;
@@ -125,7 +125,7 @@ py::object run_floor(std::vector<py::object>& arguments, const NoiseFloorOptions
     return py::cast(std::move(out));
 }
 
-void add_results(Module& module) {
+void add_bias_results(Module& module) {
     using B = BiasObject;
     ResultClass<B>(module, "BiasResult", "Whether two renders differ in more than their noise.")
         .field("verdict", &B::verdict, "\"different\", \"equal\" or \"not enough samples\".")
@@ -162,7 +162,7 @@ void add_results(Module& module) {
 } // namespace
 
 void add_bias(Module& module) {
-    add_results(module);
+    add_bias_results(module);
     Parameter references = reference_parameter(), tests = test_parameter();
     references.name = "references";
     tests.name = "tests";
@@ -187,8 +187,8 @@ void add_bias(Module& module) {
                "cannot be seen.",
                "No image, no R, G, B, deep images, different windows, a value out of range, an "
                "unreadable file, no finite pixel.",
-               kSource},
-           fields(), run_bias);
+               kBiasSource},
+           bias_fields(), run_bias);
     define(module,
            Description{"noise_floor",
                        "The limit below which unbiased renders lie, from values of some of them.",

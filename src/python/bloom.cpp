@@ -10,10 +10,10 @@ namespace tonetool::python {
 
 namespace {
 
-using O = On<BloomOptions>;
+using BloomCall = On<BloomOptions>;
 using BloomObject = Imaged<BloomSummary>;
 
-py::object run(std::vector<py::object>& images, const O& options) {
+py::object run_bloom(std::vector<py::object>& images, const BloomCall& options) {
     const InputImage image(images[0], "bloom: image");
     BloomSummary summary;
     OIIO::ImageBuf result = computed([&](OIIO::ImageBuf& dst) {
@@ -22,7 +22,7 @@ py::object run(std::vector<py::object>& images, const O& options) {
     return py::cast(BloomObject{to_python(std::move(result), OutputKind::picture(image)), summary});
 }
 
-void add_results(Module& module) {
+void add_bloom_results(Module& module) {
     using S = BloomSummary;
     ResultClass<S> result(module, "BloomSummary", "Which light was spread, and how far.");
     visit_source<S>(visitor(result));
@@ -46,7 +46,7 @@ void add_results(Module& module) {
 } // namespace
 
 void add_bloom(Module& module) {
-    add_results(module);
+    add_bloom_results(module);
     define(module,
            Description{
                "bloom",
@@ -65,10 +65,11 @@ void add_bloom(Module& module) {
                "G. Spencer, P. Shirley, K. Zimmerman, D. Greenberg, \"Physically-Based Glare "
                "Effects for Digital Images\", 1995; M. Pettineo, \"A Closer Look at Tone "
                "Mapping\", 2010."},
-           joined<O>({{field<O>("pixels", &O::pixels, "Layer and colour space.")},
-                      described<O, BloomOptions>(),
-                      {roi_field<O>(), threads_field<O>()}}),
-           run);
+           joined<BloomCall>(
+               {{field<BloomCall>("pixels", &BloomCall::pixels, "Layer and colour space.")},
+                described<BloomCall, BloomOptions>(),
+                {roi_field<BloomCall>(), threads_field<BloomCall>()}}),
+           run_bloom);
 }
 
 } // namespace tonetool::python

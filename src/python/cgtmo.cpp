@@ -73,7 +73,7 @@ Fields<O> cgtmo_fields() {
     return fields;
 }
 
-py::object run(std::vector<py::object>& images, const O& given) {
+py::object run_cgtmo(std::vector<py::object>& images, const O& given) {
     const InputImage image(images[0], "cg_tmo: image");
     O options = given;
     const bool adapts = options.adapt.adapt != "frame" || !options.adapt.statistics.frames.empty();
@@ -86,7 +86,7 @@ py::object run(std::vector<py::object>& images, const O& given) {
     return py::cast(CgTmoObject{to_python(std::move(result), OutputKind::picture(image)), summary});
 }
 
-void add_results(Module& module) {
+void add_cgtmo_results(Module& module) {
     using S = CgTmoSummary;
     ResultClass<S> result(module, "CgTmoSummary", "What CG-TMO found and used.");
     visit_source<S>(visitor(result));
@@ -124,7 +124,7 @@ void add_results(Module& module) {
 } // namespace
 
 void add_cgtmo(Module& module) {
-    add_results(module);
+    add_cgtmo_results(module);
     define(
         module,
         Description{
@@ -150,7 +150,7 @@ void add_cgtmo(Module& module) {
             "F. Banterle et al., CG-TMO; F. Drago et al., \"Adaptive Logarithmic Mapping for "
             "Displaying High Contrast Scenes\", 2003; F. Durand, J. Dorsey, 2002 (bilateral); Z. "
             "Farbman et al., 2008 (wls)."},
-        cgtmo_fields(), run);
+        cgtmo_fields(), run_cgtmo);
 }
 
 } // namespace tonetool::python

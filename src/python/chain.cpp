@@ -76,7 +76,7 @@ ChainObject object_of(runs::Evaluation&& found, bool arrays) {
     throw py::error_already_set();
 }
 
-py::object run(std::vector<py::object>& arguments, const ChainOptions& options) {
+py::object run_chain(std::vector<py::object>& arguments, const ChainOptions& options) {
     const std::vector<std::string> words = words_of(arguments[0]);
     Given given = given_images(arguments[1]);
     chain::Policy policy;
@@ -131,7 +131,7 @@ void add_chain(Module& module) {
                     "The language is that of oiiotool."},
         Fields<O>{field<O>("read_only", &O::read_only,
                            "Commands that write files or change settings are errors.")},
-        run);
+        run_chain);
 }
 
 } // namespace tonetool::python

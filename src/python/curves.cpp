@@ -8,7 +8,7 @@ namespace tonetool::python {
 
 namespace {
 
-const std::string kSource = "The publication that tone_curves() names for each curve.";
+const std::string kCurvesSource = "The publication that tone_curves() names for each curve.";
 
 py::object response(std::vector<py::object>& arguments, const CurveOptions& options) {
     const std::vector<double> values =
@@ -28,7 +28,7 @@ py::object of_file(std::vector<py::object>&, const CurveOptions& options) {
     return py::cast(info);
 }
 
-void add_results(Module& module) {
+void add_curves_results(Module& module) {
     using P = ToneCurveParameter;
     ResultClass<P>(module, "ToneCurveParameter", "A parameter of a tone curve.")
         .field("name", &P::name, "Its name.")
@@ -56,7 +56,7 @@ void add_results(Module& module) {
 } // namespace
 
 void add_curves(Module& module) {
-    add_results(module);
+    add_curves_results(module);
     const Description list = {"tone_curves",
                               "The tone curves, with their sources and parameters.",
                               {},
@@ -64,9 +64,9 @@ void add_curves(Module& module) {
                               "One each.",
                               "Units: parameters in scene light unless their help says otherwise.",
                               "Never.",
-                              kSource};
+                              kCurvesSource};
     define(module, list, [](std::vector<py::object>&) { return list_of(ToneAlgo::tone_curves()); });
-    define_names(module, "tone_curve_names", "Names of the tone curves.", kSource,
+    define_names(module, "tone_curve_names", "Names of the tone curves.", kCurvesSource,
                  ToneAlgo::tone_curve_names);
     define(
         module,
@@ -77,7 +77,7 @@ void add_curves(Module& module) {
                     "Its note says how many rows it has, over which light, and whether it rises.",
                     "Units: x is scene light, the result display light. NaN is refused.",
                     "A file that is no curve; the error names the line.",
-                    kSource},
+                    kCurvesSource},
         table_of<CurveOptions>().fields, of_file);
     define(
         module,
@@ -90,7 +90,7 @@ void add_curves(Module& module) {
                     "Shapes: one dimension. Units: 1 is the display's white. NaN gives NaN or is "
                     "refused by the curve.",
                     "An unknown curve or parameter, a value out of range.",
-                    kSource},
+                    kCurvesSource},
         table_of<CurveOptions>().fields, response);
 }
 

@@ -11,15 +11,15 @@ namespace {
 struct Channel {
     int channel = 0;
 };
-using MapOptions = On<Channel>;
+using ColormapCall = On<Channel>;
 struct Nothing {};
 using EncodeOptions = On<Nothing>;
 
-const std::string kSource =
+const std::string kDisplaySource =
     "OpenImageIO's colour maps (magma, viridis and inferno: S. van der Walt, "
     "N. Smith, matplotlib; turbo: A. Mikhailov); IEC 61966-2-1 (sRGB).";
 
-py::object color_map(std::vector<py::object>& arguments, const MapOptions& options) {
+py::object color_map(std::vector<py::object>& arguments, const ColormapCall& options) {
     const InputImage image(arguments[0], "color_map: image");
     const bool named = py::isinstance<py::str>(arguments[1]);
     const std::string name = named ? arguments[1].cast<std::string>() : "";
@@ -46,7 +46,7 @@ py::object encode_srgb(std::vector<py::object>& arguments, const EncodeOptions& 
 } // namespace
 
 void add_display(Module& module) {
-    using M = MapOptions;
+    using M = ColormapCall;
     using E = EncodeOptions;
     define(
         module,
@@ -62,11 +62,12 @@ void add_display(Module& module) {
             "values beyond are clamped; the result is for a screen.\nNaN: 0. Alpha: "
             "ignored.",
             "An unknown map, no such channel, deep images.",
-            kSource},
+            kDisplaySource},
         Fields<M>{field<M>("channel", &M::channel, "Which; -1: the luminance of the first three."),
                   roi_field<M>(), threads_field<M>()},
         color_map);
-    define_names(module, "color_maps", "Names of the colour maps.", kSource, ToneAlgo::color_maps);
+    define_names(module, "color_maps", "Names of the colour maps.", kDisplaySource,
+                 ToneAlgo::color_maps);
     define(module,
            Description{
                "encode_srgb",
@@ -76,7 +77,7 @@ void add_display(Module& module) {
                "The picture; an array if the image is one.",
                "Shapes: those of the image. Units: clamped to 0 to 1. Alpha: carried.\nNaN: 0.",
                "Deep images, volumes, an image that is sRGB-encoded already.",
-               kSource},
+               kDisplaySource},
            Fields<E>{roi_field<E>(), threads_field<E>()}, encode_srgb);
 }
 

@@ -18,16 +18,16 @@ std::string sources() {
     return text;
 }
 
-using Options = On<ErrorOptions>;
+using ErrorCall = On<ErrorOptions>;
 using ErrorObject = Imaged<ErrorSummary>;
 
-Fields<Options> fields() {
-    return joined<Options>({described<Options, ErrorOptions>(),
-                            pair_fields<Options>(),
-                            {roi_field<Options>(), threads_field<Options>()}});
+Fields<ErrorCall> errors_fields() {
+    return joined<ErrorCall>({described<ErrorCall, ErrorOptions>(),
+                              pair_fields<ErrorCall>(),
+                              {roi_field<ErrorCall>(), threads_field<ErrorCall>()}});
 }
 
-py::object run(std::vector<py::object>& images, const Options& options) {
+py::object run_errors(std::vector<py::object>& images, const ErrorCall& options) {
     const InputImage reference(images[0], "error_map: reference"),
         test(images[1], "error_map: test");
     ErrorSummary summary;
@@ -38,7 +38,7 @@ py::object run(std::vector<py::object>& images, const Options& options) {
     return py::cast(ErrorObject{to_python(std::move(map), OutputKind::map(reference)), summary});
 }
 
-void add_results(Module& module) {
+void add_errors_results(Module& module) {
     using S = ErrorSummary;
     ResultClass<S> result(module, "ErrorSummary", "A measure of the error, and how it was made.");
     result.field("metric", &S::metric, "Which.")
@@ -57,7 +57,7 @@ void add_results(Module& module) {
 } // namespace
 
 void add_errors(Module& module) {
-    add_results(module);
+    add_errors_results(module);
     define(
         module,
         Description{
@@ -73,7 +73,7 @@ void add_errors(Module& module) {
             "An unknown metric, no R, G, B, deep images, different display windows, a value out "
             "of range, an unreadable file, no finite pixel.",
             sources()},
-        fields(), run);
+        errors_fields(), run_errors);
     define_names(module, "error_metrics", "Names of the metrics of error_map().", sources(),
                  ToneAlgo::error_metrics);
 }

@@ -116,7 +116,7 @@ py::object evaluate(std::vector<py::object>& given, const Threads& threads) {
                           mean ? result.summary.pool.mean : -1.0, used(result.summary, asked));
 }
 
-const char kNotes[] =
+const char kEvaluateNotes[] =
     "The call of the package flip-evaluator, with hdr_flip() and ldr_flip() behind it: the same "
     "numbers, to the bit. Those two say more.\n"
     "Shapes: arrays of height x width x channels (R, G, B first; grey: height x width); the map "
@@ -166,7 +166,7 @@ void add_evaluate(Module& module) {
             "The map, height x width x 3 in colours, else height x width x 1; its mean; the "
             "parameters as they were used: ppd, vc where it was given, of \"HDR\" tonemapper, "
             "startExposure, stopExposure, numExposures.",
-            kNotes,
+            kEvaluateNotes,
             "What hdr_flip and ldr_flip refuse.",
             "P. Andersson et al., \"FLIP: A Difference Evaluator for Alternating Images\", HPG "
             "2020; \"Visualizing Errors in Rendered High Dynamic Range Images\", Eurographics "

@@ -30,7 +30,7 @@ void add_summary(Module& module) {
     result.finish();
 }
 
-py::object quantity(std::vector<py::object>& arguments) {
+py::object quantity_of_flip(std::vector<py::object>& arguments) {
     if (!py::isinstance<FlipPool>(arguments[0]))
         wrong_type("flip_quantity: pool", arguments[0], "a FlipPool");
     const auto& pool = arguments[0].cast<const FlipPool&>();
@@ -94,7 +94,7 @@ void add_flip_results(Module& module) {
                "Never.",
                "Weighted quantities: P. Andersson et al., \"FLIP: A Difference Evaluator for "
                "Alternating Images\", HPG 2020."},
-           quantity);
+           quantity_of_flip);
 }
 
 } // namespace tonetool::python

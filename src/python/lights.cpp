@@ -29,7 +29,7 @@ const Table<LightOptions>& table_of<LightOptions>() {
 
 namespace {
 
-const std::string kSource =
+const std::string kLightsSource =
     "Layers of light groups as Blender, Cycles, Arnold, V-Ray and RenderMan "
     "name them; F. Banterle et al., CG-TMO.";
 
@@ -122,7 +122,7 @@ void add_panorama(Module& module) {
                     "of the image, in linear Rec.709.\nNaN, Inf: counted and left out. Alpha: "
                     "ignored.",
                     "No colour, no finite pixel, deep images, not 2:1 where solid angles count.",
-                    kSource},
+                    kLightsSource},
         Fields<O>{field<O>("pixels", &O::pixels, "Layer and colour space."),
                   field<O>("weight", &O::weight,
                            "\"solidangle\": a texel counts as the part of the sphere it covers; "
@@ -145,7 +145,7 @@ void add_lights(Module& module) {
                        "Shapes: the map is height x width. Units: the place of the group in "
                        "summary.groups, -1: no light. Alpha: ignored.\nNaN, Inf, negative: black.",
                        "No groups, an unknown group, no colour, deep images, an unreadable table.",
-                       kSource},
+                       kLightsSource},
            index_fields(), light_index);
     add_panorama(module);
 }

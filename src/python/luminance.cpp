@@ -10,23 +10,24 @@ namespace tonetool::python {
 
 namespace {
 
-const std::string kSource = "Luminance of Rec.709 (ITU-R BT.709): 0.2126 R + 0.7152 G + 0.0722 B.";
+const std::string kLuminanceSource =
+    "Luminance of Rec.709 (ITU-R BT.709): 0.2126 R + 0.7152 G + 0.0722 B.";
 
 struct Pixels : IgnoreOptions {
     PixelOptions pixels;
 };
-using Options = On<Pixels>;
+using LuminanceCall = On<Pixels>;
 
-Fields<Options> fields() {
-    return {field<Options>("pixels", &Options::pixels, "Layer and colour space."),
-            roi_field<Options>(), threads_field<Options>()};
+Fields<LuminanceCall> luminance_fields() {
+    return {field<LuminanceCall>("pixels", &LuminanceCall::pixels, "Layer and colour space."),
+            roi_field<LuminanceCall>(), threads_field<LuminanceCall>()};
 }
 
-Fields<Options> stats_fields() {
-    return joined<Options>({fields(), ignore_fields<Options>()});
+Fields<LuminanceCall> stats_fields() {
+    return joined<LuminanceCall>({luminance_fields(), ignore_fields<LuminanceCall>()});
 }
 
-py::object stats(std::vector<py::object>& images, const Options& options) {
+py::object stats(std::vector<py::object>& images, const LuminanceCall& options) {
     const InputImage image(images[0], "luminance_stats: image");
     LuminanceStats found;
     run_or_raise("luminance_stats", [&](std::string& error) {
@@ -36,7 +37,7 @@ py::object stats(std::vector<py::object>& images, const Options& options) {
     return py::cast(found);
 }
 
-py::object exposure(std::vector<py::object>& arguments, const Options& options) {
+py::object exposure(std::vector<py::object>& arguments, const LuminanceCall& options) {
     const InputImage image(arguments[0], "exposure: image");
     const double stops = to_double(arguments[1], "exposure: stops");
     OIIO::ImageBuf result = computed([&](OIIO::ImageBuf& dst) {
@@ -72,7 +73,7 @@ void add_luminance(Module& module) {
                     "of the image, in linear Rec.709. Alpha: ignored.\nNaN, Inf: such pixels are "
                     "counted and left out.",
                     "No colour, deep images, no finite pixel, an unreadable file.",
-                    kSource},
+                    kLuminanceSource},
         stats_fields(), stats);
     define(
         module,
@@ -84,8 +85,8 @@ void add_luminance(Module& module) {
                     "Shapes: those of the image. Units: stops. Alpha and other channels: carried.\n"
                     "NaN, Inf: such pixels stay as they are.",
                     "No colour, a display-encoded image, deep images, stops out of range.",
-                    kSource},
-        fields(), exposure);
+                    kLuminanceSource},
+        luminance_fields(), exposure);
 }
 
 } // namespace tonetool::python

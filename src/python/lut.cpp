@@ -10,24 +10,23 @@ namespace tonetool::python {
 
 namespace {
 
-const std::string kSource =
+const std::string kLutSource =
     "The formats: Adobe's Cube LUT Specification 1.0, Sony Imageworks' .spi1d "
     "and .spi3d, S-2014-006 (CLF); OpenColorIO 2 (CTF); Adobe Photoshop File Formats "
     "Specification (ACV).";
 
-using O = LutOptions;
-
-Fields<O> fields() {
-    return joined<O>({{field<O>("curve", &O::curve, "Tone curve; None: aces."),
-                       field<O>("view", &O::view,
-                                "A view of an OpenColorIO configuration instead of the curve.")},
-                      described<O, LutOptions>(),
-                      {field<O>("white", &O::white,
-                                "Of .acv: the scene light of the code value 255; 0: the curve's "
-                                "white, or 1.")}});
+Fields<LutOptions> lut_fields() {
+    return joined<LutOptions>(
+        {{field<LutOptions>("curve", &LutOptions::curve, "Tone curve; None: aces."),
+          field<LutOptions>("view", &LutOptions::view,
+                            "A view of an OpenColorIO configuration instead of the curve.")},
+         described<LutOptions, LutOptions>(),
+         {field<LutOptions>("white", &LutOptions::white,
+                            "Of .acv: the scene light of the code value 255; 0: the curve's "
+                            "white, or 1.")}});
 }
 
-py::object run(std::vector<py::object>& arguments, const O& options) {
+py::object run_lut(std::vector<py::object>& arguments, const LutOptions& options) {
     const std::string filename = to_text(arguments[0], "export_lut: filename");
     LutSummary summary;
     run_or_raise("export_lut", [&](std::string& error) {
@@ -67,11 +66,11 @@ void add_lut(Module& module) {
                     "display's. NaN does not occur.\nWritten beside the target and renamed.",
                     "An unknown name, a value out of range, a format that cannot hold the curve, a "
                     "file that cannot be written.",
-                    kSource},
-        fields(), run);
-    define_names(module, "lut_shapers", "Names of the shapers of export_lut().", kSource,
+                    kLutSource},
+        lut_fields(), run_lut);
+    define_names(module, "lut_shapers", "Names of the shapers of export_lut().", kLutSource,
                  ToneAlgo::lut_shapers);
-    define_names(module, "lut_formats", "Names of the formats of export_lut().", kSource,
+    define_names(module, "lut_formats", "Names of the formats of export_lut().", kLutSource,
                  ToneAlgo::lut_formats);
 }
 

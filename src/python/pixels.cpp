@@ -11,7 +11,7 @@ namespace tonetool::python {
 
 namespace {
 
-const std::string kSource =
+const std::string kPixelsSource =
     "OpenEXR's and the renderers' names of layers and channels; colour "
     "spaces by ITU-R BT.709, BT.2020, SMPTE ST 2065-1, S-2014-004 (ACEScg), "
     "IEC 61966-2-1.";
@@ -85,7 +85,7 @@ void add_pixels(Module& module) {
                notes,
                "No colour, or two candidates for the beauty; the layers are listed. An image that "
                "cannot be read.",
-               kSource},
+               kPixelsSource},
            keywords(), find_color);
     define(module,
            Description{"color_layers",
@@ -95,14 +95,14 @@ void add_pixels(Module& module) {
                        "Names; the plain R, G, B is \"R,G,B\".",
                        notes,
                        "An image that cannot be read.",
-                       kSource},
+                       kPixelsSource},
            color_layers);
     define_names(
         module, "library_versions",
         "Versions of OpenImageIO, OpenColorIO and OpenEXR, and the instruction set in use.",
-        kSource, library_versions);
-    define_names(module, "color_spaces", "Names of the colour spaces that `from` takes.", kSource,
-                 ToneAlgo::color_spaces);
+        kPixelsSource, library_versions);
+    define_names(module, "color_spaces", "Names of the colour spaces that `from` takes.",
+                 kPixelsSource, ToneAlgo::color_spaces);
     define(module,
            Description{
                "image",

@@ -30,8 +30,8 @@ const Table<AdaptOptions>& table_of<AdaptOptions>() {
 
 namespace {
 
-const std::string kSource = "G. Krawczyk, K. Myszkowski, H.-P. Seidel, \"Perceptual Effects in "
-                            "Real-time Tone Mapping\", 2005, Eq. 6 and 7.";
+const std::string kShotSource = "G. Krawczyk, K. Myszkowski, H.-P. Seidel, \"Perceptual Effects in "
+                                "Real-time Tone Mapping\", 2005, Eq. 6 and 7.";
 
 struct LightOptionsOfFrame {
     PixelOptions pixels;
@@ -112,7 +112,7 @@ py::object steady_window(std::vector<py::object>& arguments, const AdaptOptions&
     return list_of(numbers);
 }
 
-void add_results(Module& module) {
+void add_shot_results(Module& module) {
     using F = FrameLight;
     ResultClass<F>(module, "FrameLight", "What the exposure of a shot follows from, of one frame.")
         .field("frame", &F::frame, "Its number.")
@@ -171,7 +171,7 @@ void add_functions(Module& module) {
                "the image, in linear Rec.709.\nAlpha: pixels of alpha 0 are not measured. NaN, "
                "Inf, negative: not measured.",
                "No colour, deep images, an unreadable file.",
-               kSource},
+               kShotSource},
            Fields<LightOptionsOfFrame>{
                field<LightOptionsOfFrame>("pixels", &LightOptionsOfFrame::pixels,
                                           "Layer and colour space."),
@@ -190,7 +190,7 @@ void add_functions(Module& module) {
                        "Units: that of the images. The same bits whatever order the frames have.",
                        "No frames, no light in any, a frame that is not there, a value out of "
                        "range.",
-                       kSource},
+                       kShotSource},
            fields_beside_statistics(), shot_exposure);
     define(
         module,
@@ -236,7 +236,7 @@ void add_functions(Module& module) {
                "The largest correlation of their thumbnails over shifts of up to two cells.",
                "Units: -1 to 1; below 0.6 there is a cut between neighbours.",
                "Another type.",
-               kSource},
+               kShotSource},
            shot_likeness);
     define(module,
            Description{"read_shot",
@@ -246,7 +246,7 @@ void add_functions(Module& module) {
                        "The statistics, to the bit.",
                        "Units: that of the images.",
                        "No such file, one of another kind, one that is damaged.",
-                       kSource},
+                       kShotSource},
            read_shot);
     define(module,
            Description{"shot_text",
@@ -256,14 +256,14 @@ void add_functions(Module& module) {
                        "JSON.",
                        "A frame that is there twice must be the same.",
                        "Two frames of one number that differ, figures that are not whole.",
-                       kSource},
+                       kShotSource},
            shot_text);
 }
 
 } // namespace
 
 void add_shot(Module& module) {
-    add_results(module);
+    add_shot_results(module);
     module.add_mapping(table_of<AdaptOptions>());
     add_functions(module);
 }

@@ -75,7 +75,8 @@ const Table<CalibrationOptions>& table_of<CalibrationOptions>() {
              {field<O>("white_percentile", &O::white_percentile,
                        "The curve's parameter `white` from this percentile of the calibrated "
                        "luminance; 100: the maximum."),
-              field<O>("adapt", &O::adapt, "The shot that is measured, and the unit; None: the image.")}})};
+              field<O>("adapt", &O::adapt,
+                       "The shot that is measured, and the unit; None: the image.")}})};
     return table;
 }
 

@@ -9,17 +9,18 @@ namespace tonetool::python {
 
 namespace {
 
-const std::string kSource = "H. Yeganeh, Z. Wang, \"Objective Quality Assessment of Tone-Mapped "
-                            "Images\", IEEE Transactions on Image Processing 22(2), 2013.";
+const std::string kTmqiSource =
+    "H. Yeganeh, Z. Wang, \"Objective Quality Assessment of Tone-Mapped "
+    "Images\", IEEE Transactions on Image Processing 22(2), 2013.";
 
-struct CallOptions : TmqiOptions {
+struct TmqiCall : TmqiOptions {
     PixelOptions hdr_pixels, ldr_pixels;
     int nthreads = 0;
 };
 using TmqiObject = Imaged<TmqiSummary>;
 
-Fields<CallOptions> fields() {
-    using O = CallOptions;
+Fields<TmqiCall> tmqi_fields() {
+    using O = TmqiCall;
     return {
         field<O>("hdr_pixels", &O::hdr_pixels, "Layer and colour space of hdr."),
         field<O>("ldr_pixels", &O::ldr_pixels,
@@ -30,7 +31,7 @@ Fields<CallOptions> fields() {
         threads_field<O>()};
 }
 
-py::object run(std::vector<py::object>& images, const CallOptions& options) {
+py::object run_tmqi(std::vector<py::object>& images, const TmqiCall& options) {
     const InputImage hdr(images[0], "tmqi: hdr"), ldr(images[1], "tmqi: ldr");
     TmqiOptions plain = options;
     plain.hdr = options.hdr_pixels;
@@ -42,7 +43,7 @@ py::object run(std::vector<py::object>& images, const CallOptions& options) {
     return py::cast(TmqiObject{to_python(std::move(map), OutputKind::map(hdr)), summary});
 }
 
-py::object quantity(std::vector<py::object>& arguments) {
+py::object quantity_of_tmqi(std::vector<py::object>& arguments) {
     if (!py::isinstance<TmqiScore>(arguments[0]))
         wrong_type("tmqi_quantity: score", arguments[0], "a TmqiScore");
     const std::vector<std::string> names = ToneAlgo::tmqi_quantities();
@@ -51,7 +52,7 @@ py::object quantity(std::vector<py::object>& arguments) {
         ToneAlgo::tmqi_quantity(arguments[0].cast<const TmqiScore&>(), names[place]));
 }
 
-void add_results(Module& module) {
+void add_tmqi_results(Module& module) {
     using S = TmqiScore;
     ResultClass<S> score(module, "TmqiScore",
                          "The tone-mapped image quality index, 0 to 1, and its parts.");
@@ -78,7 +79,7 @@ void add_results(Module& module) {
 } // namespace
 
 void add_tmqi(Module& module) {
-    add_results(module);
+    add_tmqi_results(module);
     define(
         module,
         Description{
@@ -97,8 +98,8 @@ void add_tmqi(Module& module) {
             "and in summary.warnings.",
             "No R, G, B, images below 11x11 pixels, a constant HDR image, deep images, different "
             "windows, no finite pixel, an unreadable file.",
-            kSource},
-        fields(), run);
+            kTmqiSource},
+        tmqi_fields(), run_tmqi);
     define(module,
            Description{"tmqi_quantity",
                        "A figure of the index by the name the program has for it.",
@@ -108,9 +109,9 @@ void add_tmqi(Module& module) {
                        "The figure.",
                        "Units: 0 to 1, higher is better.",
                        "Never.",
-                       kSource},
-           quantity);
-    define_names(module, "tmqi_quantities", "Names of the figures of tmqi_quantity().", kSource,
+                       kTmqiSource},
+           quantity_of_tmqi);
+    define_names(module, "tmqi_quantities", "Names of the figures of tmqi_quantity().", kTmqiSource,
                  ToneAlgo::tmqi_quantities);
 }
 

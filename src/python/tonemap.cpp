@@ -10,7 +10,7 @@ namespace tonetool::python {
 
 namespace {
 
-const std::string kSource =
+const std::string kTonemapSource =
     "M. Pettineo, \"A Closer Look at Tone Mapping\", 2010; the sources that "
     "tone_curves() names for each curve; OpenColorIO 2.";
 
@@ -70,7 +70,7 @@ py::object calibrate(std::vector<py::object>& images, const CalibrateOptions& op
         CalibrateObject{to_python(std::move(result), OutputKind::picture(image)), summary});
 }
 
-void add_results(Module& module) {
+void add_tonemap_results(Module& module) {
     using C = CalibrationSummary;
     ResultClass<C>(module, "CalibrationSummary", "The exposure that was found.")
         .field("mean", &C::mean, "Geometric mean of the luminance; 0: none was needed.")
@@ -126,7 +126,7 @@ void add_functions(Module& module) {
                     "NaN and -Inf become 0, +Inf the largest value, negative components 0; all "
                     "are counted.",
                     errors + ".",
-                    kSource},
+                    kTonemapSource},
         map_fields(), tonemap);
     define(module,
            Description{
@@ -138,7 +138,7 @@ void add_functions(Module& module) {
                "Shapes, alpha: as tonemap. Units: stops.\n"
                "NaN, Inf: such pixels stay as they are and are not in the statistics.",
                errors + ", a display-encoded image.",
-               kSource},
+               kTonemapSource},
            calibrate_fields(), calibrate);
 }
 
@@ -148,10 +148,10 @@ void add_tonemap(Module& module) {
     module.add_mapping(table_of<CurveOptions>());
     module.add_mapping(table_of<ViewOptions>());
     module.add_mapping(table_of<CalibrationOptions>());
-    add_results(module);
+    add_tonemap_results(module);
     add_functions(module);
     define_names(module, "display_encodings", "Names of the encodings of tonemap(encode=...).",
-                 kSource, ToneAlgo::display_encodings);
+                 kTonemapSource, ToneAlgo::display_encodings);
 }
 
 } // namespace tonetool::python

@@ -8,10 +8,11 @@ namespace tonetool::python {
 
 namespace {
 
-const std::string kSource = "POSIX rename().";
-const std::string kNotes = "The bytes go to a temporary file beside the target, are flushed to the "
-                           "disk and renamed, so that "
-                           "the target is either the old file or the whole new one.";
+const std::string kWriteSource = "POSIX rename().";
+const std::string kWriteNotes =
+    "The bytes go to a temporary file beside the target, are flushed to the "
+    "disk and renamed, so that "
+    "the target is either the old file or the whole new one.";
 const Parameter kFilename = {"filename", "str | os.PathLike[str]", "The target.", ""};
 const std::string kErrors = "A file that cannot be written, an unknown format; then nothing has "
                             "changed on disk.";
@@ -20,7 +21,7 @@ struct WriteOptions {
     std::string format, compression;
 };
 
-Fields<WriteOptions> fields() {
+Fields<WriteOptions> write_fields() {
     using O = WriteOptions;
     return {field<O>("format", &O::format,
                      "Data type of the file (\"half\", \"uint8\", ...); \"\": that of the image."),
@@ -89,7 +90,7 @@ void add_removals(Module& module) {
                        "Nothing.",
                        "What a process still writes stays.",
                        "Never.",
-                       kSource},
+                       kWriteSource},
            [](std::vector<py::object>& arguments) {
                tonetool::remove_abandoned_outputs(Python<std::vector<std::string>>::from(
                    arguments[0], "remove_abandoned_outputs: filenames"));
@@ -104,7 +105,7 @@ void add_removals(Module& module) {
                     "Nothing.",
                     "Other threads' writes fail then.",
                     "Never.",
-                    kSource},
+                    kWriteSource},
         [](std::vector<py::object>&) {
             tonetool::remove_unfinished_outputs();
             return py::none();
@@ -123,29 +124,29 @@ void add_write(Module& module) {
                        {image_parameter("image", "Any image."), kFilename},
                        "None",
                        "Nothing.",
-                       values + kNotes,
+                       values + kWriteNotes,
                        kErrors,
-                       kSource},
-           fields(), write_image);
+                       kWriteSource},
+           write_fields(), write_image);
     define(module,
            Description{"write_images",
                        "Write several images as subimages of one file.",
                        {{"images", "Sequence[Image]", "One each.", ""}, kFilename},
                        "None",
                        "Nothing.",
-                       values + kNotes,
+                       values + kWriteNotes,
                        kErrors,
-                       kSource},
-           fields(), write_images);
+                       kWriteSource},
+           write_fields(), write_images);
     define(module,
            Description{"write_bytes",
                        "Write any bytes to a file.",
                        {{"data", "bytes", "The whole file.", ""}, kFilename},
                        "None",
                        "Nothing.",
-                       kNotes,
+                       kWriteNotes,
                        kErrors,
-                       kSource},
+                       kWriteSource},
            write_bytes);
     add_removals(module);
 }

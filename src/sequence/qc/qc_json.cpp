@@ -31,7 +31,7 @@ void read_whole_numbers(const json& from, const char* key, Ints& to) {
         to[i] = whole_number<int>(from[key].at(i), key);
 }
 
-ordered_json json_of(const QcSpot& spot) {
+ordered_json qc_json_of(const QcSpot& spot) {
     return {spot.x, spot.y, spot.value, spot.around};
 }
 
@@ -40,10 +40,10 @@ QcSpot spot_of(const json& from) {
             finite_number(from.at(2), "value"), finite_number(from.at(3), "around")};
 }
 
-ordered_json json_of(const std::vector<QcSpot>& spots) {
+ordered_json qc_json_of(const std::vector<QcSpot>& spots) {
     ordered_json list = ordered_json::array();
     for (const QcSpot& spot : spots)
-        list.push_back(json_of(spot));
+        list.push_back(qc_json_of(spot));
     return list;
 }
 
@@ -57,7 +57,7 @@ std::vector<QcSpot> spots_of(const json& from) {
 // Usually there is none, and the key is left out.
 void put(ordered_json& to, const char* key, const QcCount& count) {
     if (count.pixels > 0)
-        to[key] = {{"pixels", count.pixels}, {"first", json_of(count.first)}};
+        to[key] = {{"pixels", count.pixels}, {"first", qc_json_of(count.first)}};
 }
 
 QcCount count_of(const json& from, const char* key) {
@@ -69,7 +69,7 @@ QcCount count_of(const json& from, const char* key) {
     return count;
 }
 
-ordered_json json_of(const QcPart& part) {
+ordered_json qc_json_of(const QcPart& part) {
     return {{"name", part.name},
             {"data", part.data},
             {"display", part.display},
@@ -88,7 +88,7 @@ QcPart part_of(const json& from) {
 }
 
 // Colours by their bits, as JSON has no NaN.
-ordered_json json_of(const QcRectangle& of) {
+ordered_json qc_json_of(const QcRectangle& of) {
     std::array<uint32_t, 3> bits{};
     std::memcpy(bits.data(), of.color.data(), sizeof bits);
     return {of.x, of.y, of.width, of.height, bits[0], bits[1], bits[2], of.background};
@@ -118,7 +118,7 @@ void read_shares(const json& from, const char* key, std::array<int, 32>& to) {
         read_whole_numbers(from, key, to);
 }
 
-ordered_json json_of(const QcLayer& layer) {
+ordered_json qc_json_of(const QcLayer& layer) {
     ordered_json to = {{"name", layer.name},         {"kind", layer.kind}, {"lit", layer.lit},
                        {"constant", layer.constant}, {"min", layer.min},   {"max", layer.max},
                        {"mean", layer.mean}};
@@ -198,7 +198,7 @@ void put_places(ordered_json& to, const QcPicture& picture) {
     if (picture.alpha_mean != 0 || picture.alpha_clear != 0)
         to["alpha"] = {{"mean", picture.alpha_mean}, {"clear", picture.alpha_clear}};
     for (const QcRectangle& rectangle : picture.rectangles)
-        to["rectangles"].push_back(json_of(rectangle));
+        to["rectangles"].push_back(qc_json_of(rectangle));
     if (picture.pairs != std::array<double, 2>{} || picture.greens > 0) {
         to["values"] = {
             {"pairs", picture.pairs}, {"greens", picture.greens}, {"distinct", picture.distinct}};
@@ -235,12 +235,12 @@ void read_places(const json& from, QcPicture& picture) {
     }
 }
 
-ordered_json json_of(const QcPicture& picture) {
+ordered_json qc_json_of(const QcPicture& picture) {
     ordered_json to = {{"layer", picture.layer},
                        {"space", picture.space},
                        {"hash", picture.hash},
                        {"spike_count", picture.spike_count},
-                       {"spikes", json_of(picture.spikes)}};
+                       {"spikes", qc_json_of(picture.spikes)}};
     put(to, "alpha_low", picture.alpha_low);
     put(to, "alpha_high", picture.alpha_high);
     if (picture.unseen.pixels > 0) {
@@ -253,7 +253,7 @@ ordered_json json_of(const QcPicture& picture) {
         to["groups"] = {{"count", picture.groups},
                         {"sum", picture.group_sum},
                         {"difference", picture.group_difference},
-                        {"worst", json_of(picture.group_worst)}};
+                        {"worst", qc_json_of(picture.group_worst)}};
     }
     return to;
 }
@@ -286,12 +286,12 @@ template <class Item>
 ordered_json list_of(const std::vector<Item>& items) {
     ordered_json list = ordered_json::array();
     for (const Item& item : items)
-        list.push_back(json_of(item));
+        list.push_back(qc_json_of(item));
     return list;
 }
 
 // Bits of IDs as 8 digits, as a Cryptomatte's manifest has them.
-ordered_json json_of(const QcObjects& objects) {
+ordered_json qc_json_of(const QcObjects& objects) {
     ordered_json inside = ordered_json::array();
     for (const QcObject& object : objects.inside)
         inside.push_back({OIIO::Strutil::fmt::format("{:08x}", object.id), object.pixels});
@@ -353,10 +353,11 @@ std::string to_json(const QcRecord& record) {
     ordered_json guides = ordered_json::array();
     for (const QcGuide& guide : facts.guides)
         guides.push_back({guide.layer, guide.channels});
-    ordered_json to = {
-        {"limits", record.limits.texts()}, {"picture", json_of(facts.picture)}, {"guides", guides}};
+    ordered_json to = {{"limits", record.limits.texts()},
+                       {"picture", qc_json_of(facts.picture)},
+                       {"guides", guides}};
     if (!facts.picture.objects.layer.empty())
-        to["objects"] = json_of(facts.picture.objects);
+        to["objects"] = qc_json_of(facts.picture.objects);
     to.update(ordered_json{{"cells", cells_text(facts)},
                            {"layers", list_of(facts.layers)},
                            {"channels", channels},

@@ -27,10 +27,6 @@ namespace {
 using nlohmann::ordered_json;
 using OIIO::Strutil::fmt::format;
 
-std::string name_of(const FrameResult& frame) {
-    return item_name(frame.item());
-}
-
 // ---- pictures
 
 std::vector<size_t> by_rank(const ShotResult& shot) {
@@ -345,8 +341,9 @@ std::string list_html(const ShotResult& shot, const PageLimits& limits) {
                 ? "<br><code>" + escaped(approve_line(limits.json, shell_quoted(frame.name))) +
                       "</code>"
                 : "";
-        html += format("<tr><td>{}</td><td>{}</td><td>{}{}</td></tr>\n", escaped(name_of(frame)),
-                       status_name(frame.status), escaped(frame.message), command);
+        html += format("<tr><td>{}</td><td>{}</td><td>{}{}</td></tr>\n",
+                       escaped(item_name(frame.item())), status_name(frame.status),
+                       escaped(frame.message), command);
     }
     return html + "</table>";
 }
@@ -362,8 +359,8 @@ std::string shot_name(const ShotResult& shot) {
     if (is_named(shot))
         return format("{} case{}{}", shot.frames.size(), shot.frames.size() == 1 ? "" : "s",
                       name.empty() ? "" : ", from " + name);
-    return format("frames {} to {}{}", name_of(shot.frames.front()), name_of(shot.frames.back()),
-                  name.empty() ? "" : ", from " + name);
+    return format("frames {} to {}{}", item_name(shot.frames.front().item()),
+                  item_name(shot.frames.back().item()), name.empty() ? "" : ", from " + name);
 }
 
 } // namespace
