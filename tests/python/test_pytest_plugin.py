@@ -7,8 +7,10 @@ import json
 import os
 import re
 import shlex
+import signal
 import subprocess
 import sys
+import time
 from pathlib import Path
 
 import pytest
@@ -37,14 +39,40 @@ def looks(*names, value=0.5, fail="mean=0.1"):
     return HEAD + "".join(TEST.format(name=name, value=value, fail=fail) for name in names)
 
 
+def session(folder, words):
+    """Becomes a session of pytest that prints into two files, and ends this process with its status."""
+    status = 3  # of pytest's own errors
+    try:
+        os.chdir(folder)
+        for descriptor, name in ((1, "out"), (2, "err")):
+            os.dup2(os.open(f"{name}.txt", os.O_WRONLY | os.O_CREAT | os.O_TRUNC, 0o644), descriptor)
+        sys.stdout, sys.stderr = (open(descriptor, "w", encoding="utf-8", closefd=False) for descriptor in (1, 2))
+        sys.__stdout__, sys.__stderr__ = sys.stdout, sys.stderr
+        sys.path.insert(0, str(folder))  # as python -m pytest has it
+        signal.alarm(120)
+        status = int(pytest.main([f"--basetemp={folder}/base", *map(str, words)]))
+        sys.stdout.flush()
+        sys.stderr.flush()
+    finally:
+        os._exit(status)
+
+
 @pytest.fixture
 def run(pytester):
-    """Writes test_looks.py, if there is text, and runs pytest."""
+    """Writes test_looks.py, if there is text, and runs pytest. In a copy of this process, which has loaded all
+    libraries: to load them takes longer than a session."""
 
     def run_pytest(text=None, *words):
         if text is not None:
             pytester.makepyfile(test_looks=text)
-        return pytester.runpytest_subprocess(*words, timeout=120)
+        begun = time.monotonic()
+        child = os.fork()
+        if child == 0:
+            session(pytester.path, words)
+        status = os.waitstatus_to_exitcode(os.waitpid(child, 0)[1])
+        assert status >= 0, f"pytest ended by signal {-status}"
+        lines = [(pytester.path / f"{name}.txt").read_text(encoding="utf-8").splitlines() for name in ("out", "err")]
+        return pytest.RunResult(status, *lines, time.monotonic() - begun)
 
     return run_pytest
 
@@ -141,14 +169,14 @@ def test_edited_baseline_fails(run, approved, pytester):
     said(edited, "is not what was approved")
 
 
-def test_baseline_edited_behind_a_test_fails_the_session(approved, pytester):
+def test_baseline_edited_behind_a_test_fails_the_session(run, approved):
     approved(looks("grey") + """
 def test_meanwhile():
     for file in __import__("pathlib").Path("approved").rglob("*.exr"):
         file.chmod(0o644)
         file.write_bytes(b"")
 """)
-    result = pytester.runpytest_subprocess()
+    result = run()
     result.assert_outcomes(passed=2)
     said(result, "ERROR test_looks/test_grey: passed in its test, and now error: *is not what was approved")
     assert result.ret == 1
