@@ -16,10 +16,10 @@
 //                   are; it reads those of floats that way too, unless they are opened with a
 //                   configuration. 2.4 writes 8 bits whatever is asked for, 2.5 16 and floats too.
 //   PNG files       2.5.14 multiplies light by alpha, and encodes it again; before, the encoded
-//   values
-//                   were multiplied.
+//                   values were multiplied.
 //   ImageBuf(name)  2.5 reads the pixels at once; in 2.4 they stay in the file, behind an
-//   ImageCache. fonts           2.5 looks for them by name in a few folders, not in those below.
+//                   ImageCache.
+//   fonts           2.5 looks for them by name in a few folders, not in those below.
 //   origins         2.5 numbers rows from 0 in formats that have no origin, 2.4 from the image's.
 //   names           TypeFloat, TypeInt, TypeString, paropt, parallel_for_chunked, Strutil::fmt and
 //                   string_view are spelt the same in all of them.
