@@ -210,6 +210,21 @@ def test_frames_are_made_by_the_commands_before(make, tonetool, shot, tmp_path):
     assert len(made[0]) == 10 and np.array_equal(made[0], made[1])
 
 
+def test_each_view_of_a_stereo_pair_is_steadied_by_its_own_frames(make, write, tmp_path):
+    """With the light given, so that the views have one exposure whatever is in them."""
+    for number in range(1, 4):
+        write(number, Surfaces(.05 * number), name="s.left")
+        write(number, Surfaces(.05 * number + .5), name="s.right", seed=number + 50)
+    given = "steady=1:lwa=0.4:lmax=8"
+    make("1-3", given, "p.%V", words=("--views", "left,right"), scene="s.%V.#.exr")
+    for view in ("left", "right"):
+        _, alone = make("1-3", given, f"alone.{view}", scene=f"s.{view}.#.exr")
+        assert len(alone) == 3
+        for number, picture in alone.items():
+            assert (tmp_path / f"p.{view}.{number:04}.exr").read_bytes() == picture
+    assert (tmp_path / "p.left.0002.exr").read_bytes() != (tmp_path / "p.right.0002.exr").read_bytes()
+
+
 # ---- windows that are not whole
 
 

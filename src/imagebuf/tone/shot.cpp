@@ -247,7 +247,8 @@ bool measures(const CgTmoOptions& options) {
     return contained(why,
                      [&] {
                          const CgTmoOptions o = with_preset(options);
-                         found = wants_lwa(o) || wants_lmax(o);
+                         // Which frames are about one follows from the statistics, too.
+                         found = wants_lwa(o) || wants_lmax(o) || o.steady;
                      }) &&
            found;
 }

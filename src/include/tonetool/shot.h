@@ -59,7 +59,7 @@ TONETOOL_API bool merge_shots(ShotStatistics& shot, const std::vector<ShotStatis
 /// they do.
 TONETOOL_API std::string not_of_shots(const CgTmoOptions& options);
 TONETOOL_API std::string not_of_shots(const CalibrationOptions& options);
-/// Whether they ask for anything to be measured.
+/// Whether they ask for anything that is measured of a shot.
 TONETOOL_API bool measures(const CgTmoOptions& options);
 TONETOOL_API bool measures(const CalibrationOptions& options);
 
