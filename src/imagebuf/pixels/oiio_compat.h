@@ -17,8 +17,8 @@
 //                   configuration. 2.4 writes 8 bits whatever is asked for, 2.5 16 and floats too.
 //   PNG files       2.5.14 multiplies light by alpha, and encodes it again; before, the encoded
 //                   values were multiplied.
-//   ImageBuf(name)  2.5 reads the pixels at once; in 2.4 they stay in the file, behind an
-//                   ImageCache.
+//   ImageBuf(name)  2.5 reads the pixels at once, 3.x when somebody asks for them; in 2.4 they stay
+//                   in the file, behind an ImageCache.
 //   fonts           2.5 looks for them by name in a few folders, not in those below.
 //   origins         2.5 numbers rows from 0 in formats that have no origin, 2.4 from the image's.
 //   names           TypeFloat, TypeInt, TypeString, paropt, parallel_for_chunked, Strutil::fmt and
@@ -52,7 +52,13 @@ inline constexpr bool kDisplayTakesLooks = OIIO_VERSION >= 20500;
 
 /// Whether an image only knows its file so far: its header is read, its pixels are not.
 inline bool is_unread_file(const OIIO::ImageBuf& image) {
-    return image.storage() == OIIO::ImageBuf::IMAGECACHE;
+    if (image.storage() == OIIO::ImageBuf::IMAGECACHE)
+        return true;
+#if OIIO_VERSION >= 30000
+    return image.initialized() && !image.deep() && !image.name().empty() && !image.pixels_valid();
+#else
+    return false;
+#endif
 }
 
 /// An ImageBuf over pixels that `pixels` owns, with another header of the same geometry and

@@ -35,6 +35,7 @@ def run_case(case, program, options, inputs, folder):
     (folder / "in").symlink_to(inputs)
     environment = {key: value for key, value in os.environ.items()
                    if not key.startswith(PRIVATE)}
+    environment["OPENIMAGEIO_METADATA_HISTORY"] = "1"   # which 3.x does not write by itself
     if "capture" in case.commands() and "ASAN_OPTIONS" in environment:
         # What libraries of cameras leave allocated is known by the whole stack.
         environment["ASAN_OPTIONS"] += ":fast_unwind_on_malloc=0"
