@@ -21,8 +21,7 @@ bool is_path(const py::object& object) {
 }
 
 OIIO::TypeDesc stored_type(const OIIO::ImageBuf& image) {
-    return image.storage() == OIIO::ImageBuf::IMAGECACHE ? image.nativespec().format
-                                                         : image.spec().format;
+    return oiio::is_unread_file(image) ? image.nativespec().format : image.spec().format;
 }
 
 // The smallest and largest finite value of the picture's channels, as they are stored.

@@ -46,7 +46,7 @@ void read_given(OIIO::ImageBuf& pixels, const std::string& which) {
 // An image from outside is like one that was read.
 void push_given(Session& session, OIIO::ImageBuf& pixels, size_t index) {
     const std::string which = "image " + std::to_string(index + 1);
-    const bool unread = pixels.spec().undefined() || pixels.storage() == OIIO::ImageBuf::IMAGECACHE;
+    const bool unread = pixels.spec().undefined() || oiio::is_unread_file(pixels);
     const OIIO::ImageSpec native = unread ? pixels.nativespec() : pixels.spec();
     const std::string name = pixels.name().empty() ? which : std::string(pixels.name());
     const auto integers = chain::integers_of(native, std::string(pixels.file_format_name()));
