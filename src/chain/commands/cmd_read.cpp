@@ -66,7 +66,7 @@ ImagePtr open_or_substitute(Session& session, const std::string& filename) {
 
 // Converts from the colour space that the file's name or its metadata tell to the linear one.
 void convert_input(Session& session, const std::string& filename, bool unpremult) {
-    std::string space = color_config(session).getColorSpaceFromFilepath(filename);
+    std::string space = oiio::space_of_file(color_config(session), filename);
     if (space.empty())
         space = session.stack.top()->part().header().get_string_attribute("oiio:ColorSpace");
     if (!space.empty())

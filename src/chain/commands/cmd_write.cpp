@@ -110,7 +110,7 @@ void convert_output(Session& session, const Call& call, const std::string& filen
                     OutputSettings& settings) {
     const std::string linear = linear_space(session);
     const Part& part = session.stack.top()->part();
-    std::string space = color_config(session).getColorSpaceFromFilepath(filename);
+    std::string space = oiio::space_of_file(color_config(session), filename);
     if (session.settings.compat && !space.empty())
         take_type_of(space, session, call, filename, settings);
     if (space.empty())

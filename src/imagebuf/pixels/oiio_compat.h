@@ -7,7 +7,8 @@
 //                   their way out.
 //   thread pool     2.4 does not look at the number of threads for chunks of one.
 //   ociodisplay     2.4 drops `looks` without a word; 2.5 adds `inverse`.
-//   colour spaces   2.5 knows which names mean the same space; 2.4 compares them.
+//   colour spaces   2.5 knows which names mean the same space; 2.4 compares them. 3.1 calls what
+//                   a file's name does not tell "unknown", and sRGB "srgb_rec709_scene".
 //   capture_image   3.0 leaves it to programs that are linked with OpenCV themselves.
 //   supports()      of readers and writers: an int in all of them, a string_view goes in.
 //   plugins         OIIO_PLUGIN_VERSION is 25 in 2.4 and 2.5, 27 in 3.x; the macros name it. The
@@ -107,7 +108,7 @@ inline bool encodes_with_alpha([[maybe_unused]] const OIIO::ImageSpec& file,
     (void)OIIO::getattribute("png:linear_premult", light);
     const std::string space = file.get_string_attribute("oiio:ColorSpace");
     return format == "png" && light != 0 &&
-           (OIIO::Strutil::iequals(space, "sRGB") ||
+           (OIIO::Strutil::iequals(space, "sRGB") || space == "srgb_rec709_scene" ||
             file.get_float_attribute("oiio:Gamma", 1) != 1);
 #else
     return false;
@@ -161,6 +162,12 @@ inline bool same_space([[maybe_unused]] const OIIO::ColorConfig& config, const s
         return true;
 #endif
     return OIIO::Strutil::iequals(one, other);
+}
+
+/// The space that the name of a file tells by the rules of a configuration; empty: none does.
+inline std::string space_of_file(const OIIO::ColorConfig& config, const std::string& filename) {
+    const std::string space(config.getColorSpaceFromFilepath(filename));
+    return space == "unknown" ? "" : space;
 }
 
 /// ImageBufAlgo::ociodisplay, forwards.
