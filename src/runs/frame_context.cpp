@@ -10,6 +10,7 @@
 #include "chain/manual/help.h"
 #include "chain/session/runner.h"
 #include "runs/check_end.h"
+#include "sequence/frames/file_sequence.h"
 #include "sequence/results/probe.h"
 #include "text/error.h"
 
@@ -148,6 +149,7 @@ void FrameContext::run_commands(Session& session, size_t index, const Strings& w
         make_folders(plan, run);
     if (gone.status == Status::Missing)
         session.check.absent = absent_approved(session, files);
+    session.check.between = !session.check.absent.empty() && is_between_approved(index);
     if (same_file(plan, plan.check_of(run), words)) {
         session.error("", "reference and test are the same file");
     } else if (gone.status != Status::Missing || !session.check.absent.empty()) {
@@ -164,6 +166,24 @@ std::string FrameContext::absent_approved(const Session& session, const Strings&
     const bool may_be = session.check.result && plan.check.has("against") && files.size() > 1;
     const Strings others(files.begin() + (files.empty() ? 0 : 1), files.end());
     return may_be && sequence::missing_of(others).status != Status::Missing ? files.front() : "";
+}
+
+bool FrameContext::is_between_approved(size_t index) const {
+    const FrameRun& run = plan.runs[index];
+    const std::string& pattern = plan.line_of(run).texts[plan.sequences.front()];
+    if (plan.named || !sequence::is_pattern(pattern))
+        return false;
+    sequence::PatternOptions options = plan.options;
+    options.frames.clear();
+    bool earlier = false, later = false;
+    for (const sequence::Item& there :
+         sequence::list_files(sequence::without_range(pattern), options).items) {
+        if (there.view != run.frame.view)
+            continue;
+        earlier = earlier || there.frame < run.frame.number;
+        later = later || there.frame > run.frame.number;
+    }
+    return earlier && later;
 }
 
 void FrameContext::print_error(size_t index, const std::string& error, std::ostream& err) const {

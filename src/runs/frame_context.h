@@ -27,6 +27,8 @@ struct FrameContext {
     /// Runs the words of the frame, if its files are there.
     void run_commands(chain::Session& session, size_t index, const Strings& words) const;
     std::string absent_approved(const chain::Session& session, const Strings& files) const;
+    /// Whether the folder of the approved version has earlier and later frames than this one.
+    bool is_between_approved(size_t index) const;
     /// Prints what ended the run of a frame, as its commands' errors are printed.
     void print_error(size_t index, const std::string& error, std::ostream& err) const;
 };

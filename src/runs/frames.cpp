@@ -201,28 +201,6 @@ void check_outputs_differ(const FramePlan& plan) {
     }
 }
 
-// The case that reads it next would compare the output of another, and nobody has the image any
-// more.
-void check_inputs_stay(const FramePlan& plan) {
-    const CheckPlan& check = plan.check;
-    if (!check.judges() || check.outputs.empty() || plan.runs.size() < 2)
-        return;
-    const auto place_of = [](const std::string& file) {
-        std::error_code why;
-        const std::filesystem::path place = std::filesystem::weakly_canonical(file, why);
-        return why ? file : place.string();
-    };
-    std::set<std::string> read;
-    for (const FrameRun& run : plan.runs)
-        for (const std::string& file : words_at(run.words, check.inputs))
-            read.insert(place_of(file));
-    for (const FrameRun& run : plan.runs)
-        for (const std::string& file : words_at(run.words, check.outputs))
-            if (file.find('{') == std::string::npos && read.count(place_of(file)) > 0)
-                throw CommandError("\"" + file +
-                                   "\" is read by this check, and -o would write over it");
-}
-
 // Leaves out what --only does not name.
 void choose_cases(FramePlan& plan) {
     const Strings& only = plan.check.only;
@@ -331,7 +309,6 @@ FramePlan plan_frames(chain::ParsedLine line, const std::string& directory, bool
     make_runs(scan, first, listings);
     count_families(scan.plan);
     check_outputs_differ(scan.plan);
-    check_inputs_stay(scan.plan);
     scan.plan.options = scan.options;
     plan_suite(scan.plan);
     choose_cases(scan.plan);

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <map>
 
+#include "runs/check_end.h"
 #include "runs/stack_of_files.h"
 #include "text/error.h"
 
@@ -55,23 +56,45 @@ private:
     std::vector<size_t> m_used;
 };
 
-// "refs/%N.exr" for "refs/a.exr".
-std::string named_like(const std::string& file) {
+// The pattern of files like this one: "refs/%N.exr" for "refs/a.exr", and "refs/a.#.exr" for
+// "refs/a.0001.exr" if another file differs from it in the number alone.
+std::string pattern_like(const std::string& file, const std::vector<std::string>& others) {
     const fs::path path = file;
-    return (path.parent_path() / ("%N" + path.extension().string())).string();
+    const std::string stem = path.stem().string(), ending = path.extension().string();
+    const size_t last = stem.find_last_of("0123456789") + 1;
+    const size_t begin = last == 0 ? 0 : stem.find_last_not_of("0123456789", last - 1) + 1;
+    const std::string before = stem.substr(0, begin), after = stem.substr(last) + ending;
+    const bool numbered =
+        last > 0 && std::any_of(others.begin(), others.end(), [&](const auto& one) {
+            const std::string name = fs::path(one).filename().string();
+            const size_t digits = name.size() - std::min(name.size(), before.size() + after.size());
+            return digits > 0 && name != path.filename() && name.compare(0, begin, before) == 0 &&
+                   name.compare(begin + digits, std::string::npos, after) == 0 &&
+                   name.find_first_not_of("0123456789", begin) == begin + digits;
+        });
+    const size_t width = last - begin;
+    const std::string number = width == 4 ? "#"
+                               : width > 1 && stem[begin] == '0'
+                                   ? "%0" + std::to_string(width) + "d"
+                                   : "@";
+    return (path.parent_path() / (numbered ? before + number + after : "%N" + ending)).string();
 }
 
-// The most frequent extension of the files in a folder; of several, the first.
-std::string usual_extension(const std::string& folder) {
-    std::map<std::string, size_t> counts;
+// The files of the most frequent extension in a folder, in the order of their names.
+std::vector<std::string> usual_files(const std::string& folder) {
+    std::map<std::string, std::vector<std::string>> files;
     std::error_code why;
     for (fs::directory_iterator entry(folder, why), end; !why && entry != end; entry.increment(why))
         if (const std::string extension = entry->path().extension().string(); !extension.empty())
-            ++counts[extension];
+            files[extension].push_back(entry->path().string());
     const auto most =
-        std::max_element(counts.begin(), counts.end(),
-                         [](const auto& a, const auto& b) { return a.second < b.second; });
-    return most == counts.end() ? ".exr" : most->first;
+        std::max_element(files.begin(), files.end(), [](const auto& a, const auto& b) {
+            return a.second.size() < b.second.size();
+        });
+    if (most == files.end())
+        return {};
+    std::sort(most->second.begin(), most->second.end());
+    return most->second;
 }
 
 void refuse_folder(const std::string& word) {
@@ -80,7 +103,12 @@ void refuse_folder(const std::string& word) {
         return;
     const std::string name =
         word.size() > 1 && word.back() == '/' ? word.substr(0, word.size() - 1) : word;
-    throw CommandError(name + " is a folder: write " + name + "/%N" + usual_extension(word));
+    const auto files = usual_files(word);
+    throw CommandError(
+        name + " is a folder: write " +
+        (files.empty()
+             ? name + "/%N.exr"
+             : name + "/" + fs::path(pattern_like(files.front(), files)).filename().string()));
 }
 
 // A recipe has a ? before its values.
@@ -122,13 +150,14 @@ void refuse_uncompared(const chain::ParsedLine& line, const CheckPlan& check) {
     if (unused.empty())
         return;
     const std::string& first = line.texts[unused.front()];
+    const Strings names = words_at(line.texts, unused);
     throw CommandError(unused.size() == 1
                            ? "\"" + first +
                                  "\" was never compared (valid: names with # for "
                                  "sequences, tests=K for K tests of one reference, or --pop)"
                            : std::to_string(unused.size()) +
-                                 " images were read and never compared; for named images write '" +
-                                 named_like(first) + "'");
+                                 " images were read and never compared; for all of them write '" +
+                                 pattern_like(first, names) + "'");
 }
 
 } // namespace tonetool::runs

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "runs/written_over.h"
 
+#include <OpenImageIO/imageio.h>
+#include <algorithm>
 #include <filesystem>
 #include <set>
 
@@ -49,6 +51,21 @@ std::vector<EndFile> places_of(const CheckPlan& check) {
     return places;
 }
 
+// A text in the place of a frame is a slip, whether this line reads that frame or not.
+void refuse_image_name(const EndFile& place) {
+    if (place.command == "figure" || place.command == "contactsheet")
+        return;
+    const bool image = bool(OIIO::ImageOutput::create(place.file));
+    (void)OIIO::geterror();
+    const std::string ending = place.command == "report" ? "html"
+                               : place.command == "csv"  ? "csv"
+                                                         : "json";
+    if (image)
+        throw CommandError("--" + place.command + ": \"" + place.file +
+                           "\" has the name of an image (valid: a name of its own, such as check." +
+                           ending + ")");
+}
+
 // The names of files that a run reads, images and others.
 Strings files_read(const FramePlan& plan, const FrameRun& run) {
     const Strings& texts = run.words;
@@ -85,6 +102,41 @@ void refuse_in_run(const FramePlan& plan, const std::vector<EndFile>& places, co
     }
 }
 
+// The place of the last comparison; behind all words: there is none.
+size_t last_comparison(const chain::ParsedLine& line) {
+    size_t last = line.texts.size();
+    for (const chain::Word& word : line.words)
+        last = word.row && word.row->group == chain::Group::Compare ? word.at : last;
+    return last;
+}
+
+std::string place_of(const std::string& file) {
+    std::error_code why;
+    const std::filesystem::path place = std::filesystem::weakly_canonical(file, why);
+    return why ? file : place.string();
+}
+
+// Outputs of a line that judges in the place of what it compares: the frame that reads it next
+// would compare the output of another, and nobody has the image any more. A line of one frame may
+// write over an image before it compares.
+void refuse_over_compared(const FramePlan& plan) {
+    if (!plan.check.judges() || plan.check.outputs.empty())
+        return;
+    std::set<std::string> read;
+    for (const FrameRun& run : plan.runs)
+        for (const std::string& file : words_at(run.words, plan.check.inputs))
+            read.insert(place_of(file));
+    const size_t last = plan.runs.size() > 1 ? 0 : last_comparison(plan.line);
+    for (const FrameRun& run : plan.runs) {
+        for (const size_t at : plan.check.outputs) {
+            const std::string& file = run.words.at(at);
+            if (at >= last && file.find('{') == std::string::npos && read.count(place_of(file)) > 0)
+                throw CommandError("\"" + file +
+                                   "\" is read by this check, and -o would write over it");
+        }
+    }
+}
+
 // An image that a case may get is one that is read.
 void refuse_images(const FramePlan& plan) {
     const auto images = case_images(plan.check, plan.check.essence);
@@ -110,13 +162,13 @@ void refuse_images(const FramePlan& plan) {
 
 void refuse_to_write_over(const FramePlan& plan, const Strings& parts) {
     refuse_images(plan);
+    refuse_over_compared(plan);
     const std::vector<EndFile> places = places_of(plan.check);
-    if (places.empty())
-        return;
     if (plan.check.has("merge"))
         refuse_in_run(plan, places, plan.line.texts, parts);
-    for (const FrameRun& run : plan.runs)
-        refuse_in_run(plan, places, run.words, files_read(plan, run));
+    for (size_t i = 0; i < plan.runs.size() && !places.empty(); ++i)
+        refuse_in_run(plan, places, plan.runs[i].words, files_read(plan, plan.runs[i]));
+    std::for_each(places.begin(), places.end(), refuse_image_name);
 }
 
 } // namespace tonetool::runs

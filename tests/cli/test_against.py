@@ -355,6 +355,13 @@ def test_each_part_of_a_file_counts(against, tmp_path):
     assert found == ["error header"] and "framesPerSecond" in ran.out
 
 
+@pytest.mark.parametrize("limit", ["colorblocks=8", "depth=1", "alpha=5,warning", "groupblocks=12"])
+def test_a_share_that_nothing_can_exceed_is_no_limit(tonetool, against, limit):
+    against(approved_frame(), new_frame())
+    ran = tonetool("approved.exr", "new.exr", f"--against:{limit}", status=1)
+    assert "no share is above 1, so this would find nothing (valid: below 1, 5 % is 0.05; or off)" in ran.err
+
+
 def test_nothing_that_was_compared_is_no_pass(against, tonetool, shot):
     assert against(approved_frame(), new_frame())[1] == []
     ran = tonetool("approved.exr", "new.exr", "--against:skip=*", status=1)
@@ -464,12 +471,33 @@ def test_a_frame_that_the_approved_version_has_not(shot):
     bad = new_frame()
     bad.layers["Combined"][20, 30] = np.nan
     frames = [approved_frame(), None, approved_frame()], [new_frame(), bad, new_frame()]
-    ran, found = shot(*frames, "--qc:duplicate=off:fewframes=off", status=3)
-    assert faults(found) == [(2, "error nan"), (2, "info noapproved")]
+    qc = "--qc:duplicate=off:fewframes=off"
+    ran, found = shot(*frames, qc, status=3)
+    assert faults(found) == [(2, "error nan"), (2, "error noapproved")]
     assert [frame["status"] for frame in found] == ["passed", "failed", "passed"]
-    assert "against: frame 2: info noapproved: the approved version has no such frame" in ran.out
+    assert ("against: frame 2: error noapproved: the approved version has no such frame, though it has "
+            "earlier and later ones") in ran.out
     ran, found = shot(*frames, "--hdrflip", status=1)
     assert [frame["status"] for frame in found] == ["passed", "missing", "passed"]
+
+
+@pytest.mark.parametrize("there, extra", [((1, 2), 3), ((2, 3), 1)])
+def test_a_longer_version_has_frames_that_are_only_looked_at(shot, there, extra):
+    approved = [approved_frame() if number in there else None for number in (1, 2, 3)]
+    ran, found = shot(approved, [new_frame()] * 3, "--qc:duplicate=off:fewframes=off", status=0)
+    assert faults(found) == [(extra, "info noapproved")]
+    assert f"against: frame {extra}: info noapproved: the approved version has no such frame\n" in ran.out
+
+
+def test_a_hole_in_the_approved_version_is_found_by_a_part_of_the_frames(tonetool, shot):
+    shot([approved_frame(), None, approved_frame()], [new_frame()] * 3, status=3)
+    line = ["approved/shot.#.exr", "new/shot.#.exr", "--against", "--json", "part.json"]
+    ran = tonetool("--frames", "2-3", *line, status=3)
+    assert "though it has earlier and later ones" in ran.out
+    tonetool("--frames", "1", *line[:3], "--json", "rest.json")
+    ran = tonetool("--merge", "rest.json", "part.json", "--frames", "1-3", status=3)
+    assert "check: failed, 3 frames: 1 failed, 2 passed" in ran.out
+    tonetool("--frames", "2-3", *line[:2], "--against:noapproved=info")
 
 
 def test_a_frame_that_the_new_version_has_not(shot):

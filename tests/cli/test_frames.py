@@ -210,6 +210,10 @@ FLIP = "--hdrflip:fail=0.05:print=0"
     (["r.#.exr", "-otex", "same.tx"], '"same.tx" would be written by every frame'),
     (["r.#.exr", "-o:all=1", "same.%02d.exr"], "would be written by every frame"),
     ([*SHOTS, "--hdrflip:saveexposures=same"], "would be written by every frame"),
+    ([*SHOTS, FLIP, "--json", "other.0001.exr"], "has the name of an image (valid: "),
+    ([*SHOTS, FLIP, "--report", "page.png"], "such as check.html)"),
+    (["r.0001.exr", "t.0001.exr", FLIP, "-o", "./t.0001.exr"], "is read by this check, and -o would"),
+    ([*SHOTS, FLIP, "-o", "t.#.exr"], "is read by this check, and -o would"),
     (["r.#.exr", "-o", "same.{FRAME_NUMBER//3}.exr"], "was written by frame 1"),
 ])
 def test_not_compared_or_written_over(tonetool, words, text):

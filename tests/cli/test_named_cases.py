@@ -161,7 +161,7 @@ def test_no_case_says_what_is_there(tonetool, files):
 
 @pytest.mark.parametrize("words, text", [
     (["r/a.exr", "r/b.exr", "r/c.exr", "t/a.exr", "t/b.exr", "t/c.exr", FLIP],
-     "4 images were read and never compared; for named images write 'r/%N.exr'"),
+     "4 images were read and never compared; for all of them write 'r/%N.exr'"),
     (["r/a.exr", "r/b.exr", "t/a.exr", FLIP], '"r/a.exr" was never compared'),
     (["r/*.exr", "t/*.exr", FLIP], '"*" in "r/*.exr" is no wildcard here: names are %N, frames #'),
     (["r/?.exr", "t/?.exr", FLIP], '"?" in "r/?.exr" is no wildcard'),

@@ -96,6 +96,7 @@ void run_against(Session& session, const Call& call) {
     if (approved.absent) {
         sequence::AgainstRecord record;
         record.approved = false;
+        record.between = session.check.between;
         record.limits = limits;
         session.check.result->against = sequence::to_json(record);
         return;

@@ -13,8 +13,9 @@ void describe(const BiasOptions&, See&& see) {
     const auto names = [](const auto& list) {
         return std::vector<std::string>(std::begin(list), std::end(list));
     };
-    see(option("within", &O::within, "margin of the claim \"equal\", as a part of the light")
-            .within(1e-6, 1e6));
+    see(option("within", &O::within,
+               "margin of the claim \"equal\", as a part of the light: 0.05 is 5 %")
+            .within(1e-6, 0.9999));
     see(option("alpha", &O::alpha,
                "false alarms per image of \"different\", and level of each claim in \"equal\"")
             .within(1e-12, 0.49));

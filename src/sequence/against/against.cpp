@@ -3,10 +3,12 @@
 
 #include <OpenImageIO/strutil.h>
 #include <algorithm>
+#include <climits>
 #include <cmath>
 #include <map>
 #include <optional>
 #include <set>
+#include <utility>
 
 #include "imagebuf/pixels/layer_name.h"
 
@@ -186,14 +188,20 @@ bool is_resized(const AgainstRecord& record) {
                        });
 }
 
+// A frame that only the new version has: of a longer cut, or a hole in the approved version.
+std::vector<Fault> faults_without_approved(const AgainstRecord& record, bool hole) {
+    std::vector<Fault> faults;
+    add_fault(record,
+              {"noapproved", "",
+               hole ? "the approved version has no such frame, though it has earlier and later ones"
+                    : "the approved version has no such frame",
+               hole ? Severity::Error : Severity::Info},
+              faults);
+    return faults;
+}
+
 std::vector<Fault> faults_of(const AgainstRecord& record, bool cropped) {
     std::vector<Fault> faults;
-    if (!record.approved) {
-        add_fault(record,
-                  {"noapproved", "", "the approved version has no such frame", Severity::Info},
-                  faults);
-        return faults;
-    }
     for (const AgainstDifference& difference : record.differences)
         add_fault(record, difference, faults);
     add_window(record, cropped, faults);
@@ -254,10 +262,26 @@ void refuse_without_any(ComparedFrames& frames) {
     }
 }
 
+// The numbers of the first and the last frame of the approved version.
+std::pair<int, int> approved_range(const ComparedFrames& frames) {
+    std::pair<int, int> range{INT_MAX, INT_MIN};
+    for (const Compared& frame : frames)
+        if (frame.record.approved)
+            range = {std::min(range.first, frame.result->frame),
+                     std::max(range.second, frame.result->frame)};
+    return range;
+}
+
 void judge_frames(ComparedFrames& frames) {
     const bool cropped = is_cropped(frames);
+    const auto [first, last] = approved_range(frames);
     for (size_t i = 0; i < frames.size(); ++i) {
-        std::vector<Fault> found = faults_of(frames[i].record, cropped);
+        const int number = frames[i].result->frame;
+        std::vector<Fault> found =
+            frames[i].record.approved
+                ? faults_of(frames[i].record, cropped)
+                : faults_without_approved(frames[i].record, frames[i].record.between ||
+                                                                (first < number && number < last));
         const std::optional<int> alike = frame_alike(frames, i);
         for (Fault& fault : found)
             if (alike && tells_moment(fault.code))

@@ -62,6 +62,7 @@ AgainstRecord record_from(const ordered_json& from) {
     for (const auto& [code, limit] : from.at("limits").items())
         record.limits.set(code, limit.get<std::string>());
     record.approved = from.at("approved").get<bool>();
+    record.between = from.value("between", false);
     if (!record.approved)
         return record;
     record.approved_data = window_of(from.at("windows").at(0));
@@ -79,6 +80,8 @@ AgainstRecord record_from(const ordered_json& from) {
 
 std::string to_json(const AgainstRecord& record) {
     ordered_json to = {{"limits", record.limits.texts()}, {"approved", record.approved}};
+    if (record.between)
+        to["between"] = true;
     if (record.approved) {
         to["windows"] = {record.approved_data, record.data};
         to["moments"] = {record.approved_moment, record.moment};

@@ -21,6 +21,7 @@ struct AgainstRecord {
     using Window = std::array<int, 4>;
 
     bool approved = true;           ///< the approved version has the frame
+    bool between = false;           ///< it has not, but earlier and later ones
     Window approved_data{}, data{}; ///< data windows: x, y, width, height
     /// Hashes of depths and positions, which tell which frame of the other version it looks like.
     std::string approved_moment, moment;

@@ -54,7 +54,12 @@ const FaultRules& against_rules() {
          "",
          "a lossy compression for a lossless one; any other difference: warning"},
         {"layerextra", warning, {}, "", "a layer that the approved version has not"},
-        {"noapproved", info, {}, "", "the approved version has no such frame"},
+        {"noapproved",
+         error,
+         {},
+         "",
+         "the approved version has no such frame, though it has earlier and later ones; the new "
+         "version is longer: info"},
         {"data", info, {}, "", "a layer that is not known differs at all"},
     };
     return rules;

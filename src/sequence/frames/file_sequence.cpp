@@ -183,10 +183,13 @@ void check_numbers(const std::string& pattern, const Files& files, const Pattern
     }
     check_each_once(pattern, files);
     if (!files.narrow.empty()) {
-        throw std::runtime_error(
-            "\"" + files.narrow.front() + "\" has fewer digits than \"" + pattern +
-            "\", which does not see it (valid: @ for numbers "
-            "without leading zeros, or --frames for the frames that are meant)");
+        const bool several = pattern.find("##") != std::string::npos;
+        throw std::runtime_error("\"" + files.narrow.front() + "\" has fewer digits than \"" +
+                                 pattern + "\", which does not see it (valid: " +
+                                 (several
+                                      ? "one # in place of several, as each stands for four digits)"
+                                      : "@ for numbers without leading zeros, or --frames for the "
+                                        "frames that are meant)"));
     }
 }
 

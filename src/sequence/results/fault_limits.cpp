@@ -12,12 +12,19 @@ namespace tonetool::sequence {
 
 namespace {
 
+using OIIO::Strutil::fmt::format;
+
 [[noreturn]] void refuse(const FaultRule& rule, const std::string& text) {
     const std::string number =
         rule.threshold ? ", a number of at least 0 (" + rule.measures + "), or number,severity"
                        : "";
     throw std::runtime_error(rule.code + " is \"" + text + "\": must be off, info, warning, error" +
                              number);
+}
+
+// What cannot be above 1.
+bool is_share(const FaultRule& rule) {
+    return OIIO::Strutil::starts_with(rule.measures, "share ") || rule.measures == "of 1";
 }
 
 } // namespace
@@ -57,6 +64,11 @@ void FaultLimits::set(const std::string& code, const std::string& text) {
     const bool valid = !limit.threshold || (*limit.threshold >= 0 && *limit.threshold < HUGE_VAL);
     if ((!limit.has_severity && !has_threshold) || !valid)
         refuse(rule, text);
+    if (has_threshold && *limit.threshold >= 1 && is_share(rule))
+        throw std::runtime_error(
+            format("{} is \"{}\": no share is above 1, so this would find nothing "
+                   "(valid: below 1, 5 % is 0.05; or off)",
+                   rule.code, text));
     m_changed[code] = limit;
     m_texts[code] = text;
 }

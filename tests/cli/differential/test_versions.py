@@ -13,14 +13,17 @@ from versions import RESULT, TEXT, Difference, judge
 PAGE = Path(__file__).resolve().parents[3] / "src" / "doc" / "building.md"
 
 ROWS = (Difference((2, 5), TEXT, "other words", "words"),
-        Difference((3, 0), RESULT, "other pixels", "pixels"))
+        Difference((3, 0), RESULT, "other pixels", "pixels"),
+        Difference((2, 5), TEXT, "for a while", "passing", before=(3, 0)),
+        Difference((3, 1), RESULT, "other pixels now", "words"))
 PRINTS = ["stdout differs\n--- oiiotool\na\n--- tonetool\nb"]
 WRITES = ["out.exr: part (0, 0): 1 of 2 values differ"]
 
 
-def test_rows_name_cases_once():
-    names = [name for row in versions.DIFFERENCES for name in row.cases()]
-    assert len(set(names)) == len(names) > 0
+def test_rows_of_a_version_name_cases_once():
+    pairs = [(row.since, name) for row in versions.DIFFERENCES for name in row.cases()]
+    assert len(set(pairs)) == len(pairs) > 0
+    names = [name for _, name in pairs]
     assert not set(names) - {case.name for case in CASES + PIPELINES}
     assert all(row.kind in (TEXT, RESULT) and row.since > versions.WRITTEN_FOR and row.reason
                for row in versions.DIFFERENCES)
@@ -43,6 +46,15 @@ def test_what_is_not_listed_is_left_as_it_is(found):
 def test_a_listed_difference_is_expected(name, found, version):
     with pytest.raises(pytest.xfail.Exception, match="other"):
         judge(name, found, version, ROWS)
+
+
+def test_the_newest_row_counts_and_an_ended_one_does_not():
+    with pytest.raises(pytest.xfail.Exception, match="other pixels now"):
+        judge("words", WRITES, (3, 1), ROWS)
+    assert "versions.py says" in judge("words", PRINTS, (3, 1), ROWS)[0]
+    with pytest.raises(pytest.xfail.Exception, match="for a while"):
+        judge("passing", PRINTS, (2, 6), ROWS)
+    assert judge("passing", [], (3, 0), ROWS) == [] and judge("passing", PRINTS, (3, 0), ROWS) == PRINTS
 
 
 @pytest.mark.parametrize("name, found", [("words", []), ("words", WRITES), ("words", PRINTS + WRITES),

@@ -22,6 +22,7 @@ class Difference:
     kind: str
     reason: str         # what oiiotool does since then, for the page
     names: str          # of the cases
+    before: tuple = (99, 0)     # the first version of which it is not true any more
 
     def cases(self):
         return self.names.split()
@@ -86,11 +87,11 @@ def version_of(program):
 
 
 def expected(name, version, rows=None):
-    """The row of a case with a version of oiiotool, or None. Older versions' rows stay valid."""
-    for row in DIFFERENCES if rows is None else rows:
-        if version >= row.since and name in row.cases():
-            return row
-    return None
+    """The row of a case with a version of oiiotool, or None. Older versions' rows stay valid until a newer
+    one has the case, too."""
+    valid = [row for row in (DIFFERENCES if rows is None else rows)
+             if row.since <= version < row.before and name in row.cases()]
+    return max(valid, key=lambda row: row.since, default=None)
 
 
 def not_taken(version):
@@ -125,6 +126,7 @@ def table():
     lines = ["| since | what | with oiiotool of that version | cases |", "|---|---|---|---|"]
     for row in DIFFERENCES:
         since = ".".join(map(str, row.since))
+        since += f", before {'.'.join(map(str, row.before))}" if row.before[0] < 99 else ""
         lines.append(f"| {since} | {row.kind} | {row.reason} | {len(row.cases())} |")
     return "\n".join(lines)
 
