@@ -2,9 +2,7 @@
 #include "runs/frames.h"
 
 #include <algorithm>
-#include <filesystem>
 #include <map>
-#include <set>
 
 #include "runs/check_end.h"
 #include "runs/frame_scan.h"

@@ -14,6 +14,7 @@ from image_differences import image_differences
 from prestart import run_bytes
 
 READ_LOCK = threading.Lock()
+SET = {"OPENIMAGEIO_METADATA_HISTORY": "1"}     # 3.x writes none by itself
 PRIVATE = ("OCIO", "OPENIMAGEIO_", "OIIO_", "EXR_", "TONETOOL")
 
 
@@ -35,7 +36,7 @@ def run_case(case, program, options, inputs, folder):
     (folder / "in").symlink_to(inputs)
     environment = {key: value for key, value in os.environ.items()
                    if not key.startswith(PRIVATE)}
-    environment["OPENIMAGEIO_METADATA_HISTORY"] = "1"   # which 3.x does not write by itself
+    environment.update(SET)
     if "capture" in case.commands() and "ASAN_OPTIONS" in environment:
         # What libraries of cameras leave allocated is known by the whole stack.
         environment["ASAN_OPTIONS"] += ":fast_unwind_on_malloc=0"
@@ -60,7 +61,7 @@ class StockRuns:
         self.root.mkdir(parents=True, exist_ok=True)
         made_by = Path(__file__).with_name("inputs.py").read_bytes()
         built = os.stat(program)
-        self.known = hashlib.sha1(made_by + f"{built.st_size} {built.st_mtime_ns}".encode())
+        self.known = hashlib.sha1(made_by + f"{built.st_size} {built.st_mtime_ns} {SET}".encode())
 
     def run(self, case):
         key = self.known.copy()
