@@ -103,7 +103,9 @@ OIIO::ImageSpec texture_config(Session& session, const Call& call, const Image& 
     config.attribute("wrapmodes",
                      call.text("swrap").value_or(wrap) + "," + call.text("twrap").value_or(wrap));
     config.attribute("maketx:bumpformat", call.text("bumpformat").value_or("auto"));
-    config.attribute("maketx:slopefilter", "sobel"); // without it 3.1 finds no slopes
+    // Without these 3.1 finds no slopes.
+    config.attribute("maketx:slopefilter", "sobel");
+    config.attribute("maketx:bumprange", "auto");
     config.attribute("maketx:colorconfig", session.settings.color_config);
     set_tiles(config, session, call, output);
     set_layout(config, output);

@@ -115,6 +115,10 @@ inline bool encodes_with_alpha([[maybe_unused]] const OIIO::ImageSpec& file,
 #endif
 }
 
+/// Whether the reader of OpenEXR files tells that the end of one is missing. (OpenEXR 3.4, which
+/// may be below 3.x, fills what is not compressed.)
+inline constexpr bool kTellsOfCutExr = OIIO_VERSION < 30000;
+
 /// Whether PNM files hold 16 bits and floats where these are asked for.
 inline constexpr bool kPnmTakesTypes = OIIO_VERSION >= 20500;
 
