@@ -39,7 +39,7 @@ DIFFERENCES = (
                """diff-pdiff-same diff-pdiff-close diff-pdiff-far diff-pdiff-fail
                diff-pdiff-parts"""),
     Difference((2, 5), RESULT, "`--diff` of a deep and a flat image prints `PASS` and ends with status 0",
-               "error-diff-deep-flat"),
+               "error-diff-deep-flat", before=(3, 1)),
     Difference((2, 5), RESULT, "without `-d` a file has the data type of the channels of its own inputs, "
                "not the widest type that was read",
                """arith-add-float-to-half channel-ch-layer channel-ch-rename channel-ch-mixed-types
@@ -71,12 +71,61 @@ DIFFERENCES = (
                "printed-printinfo-native printed-printinfo-mips"),
     Difference((2, 5), TEXT, "`{NIMAGES}` and `{TOP.nativeformat}` have values",
                "expression-later-names"),
+    Difference((3, 1), RESULT, "so have `{TOP.SUBIMAGES}`, `{TOP.IS_CONSTANT}` and `{TOP.IS_BLACK}`",
+               "expression-later-names expression-image-constant"),
+    Difference((3, 1), RESULT, "an image that an expression asks about is written as the floats that it was "
+               "read as",
+               """arith-constant-from-image window-crop-expression resample-resize-expression
+               expression-as-argument control-if-image control-else-image control-while-image"""),
+    Difference((3, 1), RESULT, "`--autocc` and `-i:ch=` keep the data type of the file",
+               "color-autocc-config read-input-channels-order"),
+    Difference((3, 1), RESULT, "`--tocolorspace` of an image that names no space takes it for the role "
+               "`scene_linear`, which is ACEScg in the configuration of OpenColorIO",
+               """color-tocolorspace color-tocolorspace-alpha color-tocolorspace-unpremult
+               color-tocolorspace-parts"""),
+    Difference((3, 1), RESULT, "`-o:tile=` sets no tiles: it is taken for an origin",
+               "write-tile-modifier write-output-all-options"),
+    Difference((3, 1), TEXT, "so it is of textures, which keep theirs",
+               "written-oenv-output written-obump-output written-otex-output"),
+    Difference((3, 1), RESULT, "`--missingfile black` and `checker` warn, and the status is 0",
+               """frames-hole-black frames-hole-black-first frames-hole-checker read-missing-black
+               read-missing-checker"""),
+    Difference((3, 1), RESULT, "`--label` and `--set` take names of letters, digits and `_` alone",
+               "stack-label-wins taken-var-colon"),
+    Difference((3, 1), RESULT, "`--pastemeta` leaves the windows of the image",
+               "composite-pastemeta composite-pastemeta-late"),
+    Difference((3, 1), TEXT, "`--for` counts down with a negative step", "control-for-none"),
+    Difference((3, 1), RESULT, "a pattern without a frame is read as a name", "frames-no-match"),
+    Difference((3, 1), TEXT, "the error of a file that is cut short names it, and is the only one",
+               """error-cut-short-printstats error-file-cut-short-printed error-cut-short-chsum
+               error-cut-short-croptofull error-cut-short-reorient error-cut-short-transpose
+               error-cut-short-fft error-cut-short-maxchan error-cut-short-minchan
+               error-cut-short-deepen error-cut-short-chappend error-cut-short-pastemeta
+               error-cut-short-unmip error-cut-short-flatten error-cut-short-dup
+               error-cut-short-printinfo error-file-cut-short error-file-cut-short-changed
+               frames-broken-skipped frames-broken-chain-skipped"""),
+    Difference((3, 1), TEXT, "errors of folders and files that are not there have other words",
+               "error-folder-missing error-flags-color"),
+    Difference((3, 1), TEXT, "`--capture` is left to OpenCV (tonetool reads no camera with this version)",
+               "error-capture error-capture-camera"),
+    Difference((3, 1), TEXT, "`--debug` tells when the colour configuration is read",
+               "print-debug print-debug-two"),
+    Difference((3, 1), TEXT, "`-d` is not overruled by the colour space of a file's name, which tonetool warns of",
+               "dailies"),
 )
 
 # What oiiotool takes since then, and tonetool does not: commands, and modifiers as COMMAND:NAME.
 NOT_TAKEN = {
     (2, 5): """buildinfo colorconfiginfo normalize normalize:incenter normalize:outcenter
         normalize:scale ociodisplay:inverse resize:from resize:to resize:edgeclamp""",
+    (3, 1): """cicp create-dir cryptomatte-colors demosaic demosaic:algorithm demosaic:layout
+        demosaic:pattern demosaic:white_balance eraseattrib:fromfile experimental gpu gpu:device
+        i:get_thumbnail i:native layersplit nchannels obump:bumpinverts obump:bumpinvertt
+        obump:bumprange obump:bumpscale obump:slopefilter ocionamedtransform
+        ocionamedtransform:inverse ocionamedtransform:key ocionamedtransform:unpremult
+        ocionamedtransform:value pastemeta:merge pastemeta:pattern popbottom scale stackclear
+        stackextract stackreverse testread thumbnail-get thumbnail-get:fail thumbnail-get:index
+        thumbnail-set""",
 }
 
 
