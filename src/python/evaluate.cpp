@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // FLIP called as the package flip-evaluator is called.
+#include <OpenImageIO/strutil.h>
 #include <cmath>
+#include <utility>
 
 #include "python/evaluated.h"
 #include "python/families.h"
@@ -112,6 +114,13 @@ py::object evaluate(std::vector<py::object>& given, const Threads& threads) {
             warn(image->warning());
     for (const std::string& warning : result.summary.warnings)
         warn("evaluate: " + warning);
+    for (const auto& [name, side] : {std::pair("reference", &result.summary.reference),
+                                     std::pair("test", &result.summary.test)})
+        if (side->negative > 0)
+            warn(
+                OIIO::Strutil::fmt::format("evaluate: {} has {} pixels with negative values, which "
+                                           "count as 0",
+                                           name, side->negative));
     return py::make_tuple(shown(std::move(map), magma, threads.nthreads),
                           mean ? result.summary.pool.mean : -1.0, used(result.summary, asked));
 }

@@ -122,7 +122,11 @@ InputImage::InputImage(const py::object& object, const std::string& where, Chann
     else if (!knows_imagebuf() && is_foreign_imagebuf(object))
         refuse_foreign(where);
     else
-        wrong_type(where, object, kWantedImage);
+        wrong_type(where, object,
+                   std::string(kWantedImage) +
+                       (py::isinstance<py::str>(object) || py::hasattr(object, "__fspath__")
+                            ? "; tonetool.image(name) is that of a file"
+                            : ""));
 }
 
 void InputImage::look_at(const py::array& array, const std::string& where, Channels channels) {

@@ -228,3 +228,23 @@ def test_part_of_the_picture(noise, other, tmp_path):
     tonetool.write_images([depth, picture], tmp_path / "parts.exr")
     found = tonetool.evaluate(noise, pathlib.Path(tmp_path / "parts.exr"), "HDR", applyMagma=False)
     assert np.array_equal(found[0], tonetool.evaluate(noise, other, "HDR", applyMagma=False)[0])
+
+
+def test_negative_light_is_told():
+    bright = np.random.default_rng(1).random((40, 60, 3), np.float32)
+    dark = bright.copy()
+    dark[:30] *= -1
+    with pytest.warns(UserWarning, match="evaluate: test has 1800 pixels with negative values, which count as 0"):
+        tonetool.evaluate(bright, dark, "HDR")
+    with pytest.warns(UserWarning, match="evaluate: reference has 1800 pixels with negative values"):
+        tonetool.evaluate(dark, bright, "HDR")
+
+
+@pytest.mark.parametrize("name", ["x.exr", pathlib.Path("x.exr")])
+def test_where_a_name_is_no_image_the_error_says_how_to_read_it(name):
+    image = np.zeros((4, 4, 3), np.float32)
+    with pytest.raises(TypeError, match=r"; tonetool\.image\(name\) is that of a file"):
+        tonetool.hdr_flip(image, name)
+    with pytest.raises(TypeError) as error:
+        tonetool.hdr_flip(image, 3)
+    assert "is that of a file" not in str(error.value)
