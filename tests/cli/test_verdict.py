@@ -7,6 +7,7 @@ import os
 import numpy as np
 import OpenImageIO as oiio
 import pytest
+from conftest import TESTIMAGES
 
 HEIGHT, WIDTH = 30, 48
 ROWS, COLUMNS = np.mgrid[0:HEIGHT, 0:WIDTH]
@@ -380,3 +381,13 @@ def test_an_image_against_itself(tonetool, make_image, again, command):
     a = make_image("a.exr", 64, 48, kind="half")
     ran = tonetool(a, *again, f"--{command}", "--warnings-exit", status=2)
     assert "are the same file" in ran.err
+
+
+def test_a_limit_of_too_few_frames_is_an_error_until_all_frames_are_there(tonetool):
+    line = [TESTIMAGES / "anim" / "ref.#.exr", TESTIMAGES / "anim" / "test.#.exr", "--hdrflip:quantity=mean:fail=auto"]
+    ran = tonetool("--frames", "1-4", *line, status=1)
+    assert "fail=auto found no limit: it needs 5 frames, most of them alike" in ran.out
+    for part, frames in (("a.json", "1-4"), ("b.json", "5-8")):
+        tonetool("--frames", frames, *line, "--exit-zero", "--json", part)
+    ran = tonetool("--merge", "a.json", "b.json", "--frames", "1-8", status=3)
+    assert "check: failed, 8 frames: 1 failed, 7 passed; " in ran.out and "worst: frame 5" in ran.out
