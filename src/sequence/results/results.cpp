@@ -66,11 +66,11 @@ bool is_unlooked_at(const FrameResult& frame) {
 
 // All thresholds must hold; the message names those that do not.
 Found of_thresholds(const Measurement& measurement) {
-    std::string failed, warned, untested;
+    std::string failed, warned;
     bool tested = false;
     for (const Threshold& threshold : measurement.thresholds) {
         if (threshold.automatic && threshold.fail && std::isnan(*threshold.fail)) {
-            add_text(untested,
+            add_text(failed,
                      format("{}: fail=auto found no limit: it needs {} frames, most of them "
                             "alike",
                             threshold.quantity, kEnoughForLimit));
@@ -86,8 +86,6 @@ Found of_thresholds(const Measurement& measurement) {
     const bool in_words = !measurement.verdict.empty();
     if (!failed.empty())
         return {Status::Failed, start + (in_words ? measurement.sentence : failed)};
-    if (!untested.empty())
-        return {Status::Error, start + untested};
     if (!warned.empty())
         return {Status::Warning, start + (in_words ? measurement.sentence : warned)};
     if (undecided(measurement)) // neither, also where that is accepted
