@@ -50,7 +50,7 @@ class Frame:
     def write(self, path):
         names, kinds, planes = zip(*self.channels())
         pixels = np.stack(planes, axis=-1).astype(np.float32)
-        spec = oiio.ImageSpec(pixels.shape[1], pixels.shape[0], pixels.shape[2], "half")
+        spec = oiio.ImageSpec(pixels.shape[1], pixels.shape[0], pixels.shape[2], kinds[0])
         spec.channelnames = names
         spec.channelformats = tuple(oiio.TypeDesc(kind) for kind in kinds)
         spec.x, spec.y = self.origin
