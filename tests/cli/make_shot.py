@@ -43,7 +43,7 @@ class Frame:
 
     def write(self, path):
         pixels = self.pixels()
-        spec = oiio.ImageSpec(pixels.shape[1], pixels.shape[0], pixels.shape[2], "half")
+        spec = oiio.ImageSpec(pixels.shape[1], pixels.shape[0], pixels.shape[2], self.kind)
         spec.channelnames = tuple(self.channels)
         spec.channelformats = tuple(
             oiio.TypeDesc("float" if c.endswith(("X", "Y", "Z")) else self.kind)

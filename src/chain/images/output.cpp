@@ -108,6 +108,8 @@ OIIO::ImageSpec output_spec(const Outgoing& image, const Writer& from,
     OIIO::ImageSpec spec = image.pixels->spec();
     for (const char* hint : {"oiio:ConstantColor", "oiio:AverageColor", "oiio:SHA-1"})
         spec.erase_attribute(hint); // of the pixels that some texture had
+    if (spec.get_string_attribute("tonemap:layer", "-").empty()) // 3.1 complains of empty texts
+        spec.erase_attribute("tonemap:layer");
     if (settings.history)
         note_history(spec, from.command_line);
     if (!settings.compression.empty())
