@@ -264,6 +264,20 @@ def test_our_files_say_their_primaries(tonetool, make_image, read, program):
     tonetool("a.exr", "c.exr", "--hdrflip:fail=0.0005")
 
 
+def test_the_name_of_a_space_does_not_outlive_it(tonetool, make_image, read):
+    """colorInteropID, as newer writers of OpenEXR have it beside the chromaticities."""
+    config = str(__import__("pathlib").Path(__file__).resolve().parents[2] / "ocio/tonetool.ocio")
+    make_image("a.exr", attributes={"colorInteropID": "lin_ap1_scene", "oiio:ColorSpace": "ACEScg"})
+
+    def name_of(*words):
+        tonetool("--colorconfig", config, "a.exr", *words, "-o", "b.exr")
+        return read("b.exr")[1].getattribute("colorInteropID")
+
+    assert name_of() == name_of("--mulc", "2") == "lin_ap1_scene"
+    assert name_of("--colorconvert", "ACEScg", "lin_rec709") in (None, "lin_rec709_scene")
+    assert name_of("--tonemap:encode=none") in (None, "lin_rec709_scene")
+
+
 def test_pfm_and_xyz_are_light(tonetool, make_image, tmp_path):
     pixels = np.random.default_rng(5).random((12, 16, 3)).astype("<f4") * 4
     make_image("a.exr", pixels=pixels)

@@ -210,8 +210,21 @@ ColorSpace space_of(const Chromaticities& c) {
     return space;
 }
 
-// The exponent of "GammaCorrected1.8", "Gamma2.2" or "gamma2.2"; 0 for other tags.
+// The exponent of "g18_rec709_scene", as the colour interop forum of the Academy Software
+// Foundation names spaces and OpenImageIO 3.1 tags files; 0 for other tags.
+double gamma_of_interop(const std::string& tag) {
+    const std::string t = lower(tag);
+    const bool named = t.size() >= 10 && t[0] == 'g' && t.compare(3, 7, "_rec709") == 0 &&
+                       OIIO::Strutil::string_is_int(t.substr(1, 2));
+    const std::string rest = named ? t.substr(10) : "";
+    const bool whole = rest.empty() || rest == "_scene" || rest == "_display" || rest == "_tx";
+    return named && whole ? OIIO::Strutil::stoi(t.substr(1, 2)) / 10.0 : 0;
+}
+
+// The exponent of these, and of "GammaCorrected1.8", "Gamma2.2" or "gamma2.2"; 0 for other tags.
 double gamma_of_tag(const std::string& tag) {
+    if (const double gamma = gamma_of_interop(tag); gamma >= kLeastGamma && gamma <= kMostGamma)
+        return gamma;
     std::string number;
     for (const char* start : {"gammacorrected", "gamma"})
         if (number.empty() && OIIO::Strutil::starts_with(lower(tag), start))
@@ -341,7 +354,7 @@ void drop_profile(OIIO::ImageSpec& spec) {
 
 void retag(OIIO::ImageSpec& spec, const std::string& tag, bool same_primaries) {
     drop_profile(spec);
-    for (const char* old : {"hdr:exposure", kStoredType})
+    for (const char* old : {"hdr:exposure", "colorInteropID", kStoredType})
         spec.erase_attribute(old);
     if (!same_primaries)
         spec.erase_attribute("chromaticities");
@@ -351,6 +364,11 @@ void retag(OIIO::ImageSpec& spec, const std::string& tag, bool same_primaries) {
 void state_chromaticities(OIIO::ImageSpec& spec) {
     const std::string tag = spec.get_string_attribute("oiio:ColorSpace");
     const Known* known = says_only_linear(tag) ? nullptr : find_known(tag);
+    // The name of what was converted.
+    const std::string id = spec.get_string_attribute("colorInteropID");
+    if ((known || gamma_of_tag(tag) > 0) &&
+        (find_known(id) != known || gamma_of_tag(id) != gamma_of_tag(tag)))
+        spec.erase_attribute("colorInteropID");
     if (gamma_of_tag(tag) > 0 || (known && known->srgb_encoded)) {
         spec.erase_attribute("chromaticities");
     } else if (known) {

@@ -28,15 +28,15 @@ TONETOOL_API void take_whole_exposure(OIIO::ImageSpec& spec, const std::string& 
 TONETOOL_API std::optional<std::string> unapplied_profile(const OIIO::ImageSpec& spec);
 
 /// Tags values that have a new encoding: removes the attributes of the old one (profile, gamma,
-/// exposure, and chromaticities unless the primaries are still the same) and sets `oiio:ColorSpace`
-/// to `tag`.
+/// exposure, `colorInteropID`, and chromaticities unless the primaries are still the same) and sets
+/// `oiio:ColorSpace` to `tag`.
 TONETOOL_API void retag(OIIO::ImageSpec& spec, const std::string& tag, bool same_primaries = false);
 /// Removes those of these attributes that belong to encoded values and not to light: the ICC
 /// profile and the gamma.
 TONETOOL_API void drop_profile(OIIO::ImageSpec& spec);
 
 /// Sets the `chromaticities` to those of the linear space that `oiio:ColorSpace` names, and removes
-/// them where it names an encoding.
+/// them where it names an encoding. A `colorInteropID` of another space is removed.
 TONETOOL_API void state_chromaticities(OIIO::ImageSpec& spec);
 
 /// The attribute of an image of floats that holds the data type of the file behind it: integers are

@@ -181,6 +181,10 @@ TEST(FindSpace, AppliesTheGammaOfTheHeader) {
         EXPECT_EQ(space_of(spec, "rec709").encoded(), false);
     }
     EXPECT_FLOAT_EQ(float(space_of(tagged(""), "gamma2.2").gamma), 2.2f);
+    for (const char* name : {"g22_rec709_scene", "g22_rec709_display", "G22_Rec709"})
+        EXPECT_DOUBLE_EQ(space_of(tagged(name)).gamma, 2.2) << name;
+    for (const char* name : {"g22_adobergb_scene", "g2x_rec709_scene", "g22_rec709_other", "g22"})
+        EXPECT_THROW((void)space_of(tagged(name)), Refusal) << name;
     png.attribute("oiio:Gamma", 1.0f);
     EXPECT_EQ(space_of(png).name, "rec709");
     // A space that was converted to, after which the old gamma stayed behind.
