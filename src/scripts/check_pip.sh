@@ -47,7 +47,8 @@ exec(open(sys.argv[0]).read())" "$check" "${pair[@]}"
 venv/bin/pip show tonetool >/dev/null
 # pytest finds the plug-in, where there is a pytest.
 if venv/bin/python -I -c "import pytest" 2>/dev/null; then
-    venv/bin/python -I -B -m pytest -p no:cacheprovider --help | grep -q -- --tonetool-report
+    venv/bin/python -I -B -m pytest -p no:cacheprovider --help >pytest-help.txt # grep -q would end it early
+    grep -q -- --tonetool-report pytest-help.txt
 fi
 venv/bin/pip uninstall -y tonetool >/dev/null
 test -z "$(find venv/lib -name '_tonetool*' -o -path '*/pytest_tonetool/*.py')"
