@@ -173,11 +173,8 @@ bool FrameContext::is_between_approved(size_t index) const {
     const std::string& pattern = plan.line_of(run).texts[plan.sequences.front()];
     if (plan.named || !sequence::is_pattern(pattern))
         return false;
-    sequence::PatternOptions options = plan.options;
-    options.frames.clear();
     bool earlier = false, later = false;
-    for (const sequence::Item& there :
-         sequence::list_files(sequence::without_range(pattern), options).items) {
+    for (const sequence::Item& there : sequence::list_all_files(pattern, plan.options).items) {
         if (there.view != run.frame.view)
             continue;
         earlier = earlier || there.frame < run.frame.number;

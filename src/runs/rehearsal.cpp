@@ -97,10 +97,7 @@ Strings files_at(const FramePlan& plan, const FrameRun& first, size_t at) {
             files.push_back(run.words.at(at));
     const std::string& pattern = plan.line_of(first).texts[at];
     if (!plan.named && sequence::is_pattern(pattern)) {
-        sequence::PatternOptions options = plan.options;
-        options.frames.clear();
-        const Strings others =
-            sequence::list_files(sequence::without_range(pattern), options).names;
+        const Strings others = sequence::list_all_files(pattern, plan.options).names;
         files.insert(files.end(), others.begin(), others.end());
     }
     return files;

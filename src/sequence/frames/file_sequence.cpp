@@ -170,6 +170,11 @@ Files list_files(const std::string& pattern, const PatternOptions& options) {
     return listing;
 }
 
+Files list_all_files(const std::string& pattern, PatternOptions options) {
+    options.frames.clear();
+    return list_files(without_range(pattern), options);
+}
+
 void check_numbers(const std::string& pattern, const Files& files, const PatternOptions& options) {
     if (!files.from_disk) {
         const Files found = on_disk(parse(pattern, options.padding).printf_style, options);

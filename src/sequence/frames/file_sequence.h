@@ -55,6 +55,8 @@ struct Files {
 
 /// The files of a pattern: by its own frame range, by options.frames, or by the files on the disk.
 Files list_files(const std::string& pattern, const PatternOptions& options);
+/// Those on the disk, whatever frames are asked for.
+Files list_all_files(const std::string& pattern, PatternOptions options);
 
 /// Throws a runtime_error where it is not certain which file has which number: two files have the
 /// same number, a number exceeds an int, or there are files of the same name with fewer digits. For
