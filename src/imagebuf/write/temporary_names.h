@@ -31,13 +31,29 @@ inline std::string temporary_name(const std::string& base, long process, unsigne
            OIIO::Filesystem::extension(base);
 }
 
+/// ".shot.exr.4711-0-89abcdef.0123abcd.temp.exr": how make_texture calls what it opens when it is
+/// told to write such a file. Returns the name without that.
+inline std::string without_texture_part(const std::string& name) {
+    static const std::string kEnd = ".temp";
+    const std::string tail = OIIO::Filesystem::extension(name);
+    for (const std::string& extension : {tail, std::string()}) {
+        const std::string stem = name.substr(0, name.size() - extension.size());
+        const size_t added = 9 + kEnd.size(); // ".%%%%%%%%.temp"
+        if (stem.size() > added && stem[stem.size() - added] == '.' &&
+            stem.compare(stem.size() - kEnd.size(), kEnd.size(), kEnd) == 0)
+            return stem.substr(0, stem.size() - added) + extension;
+    }
+    return name;
+}
+
 /// What a temporary file's name says.
 struct TemporaryName {
     std::string base; ///< "shot.exr"; empty where it is the name of another file
     std::string machine;
 };
 
-inline TemporaryName parse_temporary_name(const std::string& name) {
+inline TemporaryName parse_temporary_name(const std::string& file) {
+    const std::string name = without_texture_part(file);
     const auto all_of = [](const std::string& text, const char* valid) {
         return !text.empty() && text.find_first_not_of(valid) == std::string::npos;
     };

@@ -2,6 +2,7 @@
 #include "sequence/results/check_files.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cerrno>
 #include <csignal>
 #include <cstdlib>
@@ -14,6 +15,7 @@
 #include <string>
 #include <unistd.h>
 
+#include "imagebuf/write/temporary_names.h"
 #include "sequence/results/results_json.h"
 #include "sequence/results/tables.h"
 #include "tonetool/write.h"
@@ -77,6 +79,27 @@ fs::path folder_of(const std::string& file) {
     return target.has_parent_path() ? target.parent_path() : ".";
 }
 
+// Named as the temporary files of outputs are, which the next run removes if this process is killed
+// before it has removed its own. Returns why it cannot be made, 0 if it can.
+int make_and_remove(const fs::path& folder) {
+    constexpr char kName[] = "tonetool-try";
+    static std::atomic<unsigned> counter{0};
+    remove_abandoned_outputs({(folder / kName).string()});
+    for (int attempt = 0; attempt < 100; ++attempt) {
+        const std::string file = (folder / temporary_name(kName, ::getpid(), counter++)).string();
+        const int made = ::open(file.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0600);
+        const int failure = errno;
+        if (made >= 0) {
+            ::close(made);
+            ::unlink(file.c_str());
+            return 0;
+        }
+        if (failure != EEXIST) // another container's process may have the same number
+            return failure;
+    }
+    return EEXIST;
+}
+
 } // namespace
 
 bool has_standard_output(const CheckFiles& files) {
@@ -123,13 +146,7 @@ void try_folder(const std::string& folder, const std::string& what) {
     for (const int number : {SIGINT, SIGTERM, SIGHUP})
         sigaddset(&ending, number);
     ::pthread_sigmask(SIG_BLOCK, &ending, &before);
-    std::string file = (there / ".tonetool-try.XXXXXX").string(); // also other computers' tasks try
-    const int made = ::mkostemp(file.data(), O_CLOEXEC);
-    const int failure = made < 0 ? errno : 0;
-    if (made >= 0) {
-        ::close(made);
-        ::unlink(file.c_str());
-    }
+    const int failure = make_and_remove(there);
     ::pthread_sigmask(SIG_SETMASK, &before, nullptr);
     if (failure != 0) {
         throw std::runtime_error(what + "cannot write into the folder \"" + there.string() +

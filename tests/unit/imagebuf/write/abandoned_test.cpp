@@ -53,6 +53,19 @@ TEST_F(Abandoned, HalfWrittenFilesOfTheTargetsGoAndNoOthers) {
     EXPECT_TRUE(fs::exists(hidden));
 }
 
+TEST_F(Abandoned, WhatMakeTextureOpensGoesToo) {
+    const std::string with = make(".a.tx.4711-0-89abcdef.0f1e2d3c.temp.tx");
+    const std::string without = make(".a.4711-0-89abcdef.0f1e2d3c.temp");
+    const std::string others = make(".a.tx.0f1e2d3c.temp.tx"), short_name = make(".temp");
+    fs::last_write_time(with, fs::file_time_type::clock::now() - std::chrono::hours(2));
+    fs::last_write_time(without, fs::file_time_type::clock::now() - std::chrono::hours(2));
+    remove_abandoned_outputs({(m_folder / "a.tx").string(), (m_folder / "a").string()});
+    EXPECT_FALSE(fs::exists(with));
+    EXPECT_FALSE(fs::exists(without));
+    EXPECT_TRUE(fs::exists(others));
+    EXPECT_TRUE(fs::exists(short_name));
+}
+
 TEST_F(Abandoned, WhatIsStillWrittenStays) {
     const std::string file = make(temporary_name("a.exr", 1, 0));
     const int fd = ::open(file.c_str(), O_RDWR);
