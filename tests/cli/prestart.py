@@ -83,9 +83,9 @@ def run_bytes(program, words, cwd, timeout, env=None):
                           stdin=subprocess.DEVNULL, timeout=timeout, check=False)
 
 
-def run_text(program, words, cwd, timeout):
+def run_text(program, words, cwd, timeout, env=None):
     """The same with text for output."""
-    done = run_bytes(program, words, cwd, timeout)
+    done = run_bytes(program, words, cwd, timeout, env)
     done.stdout, done.stderr = done.stdout.decode(), done.stderr.decode()
     return done
 
