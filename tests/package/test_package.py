@@ -162,7 +162,7 @@ def test_only_the_headers_are_installed(tree):
 
 def test_no_file_names_the_build(tree):
     # Not where it is part of another path: the root may be "/tonetool".
-    root = re.compile(r"(?:(?<![\w}./-])|(?<=-[IL]))" + re.escape(str(ROOT)) + r"(?![\w-])")
+    root = re.compile(r"(?:(?<![\w}>./-])|(?<=-[IL]))" + re.escape(str(ROOT)) + r"(?![\w-])")
     for path in tree.rglob("*"):
         if path.suffix in (".cmake", ".pc", ".h", ".py", ".pyi"):
             assert not root.search(path.read_text()), path
