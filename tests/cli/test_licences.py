@@ -52,3 +52,9 @@ def test_the_page_holds_the_licences_of_its_parts(tonetool, testimages, tmp_path
         assert any(shown[i:i + len(expected)] == expected for i in range(len(shown))), name
     # The notices of the versions that are in the page.
     assert re.search(r"Chart\.js v[34]\.", page) and re.search(r"@kurkle/color v0\.", page)
+
+
+def test_the_citation_is_of_this_version(tonetool):
+    citation = (ROOT / ".github/CITATION.cff").read_text(encoding="utf-8")
+    version = tonetool("--version").out.splitlines()[0]
+    assert re.findall(r"^version: (.*)$", citation, re.M) == [version]

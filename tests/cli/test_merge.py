@@ -126,6 +126,23 @@ def test_a_file_of_version_1_is_refused(tonetool, tmp_path):
     assert not (tmp_path / "c.json").exists()
 
 
+@pytest.mark.parametrize("measured_by, said", [("tonetool 9.9.9", "tonetool 9.9.9"),
+                                           (None, "a version that does not say which")])
+def test_parts_that_two_versions_measured_are_refused(tonetool, parts, measured_by, said):
+    """Numbers and rules of two versions may differ, and one verdict would hide which frames are of which."""
+    part = parts / "p" / "2.json"
+    own = load(part)["program"]
+    assert own == "tonetool " + tonetool("--version").out.splitlines()[0]
+    changed = {key: value for key, value in load(part).items() if key != "program"}
+    part.write_text(json.dumps({**changed, **({"program": measured_by} if measured_by else {})}))
+    ran = tonetool("--merge", "p", "--json", "c.json", status=1)
+    assert f'p/2.json" was made by {said}' in ran.err and f'p/1.json" by {own}' in ran.err
+    assert "(valid: parts of one version)" in ran.err
+    assert not (parts / "c.json").exists()
+    tonetool("--merge", "p/2.json", "--json", "c.json")
+    assert load(parts / "c.json").get("program") == measured_by
+
+
 @pytest.mark.parametrize("version, text", [(3, "is of version 3, this program reads 2"),
                                            (0, "is of version 0, this program reads 2"),
                                            ("1", "not a whole number")])

@@ -22,9 +22,11 @@ void check_keys(const Command& row, const Token& token) {
     const Strings keys = keys_of(row);
     for (const auto& [key, value] : token.modifiers) {
         if (std::find(keys.begin(), keys.end(), key) == keys.end()) {
-            throw CommandError(
-                "unknown modifier \"" + key + "\"" + meant(key, keys) +
-                (keys.empty() ? " (this command has none)" : " (valid: " + join(keys, ", ") + ")"));
+            const std::string near = meant(key, keys);
+            const std::string rest = keys.empty()   ? " (this command has none)"
+                                     : near.empty() ? " (valid: " + join(keys, ", ") + ")"
+                                                    : " (--help " + row.label() + " lists all)";
+            throw CommandError("unknown modifier \"" + key + "\"" + near + rest);
         }
     }
 }

@@ -31,13 +31,23 @@ inline size_t edit_distance(const std::string& a, const std::string& b) {
     return row.back();
 }
 
+/// Whether two neighbours have changed places, the most frequent slip of fingers, and nothing else.
+inline bool are_swapped(const std::string& a, const std::string& b) {
+    const auto [in_a, in_b] = std::mismatch(a.begin(), a.end(), b.begin(), b.end());
+    return a.size() == b.size() && a.end() - in_a >= 2 && in_a[0] == in_b[1] &&
+           in_a[1] == in_b[0] && std::equal(in_a + 2, a.end(), in_b + 2);
+}
+
 /// Those of `names` that a person could have meant by `word`, nearest first, at most `limit`.
 inline std::vector<std::string>
 nearest_names(const std::string& word, const std::vector<std::string>& names, size_t limit = 3) {
     std::vector<std::pair<size_t, std::string>> ranked;
     for (const std::string& name : names) {
         const bool prefix = word.size() >= 2 && name.compare(0, word.size(), word) == 0;
-        const size_t distance = prefix ? 1 : edit_distance(lower(word), lower(name));
+        const bool swapped = are_swapped(lower(word), lower(name));
+        const size_t distance = swapped  ? 0 // before all others
+                                : prefix ? 1
+                                         : edit_distance(lower(word), lower(name));
         if (prefix || distance <= std::max<size_t>(1, word.size() / 3))
             ranked.emplace_back(distance, name);
     }

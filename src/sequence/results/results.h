@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "sequence/frames/item.h"
+#include "tonetool/export.h"
 
 namespace tonetool::sequence {
 
@@ -202,6 +203,8 @@ struct ShotResult {
     std::vector<Acceptance> accepted{}; ///< that conclude() heeds
     std::optional<SuiteOrigin> suite{};
     size_t cases = 0; ///< that there are, where --only chose some of them; else 0
+    /// Name and version of what measured; empty where a file says none.
+    std::string program = std::string("tonetool ") + version();
 };
 
 /// Sets status and message of a frame from its measurements and faults, unless its status is

@@ -42,6 +42,7 @@ ShotResult shot_of(const std::string& text, const std::vector<std::string>& reco
         check_format(json, kResultsFormat, kResultsVersion);
         check_has_records(json);
         ShotResult shot;
+        shot.program = json.value("program", std::string());
         shot.check = json.at("check").get<std::vector<std::string>>();
         if (json.contains("exposures"))
             shot.exposures = exposures_from(json["exposures"]);
@@ -88,13 +89,12 @@ void check_format(const ordered_json& from, const std::string& format, int versi
 
 void put_json(const ShotResult& shot, bool records,
               const std::function<void(const std::string& piece)>& to) {
-    ordered_json head{{"format", kResultsFormat},
-                      {"version", kResultsVersion},
-                      {"verdict", status_name(shot.verdict)},
-                      {"sentence", shot.sentence},
-                      {"check", shot.check},
-                      {"id", check_id(shot.check)},
-                      {"counts", counts_of(shot)}};
+    ordered_json head{{"format", kResultsFormat},   {"version", kResultsVersion},
+                      {"program", shot.program},    {"verdict", status_name(shot.verdict)},
+                      {"sentence", shot.sentence},  {"check", shot.check},
+                      {"id", check_id(shot.check)}, {"counts", counts_of(shot)}};
+    if (shot.program.empty())
+        head.erase("program");
     if (shot.suite)
         head["suite"] = suite_json(*shot.suite);
     if (shot.cases > 0)

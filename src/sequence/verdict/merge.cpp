@@ -24,6 +24,14 @@ auto read_part(const std::string& file, const Read& read) {
 void check_same(const ShotResult& whole, const ShotResult& part, const std::string& first,
                 const std::string& file) {
     const auto quoted = [](const std::string& name) { return "\"" + name + "\""; };
+    if (part.program != whole.program) {
+        const auto made_by = [](const ShotResult& shot) {
+            return shot.program.empty() ? "a version that does not say which" : shot.program;
+        };
+        throw std::runtime_error(quoted(file) + " was made by " + made_by(part) + ", " +
+                                 quoted(first) + " by " + made_by(whole) +
+                                 " (valid: parts of one version)");
+    }
     if (part.check != whole.check) {
         throw std::runtime_error(quoted(file) + " is not of the same check as " + quoted(first) +
                                  ": " + OIIO::Strutil::join(part.check, " ") + " instead of " +
@@ -87,6 +95,7 @@ ShotResult merged(const std::vector<std::string>& parts, const std::vector<Item>
         }
         if (first.empty()) {
             first = file;
+            whole.program = part.program;
             whole.check = part.check;
             whole.exposures = part.exposures;
             whole.suite = part.suite;

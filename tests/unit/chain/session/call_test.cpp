@@ -35,6 +35,8 @@ TEST(Call, RefusesUnknownModifiersAndSuggests) {
     std::string message = message_of([&] { Call(row, parse_token("--test:tonemaper=aces"), {}); });
     EXPECT_THAT(message, HasSubstr("\"tonemaper\""));
     EXPECT_THAT(message, HasSubstr("did you mean \"tonemapper\""));
+    EXPECT_THAT(message, HasSubstr("--help test lists all"));
+    message = message_of([&] { Call(row, parse_token("--test:zebra=1"), {}); });
     EXPECT_THAT(message, HasSubstr("valid: tonemapper, fail"));
 }
 

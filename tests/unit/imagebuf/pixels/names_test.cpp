@@ -14,6 +14,11 @@ TEST(EditDistance, CountsCharacters) {
     EXPECT_EQ(edit_distance("", "abc"), 3u);
     EXPECT_EQ(edit_distance("abc", "abc"), 0u);
     EXPECT_EQ(edit_distance("kitten", "sitting"), 3u);
+    EXPECT_TRUE(are_swapped("fial", "fail"));
+    EXPECT_TRUE(are_swapped("ab", "ba"));
+    for (const char* other : {"", "f", "fial", "fails", "afil", "fali", "liaf"})
+        EXPECT_FALSE(are_swapped("fial", other)) << other;
+    EXPECT_THAT(nearest_names("fial", {"fill", "fail", "from"}, 1), ElementsAre("fail"));
 }
 
 TEST(NearestNames, FindsMisspeltOnes) {
