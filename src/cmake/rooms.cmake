@@ -20,12 +20,12 @@ function(tonetool_room name)
   if(TONETOOL_UNITY_BUILD AND name MATCHES "^(imagebuf|sequence|chain|runs|recipe|text)$")
     set_target_properties(tonetool_${name} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 8)
   endif()
-  # These call what computes: with the last -O they compile in two thirds of the time and run as fast.
-  if(name MATCHES "^(sequence|chain|runs|recipe)$")
+  # The rooms above libtonetool call what computes: with the last -O they compile in two thirds of the
+  # time and run as fast. The first one precompiles headers for all, which therefore have its flags;
+  # imagebuf, compiled with what Highway defines, precompiles its own.
+  if(TARGET tonetool_text)
     target_compile_options(tonetool_${name} PRIVATE $<$<CONFIG:Release>:-O1>)
   endif()
-  # Of the rooms above libtonetool the first one precompiles headers for all; imagebuf, compiled with
-  # what Highway defines, its own.
   if(TARGET tonetool_text AND NOT name STREQUAL text)
     target_precompile_headers(tonetool_${name} REUSE_FROM tonetool_text)
   endif()
