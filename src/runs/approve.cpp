@@ -87,7 +87,7 @@ std::string could_be(const ShotResult& shot, bool retire) {
         if (retire ? frame.status == Status::Missing && frame.of_suite.sha256.empty()
                    : sequence::approval_refusal(frame, false).empty())
             names.push_back(shell_quoted(frame.name));
-    return names.empty() ? "none of its cases is to be" : join(names, " ");
+    return names.empty() ? "none, no case needs it" : join(names, " ");
 }
 
 bool is_glob(const std::string& name) {

@@ -275,7 +275,10 @@ int merge_parts(const FramePlan& plan, std::ostream& out, std::ostream& err) {
     for (const std::string& complaint : complaints)
         session.error("merge", complaint);
     if (check.only_validates) {
-        out << "dry run: " << shot.frames.size() << " frames in " << parts.size() << " parts\n"
+        const auto& all = shot.frames;
+        const auto gone = std::count_if(all.begin(), all.end(), sequence::is_of_no_part);
+        out << "dry run: " << all.size() - size_t(gone) << " frames in " << parts.size() << " parts"
+            << (gone > 0 ? ", " + std::to_string(gone) + " missing" : "") << "\n"
             << places_text(plan);
         return session.exit_status();
     }

@@ -149,6 +149,7 @@ void FrameContext::run_commands(Session& session, size_t index, const Strings& w
         make_folders(plan, run);
     if (gone.status == Status::Missing)
         session.check.absent = absent_approved(session, files);
+    session.check.why_absent = run.absent;
     session.check.between = !session.check.absent.empty() && is_between_approved(index);
     if (same_file(plan, plan.check_of(run), words)) {
         session.error("", "reference and test are the same file");

@@ -15,6 +15,7 @@
 #include "runs/stack_of_files.h"
 #include "runs/workers.h"
 #include "sequence/results/check_files.h"
+#include "sequence/results/method_table.h"
 #include "sequence/results/probe.h"
 #include "sequence/results/tables.h"
 #include "text/error.h"
@@ -208,8 +209,10 @@ std::string fixed_name(const FramePlan& plan, size_t at, const std::string& file
 
 } // namespace
 
-void check_figure(const FramePlan& plan) {
+void check_cases_asked_for(const FramePlan& plan) {
     const CheckPlan& check = plan.check;
+    if (check.has("table") && !plan.named && !check.has("merge")) // parts may have names
+        throw CommandError(std::string("--table: ") + sequence::kTableNeedsNames);
     const auto need = [&](const char* key, const Strings& asked,
                           std::string sequence::Item::*member) {
         std::set<std::string> there;

@@ -11,8 +11,9 @@ namespace tonetool::runs {
 /// Tries the places of everything that the line will write; a runtime_error where one is none.
 void try_outputs(const FramePlan& plan);
 
-/// A CommandError where --figure names a case or a method that there is not.
-void check_figure(const FramePlan& plan);
+/// A CommandError where --figure names a case or a method that there is not, or --table has no
+/// names to write.
+void check_cases_asked_for(const FramePlan& plan);
 
 /// Prints what is wrong with the commands of the line, or with the layers that they ask for, as
 /// their run would; false where something is. A layer is looked for in the headers of the first

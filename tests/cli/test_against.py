@@ -1,4 +1,4 @@
-# SPDX-License-Identifier: BSD-3-Clause
+#SPDX - License - Identifier : BSD - 3 - Clause
 """--against: each difference from the approved version alone, and what is none."""
 
 import json
@@ -49,7 +49,8 @@ def layers(tmp_path):
 
     def read():
         frame = json.loads((tmp_path / "check.json").read_text())["frames"][0]
-        return {one["name"]: one["quantities"] for one in frame["against"]["layers"]}
+        return {one["name"]: one["quantities"] for one in frame["against"]["layers"]
+}
 
     return read
 
@@ -91,8 +92,7 @@ TILTED = np.array([[1, 0, 0], [0, np.cos(0.02), np.sin(0.02)], [0, -np.sin(0.02)
 def of(name, share, change):
     return layer(name, part(int(share * PIXELS), change))
 
-
-# What is done to the new version, and all that must be found.
+#What is done to the new version, and all that must be found.
 DIFFERENCES = {
     "layermissing": (without("DiffCol"), "error layermissing"),
     "layerextra": (added("Extra"), "warning layerextra"),
@@ -132,7 +132,7 @@ DIFFERENCES = {
     "albedo little": (layer("DiffCol", lambda a: a * 1.02), "warning albedo"),
     "albedo": (layer("DiffCol", lambda a: a * 0.9), "error albedo"),
 }
-# A row of blocks, and one of them: their median stays.
+#A row of blocks, and one of them : their median stays.
 for _name, _code, _few in (("Combined", "color", 32), ("Combined_key", "group", 80),
                            ("DiffCol", "albedo", 16)):
     def _darker(width, name=_name):
@@ -154,7 +154,9 @@ def test_each_difference_alone(against, name):
 
 def test_other_noise_is_no_difference_and_the_same_pixels_are_none_at_all(against, layers):
     assert against(approved_frame(), new_frame())[1] == []
-    assert {layers()[name]["off"] for name in ("Depth", "Position")} == {0}
+    assert {layers()[name]["off"] for name in ("Depth", "Position")} == {
+        0
+    }
     for name in ("Combined", "Combined_key", "Combined_env", "Combined_rim"):
         assert abs(layers()[name]["gain"]) < 0.01 and layers()[name]["blocks"] == 0
     ran, found = against(new_frame(), new_frame())
@@ -199,8 +201,7 @@ def test_a_frame_rate_is_a_number_however_it_is_written(against):
     other = header(framesPerSecond=(oiio.TypeDesc("rational"), (24000, 1001)))
     assert against(None, other(new_frame(), 0, None))[1] == ["error header"]
 
-
-# The file says that it is ACEScg, and the light is the same.
+#The file says that it is ACEScg, and the light is the same.
 def test_another_space_is_told_and_the_light_compared(against):
     turn = colors(lambda a: a @ TO_ACESCG.T)
     new = turn(new_frame(), 0, None)
@@ -332,7 +333,9 @@ def in_two_parts(path, frame, window=None, **attributes):
         spec.channelnames = tuple(channel for channel, *_ in chosen)
         spec.attribute("oiio:subimagename", "picture" if first else "data")
         spec.attribute("compression", "zip")
-        for key, value in {**frame.attributes, **({} if first else attributes)}.items():
+        for key, value in {
+            **frame.attributes, **({} if first else attributes)
+        }.items():
             spec.attribute(key, value)
         specs.append(spec)
     output = oiio.ImageOutput.create("parts.exr")
@@ -371,6 +374,31 @@ def test_nothing_that_was_compared_is_no_pass(against, tonetool, shot):
     assert 'no layer is called "Misk"' in ran.err and 'no layer is called "nothing"' in ran.err
     ran, frames = shot([None, None], [new_frame(), new_frame()], status=3)
     assert faults(frames) == [(1, "error noapproved"), (2, "error noapproved")]
+
+
+JUDGES_NOTHING = ["kind=*=data", "skip=D*,N*,P*,V*,C*_*,CryptoO*:color=off:colorblocks=off:nonfinite=off",
+                  "kind=*=data:data=info:alpha=off:alphaoff=off"]
+
+
+@pytest.mark.parametrize("words", JUDGES_NOTHING)
+def test_what_is_only_told_does_not_pass(tonetool, against, tmp_path, words):
+    """A file of one AOV that is data, or rules that are all off: nothing could have failed."""
+    dark = layer("Combined", lambda a: a * (0.1, 0.1, 0.1, 1))(new_frame(), 0, None)
+    assert "error color" in against(approved_frame(), dark)[1]
+    ran = tonetool("approved.exr", "new.exr", f"--against:{words}", "--json", "c.json")
+    (frame,) = json.loads((tmp_path / "c.json").read_text())["frames"]
+    assert frame["status"] == "measured"
+    assert frame["message"].startswith("--against judges none of its layers")
+    assert "passed" not in ran.out and "check: measured" in ran.out
+    new_frame().write(tmp_path / "new.exr")
+    tonetool("approved.exr", "new.exr", f"--against:{words}", "--qc", "--json", "c.json")
+    assert json.loads((tmp_path / "c.json").read_text())["verdict"] == "passed"  # by --qc
+
+
+def test_data_that_are_judged_pass(tonetool, against, tmp_path):
+    assert against(approved_frame(), approved_frame(), words=":kind=*=data:data=error")[1] == []
+    tonetool("approved.exr", "new.exr", "--against:kind=*=data:data=error", "--json", "c.json")
+    assert json.loads((tmp_path / "c.json").read_text())["verdict"] == "passed"
 
 
 @pytest.mark.parametrize("whole_names", [True, False])
@@ -418,7 +446,7 @@ def test_pixels_that_are_not_finite(against, layers):
         assert against(spoiled(approved_frame(), value, *every),
                        spoiled(new_frame(), value, *every))[1] == []
         assert all(np.isfinite(v) for one in layers().values() for v in one.values())
-        # Light is compared where both have it; data that is none differs.
+#Light is compared where both have it; data that is none differs.
         assert against(approved_frame(), spoiled(new_frame(), value, "Combined_key"))[1] == \
             ["error nonfinite"]
         assert against(None, spoiled(new_frame(), value, "Depth"))[1] == ["error depth"]
@@ -440,8 +468,7 @@ def test_small_images(against, size):
     turned = layer("Normal", lambda a: -a)(small(approved_frame()), 0, None)
     assert against(None, turned)[1] == ["error normal"]
 
-
-# ---- shots
+#-- -- shots
 
 
 @pytest.fixture
@@ -487,6 +514,11 @@ def test_a_longer_version_has_frames_that_are_only_looked_at(shot, there, extra)
     ran, found = shot(approved, [new_frame()] * 3, "--qc:duplicate=off:fewframes=off", status=0)
     assert faults(found) == [(extra, "info noapproved")]
     assert f"against: frame {extra}: info noapproved: the approved version has no such frame\n" in ran.out
+    ran, found = shot(approved, [new_frame()] * 3, status=0)  # without --qc nothing is known of it
+    assert [frame["status"] for frame in found] == ["passed" if n in there else "measured" for n in (1, 2, 3)]
+    assert found[extra - 1]["message"] == "the approved version has no such frame"
+    assert (f"check: measured, 3 frames: 1 measured, 2 passed; worst: frame {extra} (the approved version has no such "
+            "frame)") in ran.out
 
 
 def test_a_hole_in_the_approved_version_is_found_by_a_part_of_the_frames(tonetool, shot):

@@ -1,4 +1,4 @@
-# SPDX-License-Identifier: BSD-3-Clause
+#SPDX - License - Identifier : BSD - 3 - Clause
 """--approve and --approved: nothing else writes to a store, and what is in it is what was seen."""
 
 import hashlib
@@ -44,13 +44,12 @@ def load(path):
 
 
 def statuses(folder):
-    return {frame["name"]: frame["status"] for frame in load(folder / "run.json")["frames"]}
+    return {frame["name"]: frame["status"] for frame in load(folder / "run.json")["frames"]
+}
 
-
-def contents(folder):
-    return {str(path.relative_to(folder)): (path.read_bytes(), path.stat().st_mtime_ns)
-            for path in sorted(folder.rglob("*")) if path.is_file()}
-
+def contents(folder) : return {str(path.relative_to(folder)): (path.read_bytes(), path.stat().st_mtime_ns)
+            for path in sorted(folder.rglob("*")) if path.is_file()
+}
 
 def record(folder, name):
     return load(folder / f"approved/{name}.approved.json")["images"]
@@ -68,6 +67,10 @@ def test_a_first_run_passes_nothing_and_writes_nothing(tonetool, suite):
     assert "check: missing, 3 cases: 3 missing" in ran.out and "no approved image" in ran.err
     assert "--approve run.json a b hair/long --reason" in ran.out
     assert not (suite / "approved").exists()
+    with_both = SUITE.replace('check = "', 'check = "--against ')
+    (suite / "suite.toml").write_text(with_both)
+    ran = tonetool(*CHECK, status=1)
+    assert "errormap : no approved image" in ran.err and ".approved" not in ran.err
 
 
 def test_what_is_approved_is_kept(tonetool, approved):
@@ -123,7 +126,7 @@ def test_again_add_and_retire(tonetool, approved):
     first = record(approved, "a")[0]
     shutil.copy(approved / "grey.exr", approved / "t/a.exr")
     tonetool(*CHECK, status=3)
-    # Of * only what did not pass.
+#Of* only what did not pass.
     ran = tonetool("--approve", "run.json", "*", "--add", "--reason", "two looks")
     assert "2 that passed left as approved" in ran.out and "approved: b" not in ran.out
     assert len(record(approved, "a")) == 2 and len(record(approved, "b")) == 1

@@ -1,4 +1,4 @@
-# SPDX-License-Identifier: BSD-3-Clause
+#SPDX - License - Identifier : BSD - 3 - Clause
 """What is wrong with a check is said before its first frame is read, and --dry-run says it alone."""
 
 import json
@@ -53,7 +53,7 @@ def test_a_merge(tonetool, shot):
     tonetool("--frames", "4", *PAIR, "--hdrflip:fail=0.9", "--json", "b.json")
     before = names(shot)
     ran = tonetool("--merge", "a.json", "b.json", "--json", "c.json", "--dry-run")
-    assert "3 frames in 2 parts\n" in ran.out and "c.json (--json)" in ran.out
+    assert "3 frames in 2 parts, 1 missing\n" in ran.out and "c.json (--json)" in ran.out
     (shot / "b.json").write_text('{"format": "tonetool-check", "version": 9}')
     ran = tonetool("--merge", "a.json", "b.json", "--json", "c.json", "--dry-run", status=1)
     assert '"b.json": is of version 9, this program reads' in ran.err
@@ -67,6 +67,10 @@ MISTAKES = [
     (["--hdrflip:ppd=x", "--json", "c.json"], 'ppd "x" is not a number'),
     (["--hdrflip:tests=0", "--json", "c.json"], "hdrflip : tests 0 is out of range"),
     (["--hdrflip:fail=1"], "can never fail"),
+    (["--hdrflip:fail=0,3"], "(valid: a decimal point, as in 0.3, or QUANTITY=LIMIT,QUANTITY=LIMIT)"),
+    (["--hdrflip:fail=p99.9=0,1"], "fail=p99.9=0,1: a comma separates limits (valid: a decimal point, as in 0.1"),
+    (["--hdrflip:warn=mean=0,05,p99=0.7"], "as in 0.05"),
+    (["--hdrflip", "--table", "t.md"], "--table: a table has a row for each name, and no case has one"),
     (["--ldrflip:quantity=mean", "--json", "c.json"], "quantity= needs fail= or warn="),
     (["--errormap:metric=smap", "--json", "c.json"], '"smap"'),
     (["--hdrflip:fail=gone.json", "--json", "c.json"], 'could not read the limits "gone.json"'),
@@ -103,7 +107,7 @@ def test_a_layer_that_one_frame_has_is_no_mistake_of_the_line(tonetool, make_ima
     tonetool(*words, status=1)
     found = json.loads((tmp_path / "c.json").read_text(encoding="utf-8"))["frames"]
     assert [frame["status"] for frame in found][:2] == ["error", "error"]
-    # So a part of frames without it is a result, too.
+#So a part of frames without it is a result, too.
     tonetool("--frames", "1-2", *words[:2], "--exit-zero", "--json", "part.json")
     (tmp_path / "a.0003.exr").unlink()
     ran = tonetool("--frames", "1-2", *words, status=1)

@@ -1,4 +1,4 @@
-# SPDX-License-Identifier: BSD-3-Clause
+#SPDX - License - Identifier : BSD - 3 - Clause
 """--merge of very many parts: how they are named, what they come to, and files of other versions."""
 
 import json
@@ -114,8 +114,27 @@ def test_damaged_parts(tonetool, parts, change, text):
     ran = tonetool("--merge", "p", "--frames", "1-6", "--json", "c.json", status=1)
     assert load(parts / "c.json")["frames"][1]["status"] == "error"
 
+#-- -- what no part has
 
-# ---- versions
+@pytest.mark.parametrize("there, lacking", [((1, 2, 5, 6), [3, 4]), ((1, 2, 4), [3]), ((1, 3), [2]),
+                                            ((1, 3, 5), []), ((2, 5), [3, 4]), ((6,), [])])
+def test_a_frame_between_those_of_the_parts_is_missed(tonetool, parts, there, lacking):
+    """As one is that both sides of a sequence lack: a job of the farm that never ran has not passed."""
+    files = [f"p/{number}.json" for number in there]
+    ran = tonetool("--merge", *files, "--json", "c.json", status=1 if lacking else 3 if 4 in there else 0)
+    found = load(parts / "c.json")
+    assert [frame["frame"] for frame in found["frames"] if frame["status"] == "error"] == lacking
+    for frame in found["frames"]:
+        if frame["frame"] in lacking:
+            assert frame["message"] == ("no part has a result of this frame (valid: --frames, if it is not to "
+                                        "be there)")
+    assert f"{len(lacking)} error" in ran.out if lacking else "error" not in ran.out
+    listed = ",".join(map(str, there))
+    gap_of_qc = there == (1, 2, 5, 6)
+    tonetool("--merge", *files, "--frames", listed, "--json", "c.json", status=3 if 4 in there or gap_of_qc else 0)
+    assert [frame["frame"] for frame in load(parts / "c.json")["frames"]] == list(there)
+
+#-- -- versions
 
 def test_a_file_of_version_1_is_refused(tonetool, tmp_path):
     """What --qc kept of a frame was another."""
@@ -134,7 +153,8 @@ def test_parts_that_two_versions_measured_are_refused(tonetool, parts, measured_
     own = load(part)["program"]
     assert own == "tonetool " + tonetool("--version").out.splitlines()[0]
     changed = {key: value for key, value in load(part).items() if key != "program"}
-    part.write_text(json.dumps({**changed, **({"program": measured_by} if measured_by else {})}))
+    part.write_text(json.dumps({
+    **changed, **({ "program" : measured_by } if measured_by else {})}))
     ran = tonetool("--merge", "p", "--json", "c.json", status=1)
     assert f'p/2.json" was made by {said}' in ran.err and f'p/1.json" by {own}' in ran.err
     assert "(valid: parts of one version)" in ran.err
@@ -153,8 +173,7 @@ def test_files_of_other_versions_are_refused(tonetool, parts, version, text):
     assert '"p/2.json": ' in ran.err and text in ran.err
     assert not (parts / "c.json").exists()
 
-
-# ---- a long shot
+#-- -- a long shot
 
 def test_two_thousand_parts(program, parts, plain_memory):
     """A fifth of a long shot. The facts of a frame take about 25 kB of memory, its text and what

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // fail= and warn= of commands that compare.
 #include <algorithm>
+#include <regex>
 #include <stdexcept>
 
 #include "chain/commands/flip_args.h"
@@ -46,6 +47,7 @@ private:
         std::string text = *m_call.text(key);
         if (sequence::names_limits_file(text))
             text = numbers_of(key, m_session.file(text));
+        refuse_decimal_comma(key, text);
         for (const std::string& word : split(text, ',')) {
             const size_t equals = word.find('=');
             const bool named = equals != std::string::npos;
@@ -66,6 +68,17 @@ private:
                 set_automatic(limit);
             else
                 limit.*member = number(key, word.substr(named ? equals + 1 : 0), limit.quantity);
+        }
+    }
+
+    // A comma separates limits, so "0,3" would be two.
+    static void refuse_decimal_comma(const std::string& key, const std::string& text) {
+        static const std::regex number("(^|[=,])([0-9]+),([0-9]+)(,|$)");
+        std::smatch found;
+        if (std::regex_search(text, found, number)) {
+            throw CommandError(key + "=" + text + ": a comma separates limits (valid: a decimal " +
+                               "point, as in " + found.str(2) + "." + found.str(3) +
+                               ", or QUANTITY=LIMIT,QUANTITY=LIMIT)");
         }
     }
 

@@ -55,6 +55,8 @@ std::unique_ptr<OIIO::ImageInput> open_input(const std::string& filename, const 
         std::string why = OIIO::geterror();
         if (::access(filename.c_str(), R_OK) != 0 && errno == EACCES) // readers guess at it
             why = std::strerror(EACCES);
+        else if (std::filesystem::file_size(filename, ignored) == 0)
+            why = "it is empty (0 bytes)";
         const bool named = why.find(filename) != std::string::npos;
         throw CommandError(why.empty() ? "cannot read \"" + filename + "\""
                            : named     ? why

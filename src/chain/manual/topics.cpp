@@ -9,7 +9,7 @@ const char* const kExitStatusText =
    and a --diff or --pdiff that fails
 2  only warnings, and --warnings-exit was given
 3  a fail= threshold was exceeded, --biascheck found a difference or too few samples, or
-   --qc a fault that is an error
+   --qc or --against a fault that is an error
 )";
 
 namespace {

@@ -35,12 +35,14 @@ void refuse_deep(const Session& session, const Call& call) {
 }
 
 // Commands run as far as their images go.
-void refuse_absent(const Call& call) {
+void refuse_absent(const Session& session, const Call& call) {
     if (call.row().group == Group::Stack || call.row().names.front() == "against")
         return;
     for (const ImagePtr& image : call.images)
         if (image->absent)
-            throw CommandError("no file \"" + image->name() + "\"");
+            throw CommandError(session.check.why_absent.empty()
+                                   ? "no file \"" + image->name() + "\""
+                                   : session.check.why_absent);
 }
 
 } // namespace
@@ -54,7 +56,7 @@ void execute(Session& session, Call& call) {
         if (call.row().group != Group::Stack)
             session.note_format(*image);
     }
-    refuse_absent(call);
+    refuse_absent(session, call);
     refuse_deep(session, call);
     const size_t below = stack.size();
     const size_t expected = below + static_cast<size_t>(call.pushes());

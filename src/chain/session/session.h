@@ -74,8 +74,9 @@ struct Flow {
 struct CheckPart {
     sequence::FrameResult* result = nullptr;   ///< collects the measurements of commands
     sequence::FramePainter* painter = nullptr; ///< with a report: draws its images
-    std::string absent{}; ///< the frame of the approved version, if there is none
-    bool between = false; ///< and that has earlier and later ones
+    std::string absent{};     ///< the frame of the approved version, if there is none
+    std::string why_absent{}; ///< what is said of it where its name says nothing; else empty
+    bool between = false;     ///< and that has earlier and later ones
     /// The range of exposures=shot or of a file; while the range is still being measured, the place
     /// for the frame's sample.
     const sequence::ShotExposures* shot = nullptr;

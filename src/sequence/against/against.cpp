@@ -200,6 +200,32 @@ std::vector<Fault> faults_without_approved(const AgainstRecord& record, bool hol
     return faults;
 }
 
+// Whether a rule that warns or fails looks at the pixels of the layer. Its alpha alone says nothing
+// of them.
+bool is_judged(const AgainstRecord& record, const AgainstLayer& layer) {
+    const auto speaks = [&](const std::string& code) {
+        return record.limits.severity(code).value_or(Severity::Info) > Severity::Info;
+    };
+    const auto& all = against_quantities();
+    return (layer.kind == "data" && speaks("data")) ||
+           std::any_of(all.begin(), all.end(), [&](const AgainstQuantity& one) {
+               return one.kind == layer.kind && layer.quantities.count(one.quantity) > 0 &&
+                      speaks(one.code);
+           });
+}
+
+std::string why_unjudged(const AgainstRecord& record) {
+    if (!record.approved)
+        return "the approved version has no such frame";
+    const auto& all = record.layers;
+    const bool any = std::any_of(all.begin(), all.end(), [&](const AgainstLayer& layer) {
+        return is_judged(record, layer);
+    });
+    return any ? ""
+               : "--against judges none of its layers: they are data, which is told, or their "
+                 "rules are off (valid: kind=, data=error)";
+}
+
 std::vector<Fault> faults_of(const AgainstRecord& record, bool cropped) {
     std::vector<Fault> faults;
     for (const AgainstDifference& difference : record.differences)
@@ -287,6 +313,7 @@ void judge_frames(ComparedFrames& frames) {
             if (alike && tells_moment(fault.code))
                 fault.sentence += format("; it is the moment of approved frame {}", *alike);
         FrameResult& result = *frames[i].result;
+        result.unjudged = why_unjudged(frames[i].record);
         result.faults.insert(result.faults.end(), found.begin(), found.end());
         std::stable_sort(result.faults.begin(), result.faults.end(),
                          [](const Fault& a, const Fault& b) { return a.severity > b.severity; });

@@ -148,8 +148,7 @@ TableCell cell_of(const std::vector<const FrameResult*>& frames, const TableColu
 
 NumberTable table_of(const ShotResult& shot, const MethodTableOptions& options) {
     if (!is_named(shot))
-        throw std::runtime_error("a table has a row for each name, and no case has one (valid: "
-                                 "%N in the names of the images, or --csv)");
+        throw std::runtime_error(kTableNeedsNames);
     NumberTable table;
     table.columns = columns_of(shot, options);
     std::map<std::string, std::vector<const FrameResult*>> names;

@@ -16,6 +16,11 @@ struct MethodTableOptions {
     std::vector<std::string> methods{}; ///< in that order; empty: all, in that of their bytes
 };
 
+/// What is said of cases without names.
+inline constexpr char kTableNeedsNames[] = "a table has a row for each name, and no case has one "
+                                           "(valid: %N in the names of the images, or "
+                                           "--csv)";
+
 enum class TableFormat { Markdown, LaTeX, Csv };
 
 /// That of a file by its extension .md, .tex or .csv; a runtime_error for any other.

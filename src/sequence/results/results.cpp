@@ -311,8 +311,9 @@ void judge(FrameResult& frame) {
         found.push_back(of_thresholds(measurement));
         measurement.status = found.back().status;
     }
-    for (const Fault& fault : frame.faults)
-        found.push_back(of_fault(fault));
+    for (const Fault& fault : frame.faults) // what is only told is no test that was passed
+        if (fault.severity > Severity::Info || frame.unjudged.empty())
+            found.push_back(of_fault(fault));
     for (const std::string& warning : frame.warnings)
         found.push_back({Status::Warning, warning});
     if (frame.status > Status::Failed)
@@ -331,7 +332,10 @@ void judge(FrameResult& frame) {
         return one.status == Status::Measured && !one.message.empty();
     };
     const bool tested = any([](const Found& one) { return one.status == Status::Passed; });
-    frame.status = !any(open) && (tested || searched) ? Status::Passed : Status::Measured;
+    const bool judged = !frame.qc.empty() || (!frame.against.empty() && frame.unjudged.empty());
+    frame.status = !any(open) && (tested || judged) ? Status::Passed : Status::Measured;
+    if (frame.status == Status::Measured)
+        frame.message = frame.unjudged;
     for (const Found& one : found) {
         if (open(one) && frame.status == Status::Measured && frame.message.empty())
             frame.message = one.message;

@@ -153,6 +153,8 @@ struct FrameResult {
     std::vector<std::string> warnings;
     std::string qc;      ///< the facts that --qc measured, as JSON; empty without --qc
     std::string against; ///< the same of --against
+    /// Why --against has judged nothing of it, and so does not pass it; conclude() finds it.
+    std::string unjudged{};
     /// What `qc` says, where conclude() was to keep it: parts are judged twice, alone and joined.
     std::shared_ptr<QcRecord> record;
     SuiteCase of_suite{};

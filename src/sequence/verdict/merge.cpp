@@ -2,15 +2,19 @@
 #include "sequence/verdict/merge.h"
 
 #include <OpenImageIO/strutil.h>
+#include <map>
 #include <set>
 #include <stdexcept>
 
+#include "sequence/frames/pairing.h"
 #include "sequence/results/results_json.h"
 #include "sequence/results/shot_exposures.h"
 
 namespace tonetool::sequence {
 
 namespace {
+
+const std::string kNoResult = "no part has a result of this ";
 
 template <class Read>
 auto read_part(const std::string& file, const Read& read) {
@@ -44,7 +48,8 @@ void check_same(const ShotResult& whole, const ShotResult& part, const std::stri
 }
 
 // In every view, and of every case, that some part has.
-void add_frames_without_result(ShotResult& shot, const std::vector<Item>& expected) {
+void add_frames_without_result(ShotResult& shot, const std::vector<Item>& expected,
+                               const std::string& advice) {
     std::set<Item> there;
     std::set<Series> series;
     for (const FrameResult& frame : shot.frames) {
@@ -61,8 +66,7 @@ void add_frames_without_result(ShotResult& shot, const std::vector<Item>& expect
         frame.view = item.view;
         frame.name = item.name;
         frame.method = item.method;
-        frame.message =
-            std::string("no part has a result of this ") + (item.named() ? "case" : "frame");
+        frame.message = kNoResult + (item.named() ? "case" : "frame") + advice;
         shot.frames.push_back(frame);
     };
     for (const Item& item : expected) {
@@ -73,6 +77,20 @@ void add_frames_without_result(ShotResult& shot, const std::vector<Item>& expect
         for (const Series& of : series)
             expect({item.frame, of.view, of.name, of.method});
     }
+}
+
+// The frames of the parts and, of each case and view, those in between: that all parts lack one
+// says nothing of it.
+std::vector<Item> filled(const std::vector<FrameResult>& frames) {
+    std::map<std::pair<std::string, std::string>, std::set<Item>> numbers;
+    for (const FrameResult& frame : frames)
+        numbers[{frame.name, frame.method}].insert(frame.item());
+    std::vector<Item> all;
+    for (auto& of : numbers) {
+        fill_holes(of.second);
+        all.insert(all.end(), of.second.begin(), of.second.end());
+    }
+    return all;
 }
 
 } // namespace
@@ -105,7 +123,9 @@ ShotResult merged(const std::vector<std::string>& parts, const std::vector<Item>
         std::move(part.frames.begin(), part.frames.end(), std::back_inserter(whole.frames));
         std::move(part.accepted.begin(), part.accepted.end(), std::back_inserter(whole.accepted));
     }
-    add_frames_without_result(whole, expected);
+    add_frames_without_result(whole, expected.empty() ? filled(whole.frames) : expected,
+                              expected.empty() ? " (valid: --frames, if it is not to be there)"
+                                               : "");
     if (whole.cases <= whole.frames.size()) // nothing is left out any more
         whole.cases = 0;
     else if (parts.size() > 1)
@@ -114,6 +134,11 @@ ShotResult merged(const std::vector<std::string>& parts, const std::vector<Item>
                              " cases (--suite FILE with --merge tells which are missing)");
     conclude(whole);
     return whole;
+}
+
+bool is_of_no_part(const FrameResult& frame) {
+    return frame.status == Status::Error &&
+           frame.message.compare(0, kNoResult.size(), kNoResult) == 0;
 }
 
 std::string merged_exposures(const std::vector<std::string>& parts) {

@@ -164,8 +164,28 @@ TEST(Against, TheMomentOfAnotherApprovedFrame) {
     EXPECT_THAT(shot(9, 4), testing::Not(HasSubstr("moment of approved")));
 }
 
+TEST(Against, WhatNoRuleJudgesDoesNotPass) {
+    AgainstRecord off = with("color", "gain", 2), told = with("data", "off", 0.5);
+    for (const char* code : {"color", "colorblocks", "nonfinite"})
+        off.limits.set(code, "off");
+    AgainstRecord judged = with("color", "gain", 0), longer = judged;
+    longer.approved = false;
+    std::vector<FrameResult> frames =
+        shot_of({judged, clean(), off, told, with("data", "alpha_mean", 0), longer});
+    judge_against(frames);
+    EXPECT_EQ(frames[0].status, Status::Passed);
+    for (size_t i = 1; i < frames.size(); ++i) {
+        EXPECT_EQ(frames[i].status, Status::Measured) << i;
+        EXPECT_FALSE(frames[i].message.empty()) << i;
+    }
+    told.limits.set("data", "warning");
+    frames = shot_of({told});
+    judge_against(frames);
+    EXPECT_EQ(frames[0].status, Status::Warning);
+}
+
 TEST(Against, FramesWithTheSameDifferenceAreOneLine) {
-    std::vector<AgainstRecord> records(9, clean());
+    std::vector<AgainstRecord> records(9, with("normal", "median", 0));
     for (const size_t i : {2U, 3U, 4U})
         records[i] = with("normal", "median", i == 3 ? 9 : 5);
     records[6] = with("normal", "median", 1); // a warning
