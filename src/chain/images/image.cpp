@@ -56,7 +56,7 @@ std::unique_ptr<OIIO::ImageInput> open_input(const std::string& filename, const 
         if (::access(filename.c_str(), R_OK) != 0 && errno == EACCES) // readers guess at it
             why = std::strerror(EACCES);
         else if (std::filesystem::file_size(filename, ignored) == 0)
-            why = "it is empty (0 bytes)";
+            why += ": it is empty (0 bytes)"; // which readers call a file of another format
         const bool named = why.find(filename) != std::string::npos;
         throw CommandError(why.empty() ? "cannot read \"" + filename + "\""
                            : named     ? why

@@ -61,8 +61,8 @@ std::optional<Size> readable(const std::string& file, std::string& why) {
     const auto in = OIIO::ImageInput::open(file);
     if (!in) {
         why = OIIO::geterror();
-        if (std::filesystem::file_size(file, ignored) == 0) // which readers call no file of theirs
-            why = "it is empty (0 bytes)";
+        if (std::filesystem::file_size(file, ignored) == 0)
+            why += ": it is empty (0 bytes)";
         return std::nullopt;
     }
     const Size size{in->spec().full_width, in->spec().full_height};
