@@ -578,3 +578,13 @@ def test_a_recipe_writes_no_limits(tonetool, renders, tmp_path):
         ran = tonetool("n.tone", "-o", "x.exr", status=1)
         assert "noisefloor" in ran.err and "not allowed" in ran.err
         assert not (tmp_path / "limits.json").exists() and not (tmp_path / "x.exr").exists()
+
+
+def test_a_limit_of_a_check_that_nothing_can_exceed_is_told_with_its_file(tonetool, make_image):
+    """1.1 times a large error is more than any."""
+    make_image("black.exr", 16, 16, pixels=np.full((16, 16, 3), 1e-3))
+    make_image("white.exr", 16, 16, pixels=np.full((16, 16, 3), 1e3))
+    line = ["black.exr", "white.exr", "--errormap:metric=smape:print=0:quantity=max"]
+    tonetool(*line[:2], line[2] + ":fail=0.9999999", "--json", "lim.json")
+    ran = tonetool(*line[:2], line[2] + ":fail=lim.json", status=1)
+    assert "is out of range (valid: 0 to 1); it follows from what \"lim.json\" has measured" in ran.err

@@ -44,9 +44,19 @@ private:
     void read_list(const std::string& key, Member member) {
         if (!m_call.has(key))
             return;
-        std::string text = *m_call.text(key);
-        if (sequence::names_limits_file(text))
-            text = numbers_of(key, m_session.file(text));
+        const std::string text = *m_call.text(key);
+        if (!sequence::names_limits_file(text))
+            return read_numbers(key, text, member);
+        const std::string numbers = numbers_of(key, m_session.file(text));
+        try {
+            read_numbers(key, numbers, member);
+        } catch (const CommandError& problem) { // a large error times 1.1
+            throw CommandError(std::string(problem.what()) + "; it follows from what \"" + text +
+                               "\" has measured: take another quantity, or a number");
+        }
+    }
+
+    void read_numbers(const std::string& key, const std::string& text, Member member) {
         refuse_decimal_comma(key, text);
         for (const std::string& word : split(text, ',')) {
             const size_t equals = word.find('=');
