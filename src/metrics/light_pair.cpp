@@ -42,8 +42,11 @@ LightPair::Row LightPair::scan(const std::vector<float>& a, const std::vector<fl
     const std::vector<float> clean_a = cleaned(a, b, m_channels);
     const std::vector<float> clean_b = cleaned(b, a, m_channels);
     Row row;
-    for (size_t at = 0; at < a.size(); at += m_channels)
-        row.one_finite += is_finite(&a[at], m_channels) != is_finite(&b[at], m_channels);
+    for (size_t at = 0; at < a.size(); at += m_channels) {
+        const bool of_a = is_finite(&a[at], m_channels), of_b = is_finite(&b[at], m_channels);
+        row.one_finite += of_a != of_b;
+        row.both_finite += of_a && of_b;
+    }
     row.sums.resize(kSums * m_channels * m_columns);
     for (int64_t x = 0; x < m_width; ++x) {
         const size_t at = size_t(x) * m_channels, column = size_t(x / kSide);
@@ -73,6 +76,7 @@ void LightPair::add(int64_t y, const Row& row) {
     m_a += row.a;
     m_b += row.b;
     m_one_finite += row.one_finite;
+    m_both_finite += row.both_finite;
     const auto block_row = size_t(y / kSide);
     if (block_row >= m_rows)
         return;
@@ -129,6 +133,7 @@ double LightPair::gain(double mean_a) const {
 LightPair::Result LightPair::result() const {
     constexpr double errors = 6, share = 0.05, dark = 0.02;
     Result result;
+    result.none_finite = m_width > 0 && m_height > 0 && m_both_finite == 0;
     if (m_sums.empty())
         return result;
     result.one_finite = double(m_one_finite) / std::max(double(m_width) * double(m_height), 1.0);

@@ -22,17 +22,19 @@ public:
     struct Row {
         std::vector<double> sums;
         double a = 0, b = 0;
-        int64_t one_finite = 0; ///< pixels that are finite in only one
+        int64_t one_finite = 0;  ///< pixels that are finite in only one
+        int64_t both_finite = 0; ///< and in both
     };
     /// Rows of interleaved channels. Pixels that are not finite in one of them count in neither.
     Row scan(const std::vector<float>& a, const std::vector<float>& b) const;
     void add(int64_t y, const Row& row);
 
     struct Result {
-        double gain = 0;       ///< stops by which b is brighter; 0 unless median and sum agree
-        double one_finite = 0; ///< share of the pixels that are finite in only one
-        double blocks = 0;     ///< share of the blocks that differ by more than their noise
-        int64_t x = 0, y = 0;  ///< the pixel where the block begins that differs most
+        double gain = 0;          ///< stops by which b is brighter; 0 unless median and sum agree
+        double one_finite = 0;    ///< share of the pixels that are finite in only one
+        bool none_finite = false; ///< no pixel is finite in both, so nothing was compared
+        double blocks = 0;        ///< share of the blocks that differ by more than their noise
+        int64_t x = 0, y = 0;     ///< the pixel where the block begins that differs most
     };
     Result result() const;
 
@@ -47,7 +49,7 @@ private:
     int64_t m_width = 0, m_height = 0;
     size_t m_channels = 0, m_columns = 0, m_rows = 0;
     std::vector<double> m_sums; ///< a, b, squared differences of neighbours in a, in b
-    int64_t m_one_finite = 0;
+    int64_t m_one_finite = 0, m_both_finite = 0;
     double m_a = 0, m_b = 0; ///< sums of absolute values of all pixels
 };
 

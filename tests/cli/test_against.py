@@ -455,6 +455,22 @@ def test_pixels_that_are_not_finite(against, layers):
                    spoiled(new_frame(), FAR, "Depth"))[1] == []
 
 
+@pytest.mark.parametrize("name", ["Combined", "Combined_key", "DiffCol"])
+def test_light_of_which_nothing_is_finite_was_not_compared(against, tonetool, name):
+    def spoiled(frame, pixels):
+        frame.layers[name][pixels] = (frame.layers[name] * np.nan)[pixels]
+        frame.layers[name][..., 3:] = 1
+        return frame
+
+    whole, but_one = np.full((HEIGHT, WIDTH), True), np.full((HEIGHT, WIDTH), True)
+    but_one[5, 6] = False
+    for approved in (spoiled(approved_frame(), whole), approved_frame()):
+        ran, found = against(approved, spoiled(new_frame(), whole))
+        assert found == ["error nonfinite"] and "no pixel that is finite in both versions" in ran.out
+    tonetool("approved.exr", "new.exr", "--against:nonfinite=warning")
+    assert against(spoiled(approved_frame(), but_one), spoiled(approved_frame(), but_one))[1] == []
+
+
 @pytest.mark.parametrize("size", [1, 2, 15, 17])
 def test_small_images(against, size):
     def small(frame):

@@ -258,6 +258,8 @@ AgainstLayer AgainstScan::result_of(const Pair& pair) const {
         const metrics::LightPair::Result result = pair.light->result();
         out.quantities = {
             {"gain", result.gain}, {"blocks", result.blocks}, {"one_finite", result.one_finite}};
+        if (result.none_finite)
+            out.quantities["none_finite"] = 1;
         out.x = int(result.x) + pair.window.xbegin;
         out.y = int(result.y) + pair.window.ybegin;
     } else if (*pair.data == PairKind::Normal) {

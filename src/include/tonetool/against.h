@@ -45,7 +45,8 @@ struct AgainstFile {
 struct AgainstLayer {
     std::string name, kind; ///< of the new file
     /// By kind: depth, position: off; normal: median, off10, one; vector: median, off; id:
-    /// mismatch; albedo, color, group: gain, blocks; any with an alpha: alpha_mean, alpha_off;
+    /// mismatch; albedo, color, group: gain, blocks, one_finite, and none_finite (1) if no pixel is
+    /// finite in both; any with an alpha: alpha_mean, alpha_off;
     /// data: off.
     std::map<std::string, double> quantities;
     int x = 0, y = 0; ///< where they differ most

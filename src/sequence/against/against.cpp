@@ -80,6 +80,8 @@ std::string sentence_of(const AgainstLayer& layer, const Beyond& beyond) {
     else if (quantity == "blocks")
         text = format("{} differs from the approved one by more than its noise in {} of the blocks",
                       what, percent(value));
+    else if (quantity == "none_finite")
+        return format("{} has no pixel that is finite in both versions", what);
     else if (quantity == "one_finite")
         text = format("{} is NaN or infinite in only one version in {} of the pixels", what,
                       percent(value));
