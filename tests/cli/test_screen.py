@@ -331,6 +331,22 @@ def test_gamma_is_applied_before_colour_is_associated(tonetool, make_image, png_
     assert np.abs(read("light.exr")[0][..., :3] - light).max() < 0.002
 
 
+def test_gamma_of_a_targa_file_is_applied_before_colour_is_associated(tonetool, tmp_path, read):
+    """Its reader multiplies by the power of alpha."""
+    alphas, value = (0.25, 0.5, 0.75, 1), 0.4
+    header = struct.pack("<BBBHHBHHHHBB", 0, 0, 2, 0, 0, 0, 0, 0, 4, 1, 32, 8 | 0x20)
+    pixels = b"".join(bytes([round(value * 255)] * 3 + [round(alpha * 255)]) for alpha in alphas)
+    extension = bytearray(495)
+    struct.pack_into("<H", extension, 0, 495)
+    struct.pack_into("<HH", extension, 478, 18, 10)  # a gamma of 1.8
+    extension[494] = 3  # alpha, not multiplied by
+    (tmp_path / "a.tga").write_bytes(header + pixels + bytes(extension)
+                                     + struct.pack("<II", len(header) + len(pixels), 0) + b"TRUEVISION-XFILE.\0")
+    tonetool("a.tga", "--tonemap:curve=linear:encode=none", "-d", "float", "-o", "light.exr")
+    # The reader rounds the product to 8 bits: half a step is 6 % of the darkest one.
+    assert np.abs(read("light.exr")[0][0, :, 0] - value ** 1.8 * np.array(alphas)).max() < 0.006
+
+
 def test_grey_pictures_and_data(tonetool, make_image, read):
     grey = make_image("y.exr", channels=["Y"])
     other = make_image("z.exr", channels=["Y"], seed=2)

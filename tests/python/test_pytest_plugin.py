@@ -207,9 +207,9 @@ def test_other_render_fails(run, approved):
 UNREADABLE = {
     "'none.exr'": '"none.exr": No such file or directory',
     "'folder.exr'": '"folder.exr": Is a directory',
-    "'cut.exr'": "unreadable: *Unexpected end of file*",
+    "'cut.exr'": 'unreadable: cannot read "*test_2.exr": *',  # in the words of OpenEXR's version
     "'empty.exr'": "unreadable: *",
-    "oiio.ImageBuf('cut.exr')": "*Unexpected end of file*",
+    "oiio.ImageBuf('cut.exr')": "*cut.exr*",
     "oiio.ImageBuf('none.exr')": "*none.exr*",
     "oiio.ImageBuf()": "*the image holds no pixels",
 }

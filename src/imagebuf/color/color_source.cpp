@@ -9,6 +9,7 @@
 #include "imagebuf/color/view_config.h"
 #include "imagebuf/pixels/guard.h"
 #include "imagebuf/pixels/names.h"
+#include "imagebuf/pixels/oiio_compat.h"
 #include "metrics/refusal.h"
 
 namespace tonetool {
@@ -92,7 +93,7 @@ void find_picture(const OIIO::ImageSpec& spec, const PixelOptions& options, Colo
     if (choice.grey())
         space.is_rec709 = true;
     const double gamma = double(spec.get_float_attribute("oiio:Gamma", 1));
-    space.alpha_power = gamma > 0 ? gamma : 1;
+    space.alpha_power = gamma > 0 && oiio::multiplies_by_power_of_alpha(spec) ? gamma : 1;
     space.straight = (space.encoded() || space.alpha_power != 1) && choice.a >= 0 &&
                      !spec.channelformat(choice.r).is_floating_point();
 }

@@ -17,7 +17,8 @@
 //                   are; it reads those of floats that way too, unless they are opened with a
 //                   configuration. 2.4 writes 8 bits whatever is asked for, 2.5 16 and floats too.
 //   PNG files       2.5.14 multiplies light by alpha, and encodes it again; before, the encoded
-//                   values were multiplied.
+//                   values were multiplied, by the power of the file's gamma, as those of Targa
+//                   files are in all of them; 3.1 multiplies them by alpha itself.
 //   ImageBuf(name)  2.5 reads the pixels at once, 3.x when somebody asks for them; in 2.4 they stay
 //                   in the file, behind an ImageCache.
 //   fonts           2.5 looks for them by name in a few folders, not in those below.
@@ -112,6 +113,15 @@ inline bool encodes_with_alpha([[maybe_unused]] const OIIO::ImageSpec& file,
             file.get_float_attribute("oiio:Gamma", 1) != 1);
 #else
     return false;
+#endif
+}
+
+/// Whether a reader has multiplied encoded integers by alpha to the power of the file's gamma.
+inline bool multiplies_by_power_of_alpha([[maybe_unused]] const OIIO::ImageSpec& file) {
+#if OIIO_VERSION >= 20514
+    return file.find_attribute("targa:version") != nullptr;
+#else
+    return true;
 #endif
 }
 
