@@ -45,8 +45,10 @@ private:
         if (!m_call.has(key))
             return;
         const std::string text = *m_call.text(key);
-        if (!sequence::names_limits_file(text))
+        if (!sequence::names_limits_file(text)) {
+            refuse_decimal_comma(key, text);
             return read_numbers(key, text, member);
+        }
         const std::string numbers = numbers_of(key, m_session.file(text));
         try {
             read_numbers(key, numbers, member);
@@ -57,7 +59,6 @@ private:
     }
 
     void read_numbers(const std::string& key, const std::string& text, Member member) {
-        refuse_decimal_comma(key, text);
         for (const std::string& word : split(text, ',')) {
             const size_t equals = word.find('=');
             const bool named = equals != std::string::npos;

@@ -196,10 +196,9 @@ Exposures choose_exposures(const FlipPlan& plan, const metrics::ExposureStats& s
     double maximum = o.max_luminance.value_or(0), median = o.median_luminance.value_or(0);
     if (needs_luminance(plan)) {
         if (stats.max <= 0)
-            throw Refusal(
-                "the reference is black (no pixel has positive light), so its exposures cannot "
-                "be measured: pass "
-                "startExposure and stopExposure (or maxluminance and medianluminance)");
+            throw Refusal("the reference is black (no pixel has positive light), so its exposures "
+                          "cannot be measured: pass startExposure and stopExposure (or "
+                          "maxluminance and medianluminance)");
         exposures.median_of_lit = need_median && !o.median_luminance && stats.median <= 0;
         maximum = o.max_luminance.value_or(stats.max);
         median =
