@@ -7,25 +7,11 @@
 #include <OpenImageIO/filesystem.h>
 #include <string>
 
+#include "folder.h"
 #include "imagebuf/pixels/oiio_compat.h"
 #include "images.h"
 
 namespace tonetool {
-
-/// A folder that is gone with the test.
-class Folder {
-public:
-    Folder() : m_path(OIIO::Filesystem::unique_path(testing::TempDir() + "tonetool-%%%%%%%%")) {
-        OIIO::Filesystem::create_directory(m_path);
-    }
-    Folder(const Folder&) = delete;
-    Folder& operator=(const Folder&) = delete;
-    ~Folder() { OIIO::Filesystem::remove_all(m_path); }
-    std::string operator/(const std::string& name) const { return m_path + "/" + name; }
-
-private:
-    std::string m_path;
-};
 
 /// How a file is written: float scan lines unless something else is said.
 struct FileLook {
