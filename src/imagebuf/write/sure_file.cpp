@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "imagebuf/write/sure_file.h"
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <fcntl.h>
 #include <sys/mman.h>
 #include <sys/resource.h>
+#include <sys/statvfs.h>
 #include <unistd.h>
 #include <vector>
 
@@ -14,8 +16,14 @@
 namespace tonetool {
 namespace {
 
-// Whether the disk has room, which quotas and limits of file sizes have a say in, too.
+// Whether the disk has room, which quotas and limits of file sizes have a say in, too. To ask takes
+// the room for a moment, in which other programs must find some.
 bool has_room(int fd, int64_t bytes) {
+    constexpr int64_t left_to_others = int64_t(4) << 30;
+    struct statvfs disk {};
+    if (::fstatvfs(fd, &disk) != 0 || double(disk.f_bavail) * double(disk.f_frsize) <
+                                          double(bytes + std::min(bytes, left_to_others)))
+        return false;
     const bool fits = ::fallocate(fd, 0, 0, bytes) == 0;
     return ::ftruncate(fd, 0) == 0 && fits;
 }

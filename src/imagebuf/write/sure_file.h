@@ -11,7 +11,8 @@ namespace tonetool {
 
 /// The tiled writer of EXR files of several parts (OpenEXR 3.1) waits for ever once a write has
 /// failed, and opens its file by its name. Where the disk has no room for all that it may write,
-/// it is given a file in memory, which is then copied.
+/// and as much again (at most 4 GiB) for other programs, it is given a file in memory, which is
+/// then copied.
 class SureFile {
 public:
     SureFile() = default;
