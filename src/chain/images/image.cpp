@@ -5,13 +5,11 @@
 #include <OpenImageIO/imagebufalgo.h>
 #include <OpenImageIO/imageio.h>
 #include <algorithm>
-#include <cerrno>
-#include <cstring>
 #include <sys/stat.h>
-#include <unistd.h>
 
 #include "imagebuf/pixels/allocation.h"
 #include "imagebuf/pixels/cut_file.h"
+#include "imagebuf/pixels/not_opened.h"
 #include "imagebuf/pixels/oiio_compat.h"
 #include "text/error.h"
 #include "text/text.h"
@@ -52,11 +50,7 @@ std::unique_ptr<OIIO::ImageInput> open_input(const std::string& filename, const 
     }
     auto input = OIIO::ImageInput::open(filename, &how.config);
     if (!input) {
-        std::string why = OIIO::geterror();
-        if (::access(filename.c_str(), R_OK) != 0 && errno == EACCES) // readers guess at it
-            why = std::strerror(EACCES);
-        else if (std::filesystem::file_size(filename, ignored) == 0)
-            why += ": it is empty (0 bytes)"; // which readers call a file of another format
+        const std::string why = why_not_opened(filename, OIIO::geterror());
         const bool named = why.find(filename) != std::string::npos;
         throw CommandError(why.empty() ? "cannot read \"" + filename + "\""
                            : named     ? why

@@ -6,13 +6,12 @@
 #include <OpenImageIO/imageio.h>
 #include <OpenImageIO/strutil.h>
 #include <algorithm>
-#include <cerrno>
-#include <cstdio>
-#include <cstring>
 #include <filesystem>
 #include <optional>
 
+#include "imagebuf/pixels/cut_file.h"
 #include "imagebuf/pixels/guard.h"
+#include "imagebuf/pixels/not_opened.h"
 #include "imagebuf/pixels/rows_together.h"
 
 namespace tonetool::sequence {
@@ -44,37 +43,24 @@ struct Size {
     bool operator!=(const Size& o) const { return width != o.width || height != o.height; }
 };
 
-// The display window of the first subimage; nullopt with the reason where the file cannot be read
-// to its end.
-std::optional<Size> readable(const std::string& file, std::string& why) {
+// Reads a file to its end. Returns the display window of its first subimage.
+Size read_to_the_end(const std::string& file) {
     std::error_code ignored;
-    if (std::filesystem::is_other(file, ignored)) {
-        why = "it is a pipe or a device";
-        return std::nullopt;
-    }
-    if (std::FILE* opened = std::fopen(file.c_str(), "rb")) {
-        std::fclose(opened);
-    } else { // which readers call a file of another format
-        why = std::strerror(errno);
-        return std::nullopt;
-    }
+    if (std::filesystem::is_other(file, ignored))
+        throw Refusal("it is a pipe or a device");
     const auto in = OIIO::ImageInput::open(file);
-    if (!in) {
-        why = OIIO::geterror();
-        if (std::filesystem::file_size(file, ignored) == 0)
-            why += ": it is empty (0 bytes)";
-        return std::nullopt;
-    }
+    if (!in)
+        throw Refusal(why_not_opened(file, OIIO::geterror()));
+    if (const std::string why = bytes_missing(*in, file); !why.empty())
+        throw Refusal(why);
     const Size size{in->spec().full_width, in->spec().full_height};
     for (int subimage = 0; in->seek_subimage(subimage, 0); ++subimage) {
         const OIIO::ImageSpec spec = in->spec(subimage, 0);
         OIIO::DeepData deep;
         const bool read = spec.deep ? in->read_native_deep_image(subimage, 0, deep)
                                     : read_rows(*in, subimage, spec);
-        if (!read || in->has_error()) { // JPEG and TIFF go on beyond the end, with an error
-            why = in->geterror();
-            return std::nullopt;
-        }
+        if (!read || in->has_error()) // JPEG and TIFF go on beyond the end, with an error
+            throw Refusal(in->geterror());
     }
     return size;
 }
@@ -95,21 +81,15 @@ Probe probed(const std::vector<std::string>& files) {
     std::optional<Size> first;
     for (const std::string& file : files) {
         std::string why;
-        std::optional<Size> size;
-        const bool read = contained(why, [&] {
-            std::string reason;
-            size = readable(file, reason);
-            if (!size)
-                throw Refusal(reason);
-        });
-        if (!read) {
+        Size size{};
+        if (!contained(why, [&] { size = read_to_the_end(file); })) {
             return {Status::Unreadable,
                     format("cannot read \"{}\": {}", file, why.substr(0, why.find('\n')))};
         }
-        if (first && *first != *size) {
+        if (first && *first != size) {
             found = {Status::SizeMismatch,
                      format("\"{}\" is {}x{}, \"{}\" {}x{}", files.front(), first->width,
-                            first->height, file, size->width, size->height)};
+                            first->height, file, size.width, size.height)};
         }
         first = first ? first : size;
     }
