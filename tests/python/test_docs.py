@@ -89,7 +89,9 @@ def test_pydoc():
         # Python 3.13 breaks long signatures into lines.
         assert bare(word) in bare(text), word
     assert not re.search(r"^    \w+\(.*\*args", text, re.M)
-    assert max(len(line) for line in pydoc.plain(text).splitlines() if "(" not in line) <= 120
+    lines = pydoc.plain(text).splitlines()
+    # Signatures, and how Python 3.14 ends those of several lines, are as long as they are.
+    assert max(len(line) for line in lines if "(" not in line and ") method of" not in line) <= 120
 
 
 def test_stubs_are_those_of_the_module():
