@@ -8,7 +8,6 @@
 namespace tonetool::metrics {
 namespace {
 
-constexpr int kRadius = DetailScan::kRadius;
 constexpr int kShift = 16; // of the bits of a float: the sign, the exponent, 7 bits of the mantissa
 constexpr size_t kSteps = 1 << 15;
 

@@ -113,7 +113,7 @@ def test_few_values_are_bands_unless_the_file_has_no_more(tonetool, make_image, 
 
 
 def test_black_frames_by_their_alpha(check, tmp_path):
-    for alpha, status, severity in ((1, 3, "error"), (0, 0, "info"), (None, 2, "warning")):
+    for alpha, status, severity in ((1, 3, "error"), (0, 3, "error"), (None, 2, "warning")):
         for number in range(1, make_shot.FRAMES + 1):
             frame = make_shot.make_frame(number)
             if alpha is None:
@@ -125,6 +125,35 @@ def test_black_frames_by_their_alpha(check, tmp_path):
         ran, found = check(status)
         assert found == [(6, "black")]
         assert f"qc: frame 6: {severity} black: the picture is black" in ran.out
+
+
+@pytest.mark.parametrize("share, status, severity",
+                         [(0.05, 0, "info"), (0.3, 2, "warning"), (0.7, 3, "error")])
+def test_an_empty_frame_by_what_is_in_the_frames_beside_it(check, tmp_path, share, status, severity):
+    """A small element has left the picture; one that fills the next frame was not rendered."""
+    for number in range(1, make_shot.FRAMES + 1):
+        frame = make_shot.make_frame(number)
+        alpha = frame.layers["Alpha"]
+        rows = 0 if number == 6 else round(share * alpha.shape[0])
+        alpha[:] = 0
+        alpha[:rows] = 1
+        for name in make_shot.COLORS:
+            frame.layers[name][rows:] = 0
+        frame.write(tmp_path / f"shot.{number:04d}.exr")
+    ran, found = check(status)
+    assert (6, "black") in found
+    assert f"qc: frame 6: {severity} black: the picture is black" in ran.out
+
+
+@pytest.mark.parametrize("frames", [1, 6])
+def test_nothing_in_any_frame_is_an_error(tonetool, tmp_path, frames):
+    for number in range(1, frames + 1):
+        frame = make_shot.make_frame(number)
+        make_shot.blacken(*make_shot.COLORS)(frame)
+        frame.layers["Alpha"][:] = 0
+        frame.write(tmp_path / f"shot.{number:04d}.exr")
+    ran = tonetool("shot.#.exr", "--qc", status=3)
+    assert ran.out.count("error black: the picture is black") == frames
 
 
 def test_a_fade_to_black_is_told_and_no_fault(check, tmp_path):

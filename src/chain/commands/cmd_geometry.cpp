@@ -111,7 +111,7 @@ bool pixelaspect(Op& op) {
     if (done && !op.unchanged) {
         op.dst.specmod().attribute("PixelAspectRatio", wanted);
         for (auto [name, scale] : {std::pair("XResolution", x), std::pair("YResolution", y)})
-            if (float resolution = spec.get_float_attribute(name, 0))
+            if (const float resolution = spec.get_float_attribute(name, 0); resolution != 0)
                 op.dst.specmod().attribute(name, resolution * scale);
     }
     return done;

@@ -177,7 +177,7 @@ std::string Evaluator::value_of_atom() {
         return expression_number(-double(Strutil::stof(atom())));
     if (Strutil::parse_char(m_rest, '+'))
         return atom();
-    std::string name = Strutil::parse_identifier(m_rest, ":");
+    std::string name = Strutil::parse_identifier(m_rest);
     if (name.empty())
         fail("syntax error");
     return Strutil::parse_char(m_rest, '(') ? function(name) : named(name);
@@ -248,7 +248,7 @@ std::string Evaluator::attribute_name() {
         fail("expected `.` or `[`");
     bool quoted = !m_rest.empty() && (m_rest.front() == '\'' || m_rest.front() == '"');
     if (quoted ? !Strutil::parse_string(m_rest, name)
-               : (name = Strutil::parse_identifier(m_rest, ":")).empty())
+               : (name = Strutil::parse_identifier(m_rest)).empty())
         fail("syntax error");
     return name;
 }

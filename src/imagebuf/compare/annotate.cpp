@@ -37,7 +37,7 @@ struct Writer {
     template <class Summary>
     auto fields(const Summary& summary, const std::string& of = "") const {
         return [this, &summary, of](const SummaryField& field, auto member) {
-            add(attribute_name(field, of), said(field, summary.*member));
+            this->add(attribute_name(field, of), said(field, summary.*member));
         };
     }
     /// The same without values that are 0.

@@ -47,7 +47,7 @@ string(REPLACE ">" "&gt;" licences "${licences}")
 
 set(code "// Made by embed.cmake.\n#include \"sequence/page/files.h\"\n\n")
 string(APPEND code "namespace tonetool::sequence::page {\n\n")
-add_text(html "${html}")
+embed_text(html "${html}")
 add_text(style "${style}")
 add_text(script "${script}")
 add_text(chart "${chart}")

@@ -89,10 +89,35 @@ bool is_fade(const std::vector<QcFrame*>& frames, size_t first, size_t last, dou
     return out || in;
 }
 
-// An element that is not in the picture yet has no alpha; without any alpha nobody knows.
-std::optional<Severity> severity_of_black(const QcPicture& picture, bool fade) {
-    if (fade || (has_alpha(picture) && picture.alpha_mean <= 0))
-        return Severity::Info;
+bool is_empty(const QcPicture& picture) {
+    return has_alpha(picture) && picture.alpha_mean <= 0;
+}
+
+// How much of the picture the element has that is gone in these frames: the larger alpha of the
+// frames beside them.
+double alpha_beside(const std::vector<QcFrame*>& frames, size_t first, size_t last) {
+    double alpha = 0;
+    if (first > 0)
+        alpha = frames[first - 1]->facts.picture.alpha_mean;
+    if (last + 1 < frames.size())
+        alpha = std::max(alpha, frames[last + 1]->facts.picture.alpha_mean);
+    return alpha;
+}
+
+// An element that is not in the picture yet has no alpha. It comes in from a border or grows: one
+// that fills the picture in the next frame was not rendered, nor was one that is in no frame.
+std::optional<Severity> severity_of_empty(const std::vector<QcFrame*>& frames, size_t first,
+                                          size_t last) {
+    constexpr double fills = 0.5, large = 0.1;
+    const bool nowhere = first == 0 && last + 1 == frames.size();
+    const double beside = alpha_beside(frames, first, last);
+    if (nowhere || beside >= fills)
+        return std::nullopt;
+    return beside >= large ? Severity::Warning : Severity::Info;
+}
+
+// Without any alpha nobody knows whether there was to be something.
+std::optional<Severity> severity_of_black(const QcPicture& picture) {
     return has_alpha(picture) ? std::nullopt : std::optional(Severity::Warning);
 }
 
@@ -141,12 +166,16 @@ void find_blank(QcShot& shot) {
         if (last == first)
             continue;
         const bool fade = is_fade(frames, first, last - 1, usual);
+        const std::optional<Severity> empty = severity_of_empty(frames, first, last - 1);
         for (; first < last; ++first) {
             const QcFacts& facts = frames[first]->facts;
             const QcLayer& picture = picture_layer(facts);
             shot.add(*frames[first], "black",
                      fade ? "the picture is black at the end of a fade" : "the picture is black",
-                     {picture.name, {}, picture.max, severity_of_black(facts.picture, fade)});
+                     {picture.name, {}, picture.max,
+                      fade                      ? std::optional(Severity::Info)
+                      : is_empty(facts.picture) ? empty
+                                                : severity_of_black(facts.picture)});
         }
         --first;
     }

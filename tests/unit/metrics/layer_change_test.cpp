@@ -14,7 +14,7 @@ constexpr float kInf = std::numeric_limits<float>::infinity();
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 
 LayerChange change(PairKind kind, size_t channels, const Values& a, const Values& b,
-                   const Surfaces& surfaces = {}) {
+                   const Surfaces& surfaces = Surfaces()) {
     return layer_change(kind, {{&a, &b}, channels}, surfaces);
 }
 
