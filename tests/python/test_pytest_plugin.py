@@ -245,7 +245,7 @@ def test_unreadable_is_not_approved_in_a_first_run(run, pytester):
 WRONG = {
     "grey(1), fail=''": "ValueError: tonetool_check: no limit",
     "grey(1)": "ValueError: tonetool_check: no limit",
-    "grey(1), fail=0.3": "ValueError: tonetool_check: no limit",
+    "grey(1), fail=0.3": "ValueError: tonetool_check: the limit is 0.3 (valid: a string",
     "grey(1), fail='mena=0.3'": 'unknown quantity "mena"',
     "grey(1), fail='\\x7f'": "the program has no result",
     "grey(1)[0, 0], fail='mean=0.3'": "ValueError: write_image: image is a float32 array of shape (3,)",
@@ -253,17 +253,56 @@ WRONG = {
     "grey(1).astype(np.uint8), fail='mean=0.3'": "TypeError: tonetool_check: the image is of uint8",
     "oiio.ImageBuf(oiio.ImageSpec(8, 8, 3, 'uint8')), fail='mean=0.3'": "the image is of uint8",
     "None, fail='mean=0.3'": "TypeError: tonetool_check: the image is of NoneType",
-    "'picture.png', fail='mean=0.3'": 'ValueError: tonetool_check: "picture.png" is no .exr file',
+    "'picture.png', fail='mean=0.3'": 'ValueError: tonetool_check: "picture.png" is no OpenEXR file',
+    "'picture.exr', fail='mean=0.3'": 'ValueError: tonetool_check: "picture.exr" is no OpenEXR file',
     "grey(1), fail='mean=0.3', name='x' * 300": "File name too long",
 }
 
 
-def test_wrong_calls_fail(run):
+def test_wrong_calls_fail(run, pytester):
+    (pytester.path / "picture.exr").write_bytes(b"\x89PNG\r\n")
     result = run(calls_as_tests(WRONG))
     result.assert_outcomes(failed=len(WRONG))
     text = result.stdout.str().partition("= FAILURES =")[2]
     for part, error in zip(re.split(r"^_+ test_\d+ _+$", text, flags=re.M)[1:], WRONG.values()):
         assert error in part
+
+
+SWALLOWED = """
+    with ThreadPoolExecutor(2) as pool:
+        [pool.submit(tonetool_check, {image}, fail="{fail}", name=f"view{{i}}") for i in range(2)]
+""", """
+    for i in range(2):
+        try:
+            tonetool_check({image}, fail="{fail}", name=f"view{{i}}")
+        except BaseException:
+            pass
+"""
+
+
+@pytest.mark.parametrize("body", SWALLOWED, ids=["threads", "caught"])
+@pytest.mark.parametrize("image, fail, why", [("grey(0.05)", "mean=0.1", "failed: hdrflip: mean"),
+                                              ("grey(1).astype(int)", "mean=0.1", "the image is of int64")])
+def test_a_failed_call_that_nobody_sees_fails_the_session(run, approved, body, image, fail, why):
+    test = HEAD + "from concurrent.futures import ThreadPoolExecutor\ndef test_pool(tonetool_check):" + body
+    words = {"fail": fail}
+    first = approved(test.format(image="grey(0.5)", **words))
+    first.assert_outcomes(passed=1)
+    assert first.ret == 1, "nothing was approved"
+    assert run(None).ret == 0
+    result = run(test.format(image=image, **words))
+    result.assert_outcomes(passed=1)
+    assert result.ret == 1
+    said(result, *(f"ERROR *test_looks/view{i}: *{why}*but its test test_looks.py::test_pool has not failed"
+                   for i in range(2)))
+
+
+def test_a_failed_call_of_a_test_that_is_to_fail_is_told_once(run, approved):
+    approved(looks("grey"))
+    text = looks("grey") + "@pytest.mark.xfail\ndef test_x(tonetool_check):\n    tonetool_check(grey(1), fail='mean=0.1')\n"
+    result = run(text)
+    result.assert_outcomes(passed=1, xfailed=1)
+    assert result.ret == 0 and "has not failed" not in result.stdout.str()
 
 
 def test_an_image_without_a_result_is_not_approved(approved, names):

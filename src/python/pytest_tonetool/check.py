@@ -4,6 +4,7 @@
 import json
 import os
 import shutil
+import uuid
 from pathlib import Path
 
 import pytest
@@ -12,10 +13,18 @@ from .program import approve_line, run_program, statuses, told, typed, write_sui
 from .session import STATE, Store, clean
 
 
+def is_exr(file):
+    """By its name and, where there is anything in it, its first bytes: else the program says what is wrong with it."""
+    if Path(file).suffix.lower() != ".exr":
+        return False
+    with open(file, "rb") as opened:
+        return opened.read(4) in (b"", b"\x76\x2f\x31\x01")
+
+
 def write_image(image, path):
     if isinstance(image, (str, os.PathLike)):
-        if Path(image).suffix.lower() != ".exr":
-            raise ValueError(f"tonetool_check: \"{image}\" is no .exr file (valid: an OpenEXR file, an ImageBuf, an "
+        if not is_exr(image):
+            raise ValueError(f"tonetool_check: \"{image}\" is no OpenEXR file (valid: a .exr file, an ImageBuf, an "
                              "array of float32)")
         shutil.copyfile(image, path)
         return
@@ -28,6 +37,13 @@ def write_image(image, path):
     except ImportError as error:
         raise RuntimeError(f"the module tonetool cannot be loaded: {error}") from None
     tonetool.write_image(image, str(path))
+
+
+def check_limit(fail):
+    if isinstance(fail, str) and fail.strip():
+        return
+    said = "no limit" if fail is None or fail == "" else f"the limit is {fail!r}"
+    raise ValueError(f"tonetool_check: {said} (valid: a string as fail=\"mean=0.3,p99.9=0.6\")")
 
 
 class Check:
@@ -43,14 +59,18 @@ class Check:
 
     def __call__(self, image, fail=None, name=None):
         __tracebackhide__ = True
-        if not isinstance(fail, str) or not fail.strip():
-            raise ValueError("tonetool_check: no limit (valid: fail=\"mean=0.3,p99.9=0.6\")")
         full = f"{clean(Path(self.node.path).stem)}/{clean(name or self.node.name)}"
+        node = self.node.nodeid
         try:
-            self.state.reserve(self.store, full, self.node.nodeid, self.mine)
-            problem = self.judge(image, {"name": full, "fail": fail, "id": self.node.nodeid})
+            check_limit(fail)
+            self.state.reserve(self.store, full, node, self.mine)
+            problem = self.judge(image, {"name": full, "fail": fail, "id": node})
         except (OSError, RuntimeError) as error:
             problem = f"tonetool_check: {full}: {told(error)}"
+        except Exception as error:
+            self.state.remember(node, f"{full}/{uuid.uuid4().hex}", f"{full}: {told(error)}")
+            raise
+        self.state.remember(node, full, problem)
         if problem:
             pytest.fail(problem, pytrace=False)
 

@@ -117,8 +117,8 @@ def finish(config, state):
         told_by_worker = json.loads(file.read_text(encoding="utf-8"))
         state.collected.update((node, tuple(test)) for node, test in told_by_worker.items())
     parts = state.parts()
+    problems, notes = state.swallowed(), []
     page = config.getoption("tonetool_report")
-    problems, notes = [], []
     if page and len(parts) != 1:
         said = "--tonetool-report: no page"
         if parts:

@@ -3,6 +3,7 @@
 
 import contextlib
 import fcntl
+import hashlib
 import json
 import os
 import re
@@ -98,6 +99,22 @@ class State:
             if name in mine or file.read_text(encoding="utf-8") != who:
                 raise ValueError(f"tonetool_check: two images are named {name} (valid: another name=)") from None
         mine.add(name)
+
+    def remember(self, node, name, problem):
+        """What a test was told of an image: if it swallows that, as a thread does, the session fails."""
+        file = self.folder / "problems" / f"{hashlib.sha256(f'{node} {name}'.encode()).hexdigest()}.json"
+        if not problem:
+            file.unlink(missing_ok=True)
+            return
+        self.claim()
+        file.parent.mkdir(exist_ok=True)
+        file.write_text(json.dumps({"id": node, "problem": problem}), encoding="utf-8")
+
+    def swallowed(self):
+        """Problems whose test has passed all the same."""
+        told = [json.loads(file.read_text(encoding="utf-8")) for file in self.folder.glob("problems/*.json")]
+        return sorted(f"{each['problem'].splitlines()[0]}, but its test {each['id']} has not failed"
+                      for each in told if each["id"] not in self.not_passed)
 
     def parts(self):
         """Of each image that was checked, by the folder of its store."""
