@@ -90,10 +90,6 @@ std::string could_be(const ShotResult& shot, bool retire) {
     return names.empty() ? "none, no case needs it" : join(names, " ");
 }
 
-bool is_glob(const std::string& name) {
-    return name.find_first_of("*?[") != std::string::npos;
-}
-
 // A case that is still made is not retired.
 std::string retire_refusal(const FrameResult& frame, bool again) {
     const bool gone = frame.status == Status::Missing && frame.of_suite.sha256.empty();
@@ -115,17 +111,21 @@ Chosen chosen(const ShotResult& shot, const Order& order) {
     }
     std::map<std::string, const FrameResult*> cases;
     std::set<const FrameResult*> left_out;
-    for (const std::string& glob : order.globs) {
+    std::set<std::string> names;
+    for (const FrameResult& frame : shot.frames)
+        names.insert(frame.name);
+    for (const std::string& text : order.globs) {
+        sequence::CaseGlob glob(text);
+        glob.look_at(names);
         bool any = false, left = false;
         std::string refused;
         for (const FrameResult& frame : shot.frames) {
-            if (!sequence::fits_glob(glob, frame.name) &&
-                glob != frame.name) // a name may have the signs of a glob
+            if (!glob.fits(frame.name))
                 continue;
             any = true;
             const std::string why = retire ? retire_refusal(frame, order.has("again"))
                                            : sequence::approval_refusal(frame, order.has("again"));
-            const bool leaves = is_glob(glob) && (retire || frame.status == Status::Passed);
+            const bool leaves = glob.is_pattern() && (retire || frame.status == Status::Passed);
             if (!why.empty() && !leaves)
                 throw CommandError("--approve: " + printable(frame.name) +
                                    " is not approved: " + why);
@@ -141,10 +141,10 @@ Chosen chosen(const ShotResult& shot, const Order& order) {
                                    "approved (valid: a run of one method)");
         }
         if (!any)
-            throw CommandError("--approve: \"" + glob + "\" names no case of the run (valid: " +
+            throw CommandError("--approve: \"" + text + "\" names no case of the run (valid: " +
                                could_be(shot, retire) + ")");
         if (!left)
-            throw CommandError("--approve: \"" + glob + "\" names no case that is to be " +
+            throw CommandError("--approve: \"" + text + "\" names no case that is to be " +
                                "approved: " + refused);
     }
     Chosen found;

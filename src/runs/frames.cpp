@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 
 #include "runs/check_end.h"
 #include "runs/frame_scan.h"
@@ -211,17 +212,19 @@ void choose_cases(FramePlan& plan) {
     }
     const size_t all = plan.runs.size();
     std::vector<bool> chosen(all);
-    for (const std::string& glob : only) {
+    std::set<std::string> names;
+    for (const FrameRun& run : plan.runs)
+        names.insert(run.frame.name);
+    for (const std::string& text : only) {
+        sequence::CaseGlob glob(text);
+        glob.look_at(names);
         bool any = false;
         for (size_t i = 0; i < all; ++i)
-            if (sequence::fits_glob(glob, plan.runs[i].frame.name))
+            if (glob.fits(plan.runs[i].frame.name))
                 chosen[i] = any = true;
         if (!any) {
-            Strings names;
-            for (const FrameRun& run : plan.runs)
-                names.push_back(run.frame.name);
-            const std::string meant = sequence::meant_case(glob, names);
-            throw CommandError("--only " + glob + " names none of the " + std::to_string(all) +
+            const std::string meant = sequence::meant_case(text, {names.begin(), names.end()});
+            throw CommandError("--only " + text + " names none of the " + std::to_string(all) +
                                " cases" + (meant.empty() ? "" : ", " + meant));
         }
     }

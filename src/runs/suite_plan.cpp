@@ -309,7 +309,7 @@ sequence::Files SuitePlan::approved_files() {
     return files;
 }
 
-void SuitePlan::check_rows(const std::vector<sequence::Item>& cases) const {
+void SuitePlan::check_rows(const std::vector<sequence::Item>& cases) {
     std::vector<std::pair<std::string, std::string>> names;
     for (const sequence::Item& item : cases)
         names.emplace_back(item.name, item.method);

@@ -58,7 +58,7 @@ public:
     std::string case_line(const sequence::Item& item) const;
 
     /// Throws a CommandError where a row matches none of the cases.
-    void check_rows(const std::vector<sequence::Item>& cases) const;
+    void check_rows(const std::vector<sequence::Item>& cases);
     /// What is said of a case. `files`: the words of its run, which are replaced where it has a
     /// check of its own.
     SuiteCasePlan plan_case(const sequence::Item& item, Strings& words,

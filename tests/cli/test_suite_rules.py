@@ -381,6 +381,20 @@ def test_only(tonetool, suite):
     assert not (folder / "w.csv").exists()
 
 
+def test_the_whole_name_of_a_case_is_no_glob(images, suite, check):
+    """Cases may be named as globs are: "glas[s]" is not "glass" where both are there."""
+    for side in "rt":
+        shutil.copyfile(images / side / "zinc.exr", images / side / "glas[s].exr")
+    suite({"name": "glas[s]", "fail": "mse=1"})
+    cases = check(status=3)
+    assert cases["glas[s]"]["status"] == "passed"
+    assert "0.01" in json.dumps(cases["glass"]["measurements"][0]["thresholds"])
+    assert list(check("--only", "glas[s]", status=0)) == ["glas[s]"]
+    (images / "t" / "glas[s].exr").unlink()
+    (images / "r" / "glas[s].exr").unlink()
+    assert list(check("--only", "glas[s]", status=0)) == ["glass"]
+
+
 ROWS = [{"name": "hair/*", "fail": "mse=0.05", "why": "curves"}, {"name": "wood", "skip": "x"}]
 
 

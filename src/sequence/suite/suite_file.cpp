@@ -91,9 +91,9 @@ SuiteRow row_from(const Value& from) {
         if (text.empty())
             continue;
         if (key == "name")
-            row.name = text;
+            row.name = CaseGlob(text);
         else if (key == "method")
-            row.method = text;
+            row.method = CaseGlob(text);
         else
             row.settings[key] = {text, row.line};
     }
@@ -149,93 +149,31 @@ Suite suite_of(const Value& from, const std::string& file) {
     return suite;
 }
 
-// Whether `c` is one of the signs of a glob's [...] that begins at `at`, which ends behind it.
-bool in_brackets(const std::string& glob, size_t& at, char c) {
-    size_t i = at + 1;
-    const bool other = i < glob.size() && glob[i] == '!';
-    i += other ? 1 : 0;
-    bool found = false;
-    for (bool first = true; i < glob.size() && (first || glob[i] != ']'); first = false) {
-        const char low = glob[i];
-        const bool range = i + 2 < glob.size() && glob[i + 1] == '-' && glob[i + 2] != ']';
-        const char high = range ? glob[i + 2] : low;
-        const auto byte = [](char sign) { return static_cast<unsigned char>(sign); };
-        found = found || (byte(low) <= byte(c) && byte(c) <= byte(high));
-        i += range ? 3 : 1;
-    }
-    at = i + 1;
-    return found != other;
-}
-
-bool closes_brackets(const std::string& glob, size_t at) {
-    const size_t first = at + 1 + (at + 1 < glob.size() && glob[at + 1] == '!' ? 1 : 0);
-    return glob.find(']', first + 1) != std::string::npos;
-}
-
 } // namespace
-
-std::string meant_case(const std::string& glob, const std::vector<std::string>& names) {
-    std::string name = glob.compare(0, 2, "./") == 0 ? glob.substr(2) : glob;
-    for (const bool whole : {true, false}) {
-        if (!whole) // "gallery.exr"
-            name.resize(std::min(name.rfind('.'), name.size()));
-        const auto near = nearest_names(name, names, 1);
-        if (!near.empty())
-            return "did you mean \"" + near.front() + "\"?";
-    }
-    return "";
-}
-
-bool fits_glob(const std::string& glob, const std::string& text) {
-    size_t g = 0, t = 0, star = std::string::npos, behind = 0;
-    while (t < text.size()) {
-        size_t next = g + 1;
-        bool fits = false;
-        if (g < glob.size() && glob[g] == '*') {
-            star = g++;
-            behind = t;
-            continue;
-        }
-        if (g < glob.size() && glob[g] == '[' && closes_brackets(glob, g)) {
-            next = g;
-            fits = in_brackets(glob, next, text[t]);
-        } else if (g < glob.size()) {
-            fits = glob[g] == '?' || glob[g] == text[t];
-        }
-        if (fits) {
-            g = next;
-            ++t;
-        } else if (star != std::string::npos) { // the star takes one more
-            g = star + 1;
-            t = ++behind;
-        } else {
-            return false;
-        }
-    }
-    while (g < glob.size() && glob[g] == '*')
-        ++g;
-    return g == glob.size();
-}
 
 SuiteSettings Suite::settings_of(const std::string& of_name, const std::string& method) const {
     SuiteSettings settings;
     for (const SuiteRow& row : rows)
-        if (fits_glob(row.name, of_name) && fits_glob(row.method, method))
+        if (row.name.fits(of_name) && row.method.fits(method))
             for (const auto& [key, setting] : row.settings)
                 settings[key] = setting;
     return settings;
 }
 
-std::string Suite::unmatched(const std::vector<std::pair<std::string, std::string>>& cases) const {
-    for (const SuiteRow& row : rows) {
+std::string Suite::unmatched(const std::vector<std::pair<std::string, std::string>>& cases) {
+    std::set<std::string> names, methods;
+    for (const auto& [of_case, method] : cases) {
+        names.insert(of_case);
+        methods.insert(method);
+    }
+    for (SuiteRow& row : rows) {
+        row.name.look_at(names);
+        row.method.look_at(methods);
         const bool any = std::any_of(cases.begin(), cases.end(), [&](const auto& one) {
-            return fits_glob(row.name, one.first) && fits_glob(row.method, one.second);
+            return row.name.fits(one.first) && row.method.fits(one.second);
         });
         if (!any) {
-            std::vector<std::string> names;
-            for (const auto& one : cases)
-                names.push_back(one.first);
-            const std::string meant = meant_case(row.name, names);
+            const std::string meant = meant_case(row.name.text(), {names.begin(), names.end()});
             return row.shown + (meant.empty() ? "" : "\n" + meant);
         }
     }

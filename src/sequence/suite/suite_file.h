@@ -7,6 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include "sequence/suite/case_glob.h"
+
 namespace tonetool::sequence {
 
 /// What a row of the file, or all rows that match a case, say: by key, "fail", "skip", ...
@@ -17,7 +19,7 @@ struct SuiteSetting {
 using SuiteSettings = std::map<std::string, SuiteSetting>;
 
 struct SuiteRow {
-    std::string name = "*", method = "*"; ///< globs
+    CaseGlob name{"*"}, method{"*"};
     SuiteSettings settings;
     int line = 0;
     std::string shown; ///< the row as messages show it, with its line and a caret
@@ -32,20 +34,14 @@ struct Suite {
 
     /// The keys that hold for a case: every row that matches it holds, later ones win.
     SuiteSettings settings_of(const std::string& name, const std::string& method) const;
-    /// What is wrong with the first row that matches none of the cases (their names and methods);
-    /// empty where each matches one.
-    std::string unmatched(const std::vector<std::pair<std::string, std::string>>& cases) const;
+    /// Tells the rows which cases there are (their names and methods). Returns what is wrong with
+    /// the first that matches none; empty where each matches one.
+    std::string unmatched(const std::vector<std::pair<std::string, std::string>>& cases);
     /// A file name of the suite file as the program opens it.
     std::string path(const std::string& name) const;
 };
 
 /// Throws a runtime_error with the line and a caret where the text is no suite.
 Suite suite_from(const std::string& text, const std::string& file);
-
-/// "did you mean "hair/long"?" of a glob that matches none of the cases, or empty.
-std::string meant_case(const std::string& glob, const std::vector<std::string>& names);
-
-/// * stands for any characters, / too, ? for one, [a-z] and [!a-z] for one of them or one other.
-bool fits_glob(const std::string& glob, const std::string& text);
 
 } // namespace tonetool::sequence

@@ -24,7 +24,7 @@ std::string refusal(const std::string& text) {
 }
 
 TEST(SuiteFile, LaterRowsWinKeyByKey) {
-    const Suite suite = suite_from(std::string(kHead) + R"(
+    Suite suite = suite_from(std::string(kHead) + R"(
 [[case]]
 name = "hair/*"
 fail = "mean=0.45"
@@ -40,7 +40,7 @@ why = "noisy"
 name = "glass"
 skip = "flaky until #123"
 )",
-                                   "x/suite.toml");
+                             "x/suite.toml");
     EXPECT_EQ(suite.name, "lookdev");
     EXPECT_EQ(suite.test_line, 4);
     EXPECT_EQ(suite.path(suite.test), "x/renders/%N.exr");
@@ -78,6 +78,17 @@ TEST(SuiteFile, WhatIsWrongIsShownWithItsLine) {
     EXPECT_THAT(refusal("tonetool-suite = 1\ntest = \"%N\"\n"), HasSubstr("has no check"));
     EXPECT_THAT(refusal("tonetool-suite = = 1\n"), HasSubstr("suite.toml"));
     EXPECT_NE(refusal(""), "");
+}
+
+// A case may be named as a glob is.
+TEST(SuiteFile, ARowOfACasesWholeNameIsForThatCaseAlone) {
+    Suite suite = suite_from(
+        std::string(kHead) + "[[case]]\nname = \"a[1]\"\nfail = \"mean=0.9\"\n", "suite.toml");
+    EXPECT_EQ(suite.unmatched({{"a[1]", ""}, {"a1", ""}}), "");
+    EXPECT_EQ(suite.settings_of("a[1]", "").at("fail").text, "mean=0.9");
+    EXPECT_TRUE(suite.settings_of("a1", "").empty());
+    EXPECT_EQ(suite.unmatched({{"a1", ""}}), "");
+    EXPECT_FALSE(suite.settings_of("a1", "").empty());
 }
 
 TEST(FitsGlob, StarsQuestionMarksAndBrackets) {
