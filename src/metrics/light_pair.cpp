@@ -44,7 +44,8 @@ LightPair::Row LightPair::scan(const std::vector<float>& a, const std::vector<fl
     Row row;
     for (size_t at = 0; at < a.size(); at += m_channels) {
         const bool of_a = is_finite(&a[at], m_channels), of_b = is_finite(&b[at], m_channels);
-        row.one_finite += of_a != of_b;
+        if (of_a != of_b && row.one_finite++ == 0)
+            row.first = int64_t(at / m_channels);
         row.both_finite += of_a && of_b;
     }
     row.sums.resize(kSums * m_channels * m_columns);
@@ -75,6 +76,10 @@ LightPair::Row LightPair::scan(const std::vector<float>& a, const std::vector<fl
 void LightPair::add(int64_t y, const Row& row) {
     m_a += row.a;
     m_b += row.b;
+    if (m_one_finite == 0 && row.one_finite > 0) {
+        m_first_x = row.first;
+        m_first_y = y;
+    }
     m_one_finite += row.one_finite;
     m_both_finite += row.both_finite;
     const auto block_row = size_t(y / kSide);
@@ -136,6 +141,8 @@ LightPair::Result LightPair::result() const {
     result.none_finite = m_width > 0 && m_height > 0 && m_both_finite == 0;
     if (m_sums.empty())
         return result;
+    result.one_finite_x = m_first_x;
+    result.one_finite_y = m_first_y;
     result.one_finite = double(m_one_finite) / std::max(double(m_width) * double(m_height), 1.0);
     const double mean = mean_of_a();
     size_t off = 0;

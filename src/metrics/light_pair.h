@@ -23,6 +23,7 @@ public:
         std::vector<double> sums;
         double a = 0, b = 0;
         int64_t one_finite = 0;  ///< pixels that are finite in only one
+        int64_t first = -1;      ///< column of the first of them
         int64_t both_finite = 0; ///< and in both
     };
     /// Rows of interleaved channels. Pixels that are not finite in one of them count in neither.
@@ -35,6 +36,8 @@ public:
         bool none_finite = false; ///< no pixel is finite in both, so nothing was compared
         double blocks = 0;        ///< share of the blocks that differ by more than their noise
         int64_t x = 0, y = 0;     ///< the pixel where the block begins that differs most
+        /// The first pixel that is finite in only one, by rows.
+        int64_t one_finite_x = 0, one_finite_y = 0;
     };
     Result result() const;
 
@@ -50,7 +53,8 @@ private:
     size_t m_channels = 0, m_columns = 0, m_rows = 0;
     std::vector<double> m_sums; ///< a, b, squared differences of neighbours in a, in b
     int64_t m_one_finite = 0, m_both_finite = 0;
-    double m_a = 0, m_b = 0; ///< sums of absolute values of all pixels
+    int64_t m_first_x = 0, m_first_y = 0; ///< the first pixel that is finite in only one
+    double m_a = 0, m_b = 0;              ///< sums of absolute values of all pixels
 };
 
 } // namespace tonetool::metrics

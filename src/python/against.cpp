@@ -47,9 +47,13 @@ void add_against_results(Module& module) {
         .field("name", &L::name, "In the new file.")
         .field("kind", &L::kind, "As of AgainstName.")
         .field("quantities", &L::quantities,
-               "Off, median, off10, one, mismatch, gain, blocks, alpha_mean, alpha_off: by kind.")
+               "By kind: off; median, off10, one; median, off; mismatch; gain, blocks, one_finite, "
+               "none_finite; alpha_mean, alpha_off.")
         .field("x", &L::x, "Column where they differ most.")
         .field("y", &L::y, "Row where they differ most.")
+        .field("one_finite_x", &L::one_finite_x,
+               "Column of the first pixel that is finite in only one; 0 without any.")
+        .field("one_finite_y", &L::one_finite_y, "Row of that pixel.")
         .finish();
     using A = AgainstFacts;
     ResultClass<A>(module, "AgainstFacts", "A file and its approved version.")

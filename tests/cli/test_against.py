@@ -446,13 +446,21 @@ def test_pixels_that_are_not_finite(against, layers):
         assert against(spoiled(approved_frame(), value, *every),
                        spoiled(new_frame(), value, *every))[1] == []
         assert all(np.isfinite(v) for one in layers().values() for v in one.values())
-#Light is compared where both have it; data that is none differs.
+        # Light is compared where both have it; data that is none differs.
         assert against(approved_frame(), spoiled(new_frame(), value, "Combined_key"))[1] == \
             ["error nonfinite"]
         assert against(None, spoiled(new_frame(), value, "Depth"))[1] == ["error depth"]
         assert against(None, spoiled(new_frame(), value, "Vector"))[1] == ["error vectoroff"]
     assert against(spoiled(approved_frame(), np.inf, "Depth"),
                    spoiled(new_frame(), FAR, "Depth"))[1] == []
+
+
+def test_pixels_that_are_not_finite_have_a_place(against):
+    frame = new_frame()
+    frame.layers["Combined_key"][17:23, 30:50] = np.nan
+    ran, found = against(approved_frame(), frame)
+    assert found == ["error nonfinite"]
+    assert "NaN or infinite in only one version" in ran.out and "of the pixels, first at (30, 17)" in ran.out
 
 
 @pytest.mark.parametrize("name", ["Combined", "Combined_key", "DiffCol"])

@@ -262,6 +262,8 @@ AgainstLayer AgainstScan::result_of(const Pair& pair) const {
             out.quantities["none_finite"] = 1;
         out.x = int(result.x) + pair.window.xbegin;
         out.y = int(result.y) + pair.window.ybegin;
+        out.one_finite_x = int(result.one_finite_x) + pair.window.xbegin;
+        out.one_finite_y = int(result.one_finite_y) + pair.window.ybegin;
     } else if (*pair.data == PairKind::Normal) {
         out.quantities = {{"median", sums.steps.quantile(0.5)},
                           {"off10", double(sums.off) / double(std::max<int64_t>(sums.both, 1))},

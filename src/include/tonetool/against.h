@@ -50,6 +50,8 @@ struct AgainstLayer {
     /// data: off.
     std::map<std::string, double> quantities;
     int x = 0, y = 0; ///< where they differ most
+    /// The first pixel that is finite in only one, where there is one.
+    int one_finite_x = 0, one_finite_y = 0;
 };
 
 struct AgainstFacts {

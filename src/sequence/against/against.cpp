@@ -83,8 +83,9 @@ std::string sentence_of(const AgainstLayer& layer, const Beyond& beyond) {
     else if (quantity == "none_finite")
         return format("{} has no pixel that is finite in both versions", what);
     else if (quantity == "one_finite")
-        text = format("{} is NaN or infinite in only one version in {} of the pixels", what,
-                      percent(value));
+        return format(
+            "{} is NaN or infinite in only one version in {} of the pixels, first at ({}, {})",
+            what, percent(value), layer.one_finite_x, layer.one_finite_y);
     else if (quantity == "median")
         text = format("{} is {:.3g} {} off the approved one (median)", what, value,
                       layer.kind == "normal" ? "degrees" : "pixels");
@@ -112,7 +113,9 @@ Fault fault_of(const AgainstLayer& layer, const Beyond& beyond) {
     fault.sentence = sentence_of(layer, beyond);
     fault.layer = layer.name;
     if (!beyond.quantity->kind.empty())
-        fault.position = Position{layer.x, layer.y};
+        fault.position = beyond.quantity->quantity == "one_finite"
+                             ? Position{layer.one_finite_x, layer.one_finite_y}
+                             : Position{layer.x, layer.y};
     fault.value = beyond.value;
     fault.threshold = beyond.limit;
     return fault;

@@ -40,10 +40,14 @@ AgainstDifference difference_of(const ordered_json& from) {
 }
 
 ordered_json json_of(const AgainstLayer& layer) {
-    return {{"name", layer.name},
-            {"kind", layer.kind},
-            {"quantities", layer.quantities},
-            {"at", {layer.x, layer.y}}};
+    ordered_json to = {{"name", layer.name},
+                       {"kind", layer.kind},
+                       {"quantities", layer.quantities},
+                       {"at", {layer.x, layer.y}}};
+    const auto share = layer.quantities.find("one_finite");
+    if (share != layer.quantities.end() && share->second > 0)
+        to["one_finite_at"] = {layer.one_finite_x, layer.one_finite_y};
+    return to;
 }
 
 AgainstLayer layer_from(const ordered_json& from) {
@@ -54,6 +58,10 @@ AgainstLayer layer_from(const ordered_json& from) {
         layer.quantities[name] = finite_number(value, name.c_str());
     layer.x = whole_number<int>(from.at("at").at(0), "at");
     layer.y = whole_number<int>(from.at("at").at(1), "at");
+    if (const auto at = from.find("one_finite_at"); at != from.end()) {
+        layer.one_finite_x = whole_number<int>(at->at(0), "one_finite_at");
+        layer.one_finite_y = whole_number<int>(at->at(1), "one_finite_at");
+    }
     return layer;
 }
 
