@@ -45,6 +45,7 @@ private:
     bool measure_shots();
     std::vector<FrameLight> measure_shot(const ShotCommand& command, bool alone);
     void tell_unmeasured(const LightFrames& frames);
+    void tell(const std::string& warning);
     int check();
     /// The line ends with a verdict of its frames.
     bool judges_frames() const {
@@ -76,6 +77,8 @@ int PlanRun::run() {
         if (!commands_are_right(m_plan, m_err, m_workers))
             return 1;
     }
+    for (const std::string& warning : m_plan.warnings)
+        tell(warning);
     if (m_plan.check.only_validates) {
         read_exposures();
         m_out << plan_text(m_plan);
@@ -111,7 +114,7 @@ int PlanRun::check() {
     shot.cases = m_plan.cases;
     conclude(shot);
     const int concluded = conclude_check(shot, m_plan, *m_pictures, frames.unkept(), m_out, m_err);
-    return m_plan.check.has("exit-zero") ? concluded : worse(status, concluded);
+    return m_plan.check.has("exit-zero") ? concluded : worse(m_measured, worse(status, concluded));
 }
 
 void PlanRun::prepare() {
@@ -226,7 +229,12 @@ void PlanRun::tell_unmeasured(const LightFrames& frames) {
     if (!m_plan.skip_bad && !judges_frames())
         throw CommandError(text + " (valid: all frames, --skip-bad-frames for a shot without them, "
                                   "adapt=FILE of --statistics, adapt=frame)");
-    m_err << "tonetool WARNING: " << printable(text) << std::endl;
+    tell(text);
+}
+
+// A warning of no frame.
+void PlanRun::tell(const std::string& warning) {
+    m_err << "tonetool WARNING: " << printable(warning) << std::endl;
     m_measured = worse(m_measured, m_plan.warnings_exit ? 2 : 0);
 }
 

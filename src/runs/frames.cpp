@@ -73,6 +73,8 @@ void pair_frames(Scan& scan, const Files& numbered, std::vector<Files>& listings
     if (!sides.empty()) {
         pairs = sequence::pair_sides(sides, scan.options);
         add_missing_views(pairs, sides, scan.options);
+        if (const std::string unseen = sequence::left_out(sides); !unseen.empty())
+            plan.warnings.push_back(unseen);
     } else if (pairs.items.empty() && !scan.options.frames.empty()) {
         pairs.items = frames_given(scan); // for outputs alone
     }

@@ -38,10 +38,11 @@ struct FramePlan {
     int parallel = 1;
     std::string progress; ///< "json", or "" for a terminal
     CheckPlan check;
-    std::vector<size_t> sequences;    ///< of a check: indices of the input words with wildcards
-    sequence::PatternOptions options; ///< how names are taken apart
-    std::shared_ptr<SuitePlan> suite; ///< of --suite
-    size_t cases = 0;                 ///< that there are, where --only chose some of them
+    std::vector<size_t> sequences;     ///< of a check: indices of the input words with wildcards
+    sequence::PatternOptions options;  ///< how names are taken apart
+    std::shared_ptr<SuitePlan> suite;  ///< of --suite
+    std::vector<std::string> warnings; ///< of the line, not of a frame
+    size_t cases = 0;                  ///< that there are, where --only chose some of them
 
     /// Those of a run: a suite has cases whose check is another.
     const chain::ParsedLine& line_of(const FrameRun& run) const {

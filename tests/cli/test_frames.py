@@ -330,6 +330,19 @@ def test_ranges_of_equal_length_pair_by_position(tonetool, pair_of_shots):
     assert (pair_of_shots / "m.json").read_bytes() == (pair_of_shots / "c.json").read_bytes()
 
 
+def test_a_range_in_one_name_says_what_it_leaves_out(tonetool, pair_of_shots):
+    said = ('tonetool WARNING: "r.#.exr" also has frame 3, which the range of "t.1-2#.exr" leaves out '
+            "(valid: --frames 1-2 if that is meant")
+    passes = "--hdrflip:fail=max=0.999"
+    assert said in tonetool("r.#.exr", "t.1-2#.exr", passes).err
+    assert said in tonetool("--dry-run", "r.#.exr", "t.1-2#.exr", passes).err
+    tonetool("--warnings-exit", "r.#.exr", "t.1-2#.exr", passes, status=2)
+    ran = tonetool("r.1-2#.exr", "t.#.exr", "--against")
+    assert '"t.#.exr" also has frame 3' in ran.err
+    for words in (["r.1-2#.exr", "t.1-2#.exr"], ["--frames", "1-2", *SHOTS]):
+        assert tonetool("--warnings-exit", *words, passes).err == ""
+
+
 def test_files_on_the_disk_are_names(tonetool, pair_of_shots, make_image):
     os.mkfifo(pair_of_shots / "t.0004.exr")
     make_image("r.0004.exr")

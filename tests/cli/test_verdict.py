@@ -347,6 +347,7 @@ def test_several_limits_of_one_measurement(tonetool, pair, tmp_path):
     ("hdrflip:fail=above0.1=1", "above0.1 is never above 1"),
     ("hdrflip:fail=above=0.1", "needs above=E"),
     ("hdrflip:above=1", "no error is above it"),
+    ("hdrflip:above=0.05:fail=0.5", "above= is not what the limit without a name is of, which is mean"),
     ("hdrflip:fail=above1=0", "no error is above it"),
     ("hdrflip:fail=mean=0.5,above1.5=0.1", "no error is above it"),
     ("errormap:metric=smape:fail=above1=0", "no error is above it"),

@@ -35,6 +35,10 @@ public:
             throw CommandError("quantity= is of a limit without a name (valid: fail=X, or "
                                "fail=QUANTITY=X without quantity=)");
         }
+        if (m_call.has("above") && m_used_default && !quantity) {
+            throw CommandError("above= is not what the limit without a name is of, which is " +
+                               m_default + " (valid: fail=above=X, or fail=" + m_default + "=X)");
+        }
         return m_limits;
     }
 

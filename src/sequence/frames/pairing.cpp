@@ -156,6 +156,26 @@ Pairing pair_sides(const std::vector<Side>& sides, const PatternOptions& options
     return pairing;
 }
 
+std::string left_out(const std::vector<Side>& sides) {
+    const Side* range = first_range(sides);
+    if (!range)
+        return "";
+    const std::vector<int> chosen = numbers_of(range->files.items);
+    for (const Side& side : sides) {
+        const std::vector<int> own = numbers_of(side.files.items);
+        std::vector<int> rest;
+        std::set_difference(own.begin(), own.end(), chosen.begin(), chosen.end(),
+                            std::back_inserter(rest));
+        if (side.files.from_disk && !rest.empty()) {
+            return "\"" + side.pattern + "\" also has " +
+                   (rest.size() == 1 ? "frame " : "frames ") + range_text(rest) +
+                   ", which the range of \"" + range->pattern + "\" leaves out (valid: --frames " +
+                   range_text(chosen) + " if that is meant, or no range in the name)";
+        }
+    }
+    return "";
+}
+
 void check_same_numbers(const std::vector<Side>& sides) {
     for (const Side& side : sides) {
         const Side& first = sides.front();

@@ -41,6 +41,10 @@ void fill_holes(std::set<Item>& keys);
 /// common.
 Pairing pair_sides(const std::vector<Side>& sides, const PatternOptions& options);
 
+/// What a range in one name leaves out of what another has on the disk, as a sentence; empty where
+/// that is nothing. A --frames or a range in each name says that it is meant.
+std::string left_out(const std::vector<Side>& sides);
+
 /// Throws a runtime_error that names the numbers where pairing by position would pair files of
 /// different numbers although no range asks for it.
 void check_same_numbers(const std::vector<Side>& sides);
