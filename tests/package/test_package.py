@@ -208,7 +208,9 @@ def test_find_package(tree, mean, tmp_path):
 
 
 def test_example_fails_with_the_reason(tree, tmp_path):
-    run(CMAKE, "-S", HERE / "example", "-B", tmp_path, f"-DCMAKE_PREFIX_PATH={tree}")
+    """Also where the project's own standard is an older one, as clang 14's default is."""
+    run(CMAKE, "-S", HERE / "example", "-B", tmp_path, f"-DCMAKE_PREFIX_PATH={tree}",
+        "-DCMAKE_CXX_STANDARD=14")
     run(CMAKE, "--build", tmp_path)
     text = run(tmp_path / "example", PAIR[0], tmp_path / "none.exr", status=1)
     assert "hdr_flip" in text and "none.exr" in text
@@ -232,7 +234,7 @@ def test_guide_shows_the_example():
 
 def test_installed_python_module(tree):
     found = list(tree.glob("lib/python3*/dist-packages/tonetool/__init__.py"))
-    if not found and os.environ.get("PYTHON_MODULE") == "OFF":
+    if os.environ.get("PYTHON_MODULE") == "OFF":
         pytest.skip("built without the Python module")
     (package,) = found
     code = ("import tonetool, OpenImageIO as o; print(tonetool.__file__); "
@@ -251,7 +253,7 @@ def test_cornell(tonetool_check):
 def test_installed_plugin_of_pytest(tree, tmp_path):
     """Found by its entry point, and finds the program of its own tree; nothing else says where they are."""
     found = list(tree.glob("lib/python3*/dist-packages/pytest_tonetool"))
-    if not found and os.environ.get("PYTHON_MODULE") == "OFF":
+    if os.environ.get("PYTHON_MODULE") == "OFF":
         pytest.skip("built without the Python module")
     (module,) = found
     assert {path.name for path in module.parent.glob("tonetool-*.dist-info/*")} == {
