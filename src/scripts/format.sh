@@ -17,6 +17,12 @@ if [[ ${1:-} == --check ]]; then
 fi
 if [[ $# -gt 0 ]]; then
     files=("$@")
+    for file in "${files[@]}"; do # clang-format takes Python for C++
+        [[ $file == *.@(cpp|h) ]] || {
+            echo "format.sh: \"$file\" is no C++ source (valid: .cpp, .h)" >&2
+            exit 1
+        }
+    done
 else
     mapfile -t files < <(find src tests plugins -name '*.cpp' -o -name '*.h' | sort)
 fi

@@ -1,4 +1,4 @@
-#SPDX - License - Identifier : BSD - 3 - Clause
+# SPDX-License-Identifier: BSD-3-Clause
 """--against: each difference from the approved version alone, and what is none."""
 
 import json
@@ -49,8 +49,7 @@ def layers(tmp_path):
 
     def read():
         frame = json.loads((tmp_path / "check.json").read_text())["frames"][0]
-        return {one["name"]: one["quantities"] for one in frame["against"]["layers"]
-}
+        return {one["name"]: one["quantities"] for one in frame["against"]["layers"]}
 
     return read
 
@@ -92,7 +91,8 @@ TILTED = np.array([[1, 0, 0], [0, np.cos(0.02), np.sin(0.02)], [0, -np.sin(0.02)
 def of(name, share, change):
     return layer(name, part(int(share * PIXELS), change))
 
-#What is done to the new version, and all that must be found.
+
+# What is done to the new version, and all that must be found.
 DIFFERENCES = {
     "layermissing": (without("DiffCol"), "error layermissing"),
     "layerextra": (added("Extra"), "warning layerextra"),
@@ -132,7 +132,7 @@ DIFFERENCES = {
     "albedo little": (layer("DiffCol", lambda a: a * 1.02), "warning albedo"),
     "albedo": (layer("DiffCol", lambda a: a * 0.9), "error albedo"),
 }
-#A row of blocks, and one of them : their median stays.
+# A row of blocks, and one of them: their median stays.
 for _name, _code, _few in (("Combined", "color", 32), ("Combined_key", "group", 80),
                            ("DiffCol", "albedo", 16)):
     def _darker(width, name=_name):
@@ -154,9 +154,7 @@ def test_each_difference_alone(against, name):
 
 def test_other_noise_is_no_difference_and_the_same_pixels_are_none_at_all(against, layers):
     assert against(approved_frame(), new_frame())[1] == []
-    assert {layers()[name]["off"] for name in ("Depth", "Position")} == {
-        0
-    }
+    assert {layers()[name]["off"] for name in ("Depth", "Position")} == {0}
     for name in ("Combined", "Combined_key", "Combined_env", "Combined_rim"):
         assert abs(layers()[name]["gain"]) < 0.01 and layers()[name]["blocks"] == 0
     ran, found = against(new_frame(), new_frame())
@@ -201,7 +199,8 @@ def test_a_frame_rate_is_a_number_however_it_is_written(against):
     other = header(framesPerSecond=(oiio.TypeDesc("rational"), (24000, 1001)))
     assert against(None, other(new_frame(), 0, None))[1] == ["error header"]
 
-#The file says that it is ACEScg, and the light is the same.
+
+# The file says that it is ACEScg, and the light is the same.
 def test_another_space_is_told_and_the_light_compared(against):
     turn = colors(lambda a: a @ TO_ACESCG.T)
     new = turn(new_frame(), 0, None)
@@ -333,9 +332,7 @@ def in_two_parts(path, frame, window=None, **attributes):
         spec.channelnames = tuple(channel for channel, *_ in chosen)
         spec.attribute("oiio:subimagename", "picture" if first else "data")
         spec.attribute("compression", "zip")
-        for key, value in {
-            **frame.attributes, **({} if first else attributes)
-        }.items():
+        for key, value in {**frame.attributes, **({} if first else attributes)}.items():
             spec.attribute(key, value)
         specs.append(spec)
     output = oiio.ImageOutput.create("parts.exr")
@@ -492,7 +489,8 @@ def test_small_images(against, size):
     turned = layer("Normal", lambda a: -a)(small(approved_frame()), 0, None)
     assert against(None, turned)[1] == ["error normal"]
 
-#-- -- shots
+
+# ---- shots
 
 
 @pytest.fixture

@@ -1,4 +1,4 @@
-#SPDX - License - Identifier : BSD - 3 - Clause
+# SPDX-License-Identifier: BSD-3-Clause
 """--approve and --approved: nothing else writes to a store, and what is in it is what was seen."""
 
 import hashlib
@@ -44,12 +44,13 @@ def load(path):
 
 
 def statuses(folder):
-    return {frame["name"]: frame["status"] for frame in load(folder / "run.json")["frames"]
-}
+    return {frame["name"]: frame["status"] for frame in load(folder / "run.json")["frames"]}
 
-def contents(folder) : return {str(path.relative_to(folder)): (path.read_bytes(), path.stat().st_mtime_ns)
-            for path in sorted(folder.rglob("*")) if path.is_file()
-}
+
+def contents(folder):
+    return {str(path.relative_to(folder)): (path.read_bytes(), path.stat().st_mtime_ns)
+            for path in sorted(folder.rglob("*")) if path.is_file()}
+
 
 def record(folder, name):
     return load(folder / f"approved/{name}.approved.json")["images"]
@@ -126,7 +127,7 @@ def test_again_add_and_retire(tonetool, approved):
     first = record(approved, "a")[0]
     shutil.copy(approved / "grey.exr", approved / "t/a.exr")
     tonetool(*CHECK, status=3)
-#Of* only what did not pass.
+    # Of * only what did not pass.
     ran = tonetool("--approve", "run.json", "*", "--add", "--reason", "two looks")
     assert "2 that passed left as approved" in ran.out and "approved: b" not in ran.out
     assert len(record(approved, "a")) == 2 and len(record(approved, "b")) == 1

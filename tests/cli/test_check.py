@@ -1,4 +1,4 @@
-#SPDX - License - Identifier : BSD - 3 - Clause
+# SPDX-License-Identifier: BSD-3-Clause
 """Checks of sequences: every frame has a result, and the worst of them is the exit status."""
 
 import csv
@@ -36,8 +36,8 @@ def pair(*words):
 
 
 def statuses(folder, name="c.json"):
-    return {frame["frame"]: frame["status"] for frame in load(folder / name)["frames"]
-}
+    return {frame["frame"]: frame["status"] for frame in load(folder / name)["frames"]}
+
 
 def load(path):
     return json.loads(path.read_text(encoding="utf-8"))
@@ -47,7 +47,8 @@ def image_bytes(make_image, tmp_path, name, **options):
     make_image(name, **options)
     return (tmp_path / name).read_bytes()
 
-#-- -- what is found
+
+# ---- what is found
 
 @pytest.mark.parametrize("exposures", ["frame", "shot"])
 def test_the_frame_without_its_light_group_is_found(tonetool, anim, exposures):
@@ -99,7 +100,8 @@ def test_the_json_is_what_its_schema_says(tonetool, anim):
     with pytest.raises(schema.ValidationError):
         schema.validate(found, description)
 
-#-- -- frames that cannot be compared
+
+# ---- frames that cannot be compared
 
 def damage(anim):
     (anim / "test.0002.exr").unlink()
@@ -113,16 +115,8 @@ def damage(anim):
     shutil.copy(ANIM / "ref.0001.exr", anim / "ref.0009.exr")
 
 
-DAMAGED = {
-    1 : "passed",
-        2 : "missing",
-            3 : "unreadable",
-                4 : "unreadable",
-                    5 : "failed",
-                        6 : "size mismatch",
-                            7 : "missing",
-                                8 : "unreadable",
-                                    9 : "missing"}
+DAMAGED = {1: "passed", 2: "missing", 3: "unreadable", 4: "unreadable", 5: "failed",
+           6: "size mismatch", 7: "missing", 8: "unreadable", 9: "missing"}
 
 
 @pytest.mark.parametrize("exposures", ["frame", "shot"])
@@ -226,7 +220,8 @@ def test_warnings(tonetool, anim):
     tonetool(*words, "--state", "s")
     tonetool("--warnings-exit", *words, "--state", "s", status=2)
 
-#-- -- exposures of the shot
+
+# ---- exposures of the shot
 
 def test_a_shot_has_one_range(tonetool, anim):
     tonetool(*pair(flip("shot"), "--json", "c.json"), status=3)
@@ -300,7 +295,8 @@ def test_a_full_disk_is_an_error(tonetool, anim):
     ran = tonetool("--frames", "1", *pair(flip(), "--json", "/dev/full"), status=1)
     assert "No space left" in ran.err
 
-#-- -- parts
+
+# ---- parts
 
 SPLITS = {"one": [(n, n) for n in range(1, 9)], "fours": [(5, 8), (1, 4)], "all": [(1, 8)],
           "mixed": [(3, 3), (4, 8), (1, 2)]}
@@ -385,8 +381,7 @@ def zero(part, measured, threshold):
     measured["quantities"][threshold["quantity"]] = threshold["value"] = 0.0
 
 
-DIFFERS = {
-    "quantity" : "differing-pixels", "value" : 0.0, "higher_is_better" : False, "fail" : 0.0}
+DIFFERS = {"quantity": "differing-pixels", "value": 0.0, "higher_is_better": False, "fail": 0.0}
 
 
 @pytest.mark.parametrize("words, change, text", [
@@ -415,19 +410,18 @@ def test_without_a_limit_the_worst_frame_is_the_lowest_where_higher_is_better(to
         value = {f["frame"]: f["measurements"][0]["quantities"][metric] for f in found["frames"]}
         assert found["worst"] == [{"frame": min(value, key=lambda one: float(value[one]))}]
 
-#-- -- state
+
+# ---- state
 
 def test_a_state_gives_the_same_bytes_and_what_has_changed_is_checked_anew(tonetool, anim):
     words = pair(flip("shot"), "--json", "c.json", "-o", "map.#.exr")
     first = tonetool(*words, "--state", "s", status=3)
     bytes_of_first = (anim / "c.json").read_bytes()
-    kept = {
-file: file.stat().st_mtime_ns for file in (anim / "s").iterdir()}
+    kept = {file: file.stat().st_mtime_ns for file in (anim / "s").iterdir()}
     assert len(kept) == 16
     again = tonetool(*words, "--state", "s", status=3)
     assert again.out == first.out and (anim / "c.json").read_bytes() == bytes_of_first
-    assert {
-file: file.stat().st_mtime_ns for file in (anim / "s").iterdir()} == kept
+    assert {file: file.stat().st_mtime_ns for file in (anim / "s").iterdir()} == kept
 
     shutil.copy(ANIM / "ref.0005.exr", anim / "test.0005.exr")
     (anim / "map.0003.exr").unlink()
@@ -455,12 +449,7 @@ file_rules: [!<Rule> {name: Default, colorspace: default}]
 displays: {sRGB: [!<View> {name: V, colorspace: out}]}
 colorspaces:
   - !<ColorSpace> {name: lin_srgb, encoding: scene-linear}
-  - !<ColorSpace> {
-name:
-    out, from_scene_reference : !<FileTransform> {
-    src:
-        $LK, interpolation : linear
-    }}
+  - !<ColorSpace> {name: out, from_scene_reference: !<FileTransform> {src: $LK, interpolation: linear}}
 """
 
 
@@ -496,8 +485,7 @@ def test_a_state_knows_all_that_a_configuration_reads(tonetool, make_image, tmp_
         monkeypatch.setenv("LK", "lut2.spi1d")
     else:
         (tmp_path / "in.ctf").write_text(matrix.format("1.0"))
-    tonetool(*words, status=3, **({
-    "env" : dict(os.environ)} if how == "environment" else {}))
+    tonetool(*words, status=3, **({"env": dict(os.environ)} if how == "environment" else {}))
 
 
 def test_a_damaged_state_is_made_anew(tonetool, anim):
@@ -539,8 +527,7 @@ def test_killed_at_a_random_moment_and_resumed(program, tmp_path_factory, turn):
         (folder / "wanted").mkdir()
         for name in outputs:
             (folder / name).rename(folder / "wanted" / name)
-    wanted = {
-name: (folder / "wanted" / name).read_bytes() for name in outputs}
+    wanted = {name: (folder / "wanted" / name).read_bytes() for name in outputs}
     words += ["--state", "s"]
     shutil.rmtree(folder / "s", ignore_errors=True)
     for name in outputs:
@@ -562,7 +549,8 @@ name: (folder / "wanted" / name).read_bytes() for name in outputs}
         load(file)
     assert leftovers(folder) == []
 
-#-- -- names
+
+# ---- names
 
 @pytest.mark.parametrize("name", ["<img onerror=alert(1)>", "a,b\"c", "=cmd", "it's & so"])
 def test_names_are_only_text(tonetool, make_image, tmp_path, name):
@@ -590,7 +578,8 @@ def test_only_named_files_are_written(tonetool, anim):
     assert set(os.listdir(anim)) - before == {"out"}
     assert set(os.listdir(anim / "out")) == {"c.json", "c.csv", "c.xml", "s"}
 
-#-- -- progress
+
+# ---- progress
 
 def test_a_line_for_every_finished_frame(tonetool, anim):
     ran = tonetool("-v", "--jobs", "2", *pair(flip(), "--json", "c.json"), status=3)

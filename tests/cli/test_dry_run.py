@@ -1,4 +1,4 @@
-#SPDX - License - Identifier : BSD - 3 - Clause
+# SPDX-License-Identifier: BSD-3-Clause
 """What is wrong with a check is said before its first frame is read, and --dry-run says it alone."""
 
 import json
@@ -107,7 +107,7 @@ def test_a_layer_that_one_frame_has_is_no_mistake_of_the_line(tonetool, make_ima
     tonetool(*words, status=1)
     found = json.loads((tmp_path / "c.json").read_text(encoding="utf-8"))["frames"]
     assert [frame["status"] for frame in found][:2] == ["error", "error"]
-#So a part of frames without it is a result, too.
+    # So a part of frames without it is a result, too.
     tonetool("--frames", "1-2", *words[:2], "--exit-zero", "--json", "part.json")
     (tmp_path / "a.0003.exr").unlink()
     ran = tonetool("--frames", "1-2", *words, status=1)

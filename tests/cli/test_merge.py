@@ -1,4 +1,4 @@
-#SPDX - License - Identifier : BSD - 3 - Clause
+# SPDX-License-Identifier: BSD-3-Clause
 """--merge of very many parts: how they are named, what they come to, and files of other versions."""
 
 import json
@@ -114,7 +114,7 @@ def test_damaged_parts(tonetool, parts, change, text):
     ran = tonetool("--merge", "p", "--frames", "1-6", "--json", "c.json", status=1)
     assert load(parts / "c.json")["frames"][1]["status"] == "error"
 
-#-- -- what no part has
+# ---- what no part has
 
 @pytest.mark.parametrize("there, lacking", [((1, 2, 5, 6), [3, 4]), ((1, 2, 4), [3]), ((1, 3), [2]),
                                             ((1, 3, 5), []), ((2, 5), [3, 4]), ((6,), [])])
@@ -134,7 +134,37 @@ def test_a_frame_between_those_of_the_parts_is_missed(tonetool, parts, there, la
     tonetool("--merge", *files, "--frames", listed, "--json", "c.json", status=3 if 4 in there or gap_of_qc else 0)
     assert [frame["frame"] for frame in load(parts / "c.json")["frames"]] == list(there)
 
-#-- -- versions
+# ---- parts of another day
+
+def later(file, part):
+    """As if the file had been rendered a second after the part was made."""
+    made = part.stat().st_mtime_ns
+    os.utime(file, ns=(made + 10**9, made + 10**9))
+
+
+def test_a_frame_that_was_rendered_after_its_part_is_an_error(tonetool, parts):
+    later(parts / "a.0005.exr", parts / "p" / "5.json")
+    for words in ([], ["--frames", "1-6"]):
+        ran = tonetool("--merge", "p", *words, "--json", "c.json", status=1)
+        assert "1 error, 1 failed, 4 passed" in ran.out
+        assert load(parts / "c.json")["frames"][4]["message"] == (
+            '"a.0005.exr" was written after the part "p/5.json" (valid: a part that is made again)')
+    tonetool("--merge", "p/5.json")  # an old result, printed again
+    tonetool("--frames", "5", "a.#.exr", "--qc", "--json", "p/5.json")
+    os.utime(parts / "a.0005.exr")
+    later(parts / "p" / "5.json", parts / "a.0005.exr")
+    assert "1 failed, 5 passed" in tonetool("--merge", "p", status=3).out
+
+
+def test_a_part_that_found_a_fault_keeps_it(tonetool, parts):
+    (parts / "a.0004.exr").rename(parts / "gone.exr")
+    tonetool("--frames", "4", "a.#.exr", "--qc", "--exit-zero", "--json", "p/4.json")
+    (parts / "gone.exr").rename(parts / "a.0004.exr")
+    later(parts / "a.0004.exr", parts / "p" / "4.json")
+    assert "1 missing, 5 passed" in tonetool("--merge", "p", status=1).out
+
+
+# ---- versions
 
 def test_a_file_of_version_1_is_refused(tonetool, tmp_path):
     """What --qc kept of a frame was another."""
@@ -153,8 +183,7 @@ def test_parts_that_two_versions_measured_are_refused(tonetool, parts, measured_
     own = load(part)["program"]
     assert own == "tonetool " + tonetool("--version").out.splitlines()[0]
     changed = {key: value for key, value in load(part).items() if key != "program"}
-    part.write_text(json.dumps({
-    **changed, **({ "program" : measured_by } if measured_by else {})}))
+    part.write_text(json.dumps({**changed, **({"program": measured_by} if measured_by else {})}))
     ran = tonetool("--merge", "p", "--json", "c.json", status=1)
     assert f'p/2.json" was made by {said}' in ran.err and f'p/1.json" by {own}' in ran.err
     assert "(valid: parts of one version)" in ran.err
@@ -173,7 +202,8 @@ def test_files_of_other_versions_are_refused(tonetool, parts, version, text):
     assert '"p/2.json": ' in ran.err and text in ran.err
     assert not (parts / "c.json").exists()
 
-#-- -- a long shot
+
+# ---- a long shot
 
 def test_two_thousand_parts(program, parts, plain_memory):
     """A fifth of a long shot. The facts of a frame take about 25 kB of memory, its text and what

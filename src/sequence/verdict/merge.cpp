@@ -6,6 +6,7 @@
 #include <set>
 #include <stdexcept>
 
+#include "sequence/frames/file_stamp.h"
 #include "sequence/frames/pairing.h"
 #include "sequence/results/results_json.h"
 #include "sequence/results/shot_exposures.h"
@@ -79,6 +80,20 @@ void add_frames_without_result(ShotResult& shot, const std::vector<Item>& expect
     }
 }
 
+// A part that an earlier task has left says nothing of what was rendered since.
+void mark_outdated(ShotResult& part, const std::string& file) {
+    const int64_t made = stamp_of(file).written;
+    for (FrameResult& frame : part.frames) {
+        for (const std::string& image : {frame.reference, frame.test}) {
+            if (frame.status > Status::Failed || image.empty() || stamp_of(image).written <= made)
+                continue;
+            frame.status = Status::Error;
+            frame.message = "\"" + image + "\" was written after the part \"" + file +
+                            "\" (valid: a part that is made again)";
+        }
+    }
+}
+
 // The frames of the parts and, of each case and view, those in between: that all parts lack one
 // says nothing of it.
 std::vector<Item> filled(const std::vector<FrameResult>& frames) {
@@ -119,6 +134,8 @@ ShotResult merged(const std::vector<std::string>& parts, const std::vector<Item>
             whole.suite = part.suite;
         }
         check_same(whole, part, first, file);
+        if (parts.size() > 1) // one alone is an old result that is printed again
+            mark_outdated(part, file);
         whole.cases = std::max(whole.cases, part.cases);
         std::move(part.frames.begin(), part.frames.end(), std::back_inserter(whole.frames));
         std::move(part.accepted.begin(), part.accepted.end(), std::back_inserter(whole.accepted));

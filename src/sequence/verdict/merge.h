@@ -14,7 +14,8 @@ namespace tonetool::sequence {
 /// Frames of `expected` that no part has are Errors; if it is empty, the frames of the parts and
 /// those between them (fill_holes()) are expected, and a part that cannot be read is a
 /// runtime_error, as are parts of different checks and frames that are there twice. With `expected`
-/// an unreadable part only adds a line to `complaints`.
+/// an unreadable part only adds a line to `complaints`. Of several parts, frames whose images were
+/// written after their part are Errors, where the images are to be found.
 ShotResult merged(const std::vector<std::string>& parts, const std::vector<Item>& expected,
                   std::vector<std::string>& complaints);
 
