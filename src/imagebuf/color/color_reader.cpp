@@ -7,6 +7,7 @@
 #include <cstring>
 #include <mutex>
 
+#include "imagebuf/color/tone_rows.h"
 #include "imagebuf/pixels/allocation.h"
 #include "imagebuf/pixels/ignored_pixels.h"
 #include "imagebuf/pixels/parallel.h"
@@ -275,7 +276,7 @@ std::vector<float> ColorReader::convert(const float* const (&in)[3], const size_
     for (size_t x = 0; x < count; ++x)
         for (size_t p = 0; p < 3; ++p) {
             const float v = in[p][x * step[p]];
-            packed.push_back(std::isfinite(v) ? v : 0.0f);
+            packed.push_back(light_to_show(v));
         }
     m_space.convert(packed.data(), ptrdiff_t(count));
     return packed;
@@ -327,17 +328,18 @@ void ColorReader::clean_pixel(const Row& row, size_t x, const float (&stored)[3]
     counts.nonfinite += !finite;
     if (!finite)
         row.beside[x] = finite_ones(v);
-    if (finite && converted)
-        std::copy_n(converted, 3, v);
-    if (finite)
+    const bool kept = finite || m_keep_infinities;
+    for (size_t p = 0; kept && p < 3; ++p)
+        v[p] = double(converted ? converted[p] : light_to_show(stored[p]));
+    if (kept)
         to_rec709(m_space, double(a), v);
     if (finite && (v[0] < 0 || v[1] < 0 || v[2] < 0)) {
         ++counts.negative;
         counts.negative_digest += digest(row.place + x, v);
     }
     for (size_t p = 0; p < 3; ++p) {
-        row.plane[p][x] = finite ? float(std::clamp(v[p], double(m_least), double(FLT_MAX))) : 0.0f;
-        counts.largest = std::max(counts.largest, row.plane[p][x]);
+        row.plane[p][x] = kept ? float(std::clamp(v[p], double(m_least), double(FLT_MAX))) : 0.0f;
+        counts.largest = finite ? std::max(counts.largest, row.plane[p][x]) : counts.largest;
     }
 }
 

@@ -24,6 +24,9 @@ public:
     void watch_alpha() { m_watch = true; }
     /// An alpha that is not finite is 0 and leaves the colour what it is; before open().
     void keep_color_of_any_alpha() { m_any_alpha = true; }
+    /// Pixels that are not finite hold what is shown of them, see light_to_show(), and not black;
+    /// before open(). They are flagged all the same.
+    void keep_infinities() { m_keep_infinities = true; }
     /// Negative components stay what they are; before open().
     void keep_negative() { m_least = -FLT_MAX; }
     /// Pixels that do not count are in no count, and finite: black, or if `keep` their colour,
@@ -92,8 +95,8 @@ private:
     ColorChoice m_choice;
     ColorSpace m_space;
     OIIO::ROI m_region, m_window;
-    bool m_alpha = false, m_watch = false, m_any_alpha = false, m_saving_memory = false,
-         m_keep_ignored = false;
+    bool m_alpha = false, m_watch = false, m_any_alpha = false, m_keep_infinities = false,
+         m_saving_memory = false, m_keep_ignored = false;
     float m_least = 0; ///< of a component
     int m_nthreads = 0;
     const IgnoredPixels* m_ignored = nullptr;

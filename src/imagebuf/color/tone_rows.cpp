@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "imagebuf/color/tone_rows.h"
 
+#include <OpenImageIO/strutil.h>
 #include <cmath>
 
 #include "kernels/tone_curve.h"
@@ -32,12 +33,6 @@ float divisor(const float* pixel, const ToneChannels& which) {
     return std::isfinite(alpha) && alpha > 0 ? alpha : 1.0f;
 }
 
-float finite(float v) {
-    if (std::isfinite(v))
-        return v;
-    return v > 0 ? kInfinityStandsFor : 0.0f;
-}
-
 } // namespace
 
 ToneRow::ToneRow(size_t width) : factor(width, 1.0f), alpha(width, 1.0f) {
@@ -45,6 +40,11 @@ ToneRow::ToneRow(size_t width) : factor(width, 1.0f), alpha(width, 1.0f) {
         plane[c].resize(width);
         rgb[c] = plane[c].data();
     }
+}
+
+std::string nonfinite_warning(int64_t pixels) {
+    return OIIO::Strutil::fmt::format("{} pixel(s) are not finite: NaN and -Inf became 0, +Inf {}",
+                                      pixels, kInfinityStandsFor);
 }
 
 void take_row(const float* pixels, int channels, const ToneChannels& which, ToneRow& row,
@@ -57,7 +57,7 @@ void take_row(const float* pixels, int channels, const ToneChannels& which, Tone
         for (int c = 0; c < 3; ++c) {
             const float v = pixels[which.rgb[c]];
             good = good && std::isfinite(v);
-            row.rgb[c][x] = finite(finite(v) / alpha);
+            row.rgb[c][x] = light_to_show(light_to_show(v) / alpha);
         }
         counts.nonfinite += !good;
     }
@@ -70,7 +70,7 @@ void put_row(const ToneRow& row, size_t count, const ToneChannels& which, float*
         const float alpha = divisor(pixels, which);
         double luminance = 0;
         for (int c = 0; c < 3; ++c) {
-            pixels[which.rgb[c]] = finite(row.rgb[c][x]) * alpha;
+            pixels[which.rgb[c]] = light_to_show(row.rgb[c][x]) * alpha;
             luminance += kernels::kLuminance[c] * double(pixels[which.rgb[c]]);
         }
         if (grey)

@@ -3,7 +3,9 @@
 #pragma once
 
 #include <OpenImageIO/imagebuf.h>
+#include <cmath>
 #include <functional>
+#include <string>
 #include <vector>
 
 #include "imagebuf/pixels/colorimetry.h"
@@ -34,6 +36,14 @@ struct ToneChannels {
 
 /// What stands for +Inf: the largest half.
 inline constexpr float kInfinityStandsFor = 65504.0f;
+
+/// NaN and -Inf become 0, +Inf kInfinityStandsFor.
+inline float light_to_show(float v) {
+    return std::isfinite(v) ? v : v > 0 ? kInfinityStandsFor : 0.0f;
+}
+
+/// What is said of that many pixels that were shown so.
+std::string nonfinite_warning(int64_t pixels);
 
 /// Takes the colour of `count` pixels out of a row, divided by alpha. NaN and -Inf become 0, +Inf
 /// kInfinityStandsFor; counted in `counts`.

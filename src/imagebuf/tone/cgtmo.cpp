@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "imagebuf/color/color_reader.h"
+#include "imagebuf/color/tone_rows.h"
 #include "imagebuf/pixels/guard.h"
 #include "imagebuf/pixels/has_pixels.h"
 #include "imagebuf/pixels/parallel.h"
@@ -67,6 +68,7 @@ private:
 
     void read_color() {
         m_reader.keep_color_of_any_alpha(); // it only tells which pixels count
+        m_reader.keep_infinities();
         m_reader.open(*m_pixels, m_options.pixels, m_region, m_options.count == "lit", m_nthreads);
         m_planes = m_reader.planes();
         m_reader.read(m_region.ybegin, m_region.yend, m_planes);
@@ -75,8 +77,7 @@ private:
         summary.nonfinite = m_planes.counts.nonfinite;
         summary.negative = m_planes.counts.negative;
         if (summary.nonfinite > 0)
-            summary.warnings.push_back(
-                format("{} pixel(s) are not finite and became black", summary.nonfinite));
+            summary.warnings.push_back(nonfinite_warning(summary.nonfinite));
     }
 
     // Lwa and Lmax. Alpha is not looked at again.

@@ -251,9 +251,7 @@ private:
     void warn() {
         summary.warnings = summary.calibration.warnings;
         if (summary.nonfinite > 0)
-            summary.warnings.push_back(
-                format("{} pixel(s) are not finite: NaN and -Inf became 0, +Inf {}",
-                       summary.nonfinite, kInfinityStandsFor));
+            summary.warnings.push_back(nonfinite_warning(summary.nonfinite));
     }
 
     const ImageBuf& m_src;

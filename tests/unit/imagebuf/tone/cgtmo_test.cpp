@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -33,6 +36,45 @@ TEST(CgTmo, DependsOnNeitherRegionNorThreads) {
             ASSERT_FALSE(some.has_error()) << some.geterror();
             EXPECT_EQ(some.roi(), part);
             EXPECT_EQ(pixels(some, part), pixels(all, part)) << filter << " " << preset;
+        }
+}
+
+// A lamp beyond the largest half is Inf in the file, in one channel or in all: as bright as it gets,
+// and none of the numbers that the curve follows from.
+TEST(CgTmo, InfinityIsLightAndNaNIsBlack) {
+    const ImageBuf scene(TESTIMAGES_DIR "/cornell_ref.exr");
+    constexpr float inf = std::numeric_limits<float>::infinity();
+    constexpr float nan = std::numeric_limits<float>::quiet_NaN();
+    const std::vector<std::array<float, 3>> colors = {
+        {inf, inf, inf}, {2e4f, 2e4f, inf}, {nan, nan, nan}, {-inf, -inf, -inf}};
+    ImageBuf spoiled = scene.copy(scene.spec().format);
+    const int red = scene.spec().channelindex("ViewLayer.Combined.R");
+    ASSERT_GE(red, 0);
+    std::vector<float> pixel(size_t(scene.nchannels()));
+    for (int i = 0; i < int(colors.size()); ++i) {
+        spoiled.getpixel(40 + 5 * i, 50, pixel.data());
+        std::copy(colors[size_t(i)].begin(), colors[size_t(i)].end(), pixel.begin() + red);
+        spoiled.setpixel(40 + 5 * i, 50, pixel.data());
+    }
+    for (const char* filter : {"guided", "bilateral", "wls", "none"})
+        for (const char* preset : {"default", "paper", "classic"}) {
+            SCOPED_TRACE(std::string(filter) + " " + preset);
+            CgTmoOptions options;
+            options.filter = filter;
+            options.preset = preset;
+            CgTmoSummary summary;
+            const ImageBuf out = cg_tmo(spoiled, options, &summary);
+            ASSERT_FALSE(out.has_error()) << out.geterror();
+            EXPECT_EQ(summary.nonfinite, 4);
+            EXPECT_LT(summary.maximum, 1e3);
+            for (int i = 0; i < int(colors.size()); ++i) {
+                out.getpixel(40 + 5 * i, 50, pixel.data());
+                const std::vector<float> rgb(pixel.begin() + red, pixel.begin() + red + 3);
+                if (i < 2)
+                    EXPECT_GT(*std::min_element(rgb.begin(), rgb.end()), 0.85f) << i;
+                else
+                    EXPECT_EQ(rgb, std::vector<float>(3, 0.0f)) << i;
+            }
         }
 }
 
