@@ -147,6 +147,29 @@ def test_a_line_that_clobbers_nothing_can_be_run_again(run, folder):
     assert "already exists, not overwriting" in done.stderr
 
 
+def test_an_update_goes_on_where_an_output_is_newer(run, folder):
+    """One image or a frame of several: what is up to date is no error."""
+    line = ["-u", "--frames", "1-3", "s.#.exr", "--mulc", "2", "-o", "up.#.exr"]
+    assert run(*line).returncode == 0
+    for number in (1, 2, 3):
+        made = (folder / f"s.{number:04d}.exr").stat().st_mtime + 10
+        os.utime(folder / f"up.{number:04d}.exr", (made, made))
+    (folder / "up.0002.exr").unlink()
+    kept = (folder / "up.0001.exr").stat().st_mtime_ns
+    done = run(*line)
+    assert done.returncode == 0, done.stderr
+    assert (folder / "up.0002.exr").is_file() and (folder / "up.0001.exr").stat().st_mtime_ns == kept
+    assert run("-u", "s.0001.exr", "--mulc", "2", "-o", "up.0001.exr").returncode == 0
+
+
+@pytest.mark.parametrize("word", ["--info", "--stats", "--hash"])
+def test_what_prints_of_files_is_not_after_them(run, word):
+    done = run("a.exr", word)
+    assert done.returncode == 1
+    assert "printed nothing" in done.stderr and "(valid: --info FILE)" in done.stderr
+    assert run(word, "a.exr").returncode == 0
+
+
 @pytest.mark.parametrize("words", [
     ["--pattern", "constant:color=1,1,1,1", "8x8", "1"], ["grey.exr", "--mulc", "2,3,4"],
     ["grey.exr", "--box:color=1,1,1,1:fill=1", "1,1,3,3"],

@@ -294,3 +294,25 @@ def test_the_list_is_complete(tonetool):
     x = np.exp2(rows[:, 0])
     assert np.allclose(aces, np.clip((2.51 * x + 0.03) * x / ((2.43 * x + 0.59) * x + 0.14), 0, 1),
                        rtol=1e-5, atol=1e-9)
+
+
+@pytest.mark.parametrize("words", [["--exposure", "1"], ["--tonemap:curve=reinhard"], ["--bloom"], ["--calibrate:stops=1"],
+                                   ["--cgtmo"]], ids=lambda words: words[0])
+def test_with_all_subimages_the_others_are_carried(tonetool, make_image, tmp_path, words):
+    make_image("n.exr", channels=("normal.X", "normal.Y", "normal.Z"), seed=2)
+    make_image("rgb.exr", attributes={"oiio:subimagename": "rgba"})
+    make_image("z.exr", channels=("Z",), seed=3)
+    tonetool("n.exr", "rgb.exr", "z.exr", "--siappendall", "-o", "parts.exr")
+    tonetool("parts.exr", *words, "-o", "one.exr")
+    tonetool("-a", "parts.exr", *words, "-o", "all.exr")
+
+    def parts(name):
+        file = oiio.ImageInput.open(str(tmp_path / name))
+        found = []
+        while file.seek_subimage(len(found), 0):
+            found.append((file.spec().channelnames, file.read_image("float").tobytes()))
+        return found
+
+    before, after = parts("parts.exr"), parts("all.exr")
+    assert len(before) == len(after) == 3 and after[0] == before[0] and after[2] == before[2]
+    assert parts("one.exr") == [after[1]] != [before[1]]

@@ -40,7 +40,7 @@ void run_bloom(Session& session, const Call& call) {
     report_bloom(session, label, found);
     for (const std::string& warning : found.warnings)
         session.warning(label, image.name() + ": " + warning);
-    session.stack.push(Image::derived(image, std::move(result)));
+    push_picture(session, image, options.pixels, std::move(result));
 }
 
 } // namespace

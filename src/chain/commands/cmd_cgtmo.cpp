@@ -114,7 +114,7 @@ void run_cgtmo(Session& session, const Call& call) {
     report_summary(session, label, found);
     for (const std::string& warning : found.warnings)
         session.warning(label, image.name() + ": " + warning);
-    session.stack.push(Image::derived(image, std::move(result)));
+    push_picture(session, image, options.pixels, std::move(result));
 }
 
 // With those of the lights behind the percentile that is the maximum.

@@ -16,7 +16,7 @@ void run_exposure(Session& session, const Call& call) {
     OIIO::ImageBuf result = ToneAlgo::exposure(view, stops, pixel_options(call));
     if (result.has_error())
         throw CommandError(result.geterror());
-    session.stack.push(Image::derived(image, std::move(result)));
+    push_picture(session, image, pixel_options(call), std::move(result));
 }
 
 void run_luminance(Session& session, const Call& call) {

@@ -56,7 +56,7 @@ void run_calibrate(Session& session, const Call& call) {
     session.report(lines.text);
     for (const std::string& warning : found.warnings)
         session.warning(call.row().label(), image.name() + ": " + warning);
-    session.stack.push(Image::derived(image, std::move(result)));
+    push_picture(session, image, pixels, std::move(result));
 }
 
 TonemapOptions tonemap_options(const Session& session, const Call& call) {
@@ -97,7 +97,7 @@ void run_tonemap(Session& session, const Call& call) {
     session.report(lines.text);
     for (const std::string& warning : found.warnings)
         session.warning(label, image.name() + ": " + warning);
-    session.stack.push(Image::derived(image, std::move(result)));
+    push_picture(session, image, checked, std::move(result));
 }
 
 void print_curve(Session& session, const ToneCurveInfo& curve) {

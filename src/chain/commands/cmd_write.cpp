@@ -131,9 +131,11 @@ bool keeps_old(Session& session, const Call& call, const std::string& filename) 
         session.outcome.produced |= !session.settings.compat; // the requested output exists
         return true;
     }
-    return session.settings.update && !session.settings.compat &&
-           OIIO::Filesystem::exists(filename) &&
-           OIIO::Filesystem::last_write_time(filename) > session.stack.newest_input;
+    const bool current = session.settings.update && !session.settings.compat &&
+                         OIIO::Filesystem::exists(filename) &&
+                         OIIO::Filesystem::last_write_time(filename) > session.stack.newest_input;
+    session.outcome.produced |= current;
+    return current;
 }
 
 void write_one(Session& session, const Call& call, const ImagePtr& image,

@@ -145,6 +145,20 @@ std::optional<LookedAt> looked_at(const Image& image, const PixelOptions& option
     return found;
 }
 
+void push_picture(Session& session, const Image& image, const PixelOptions& options,
+                  OIIO::ImageBuf result) {
+    PartChoice choice;
+    std::string ignored;
+    std::vector<PartPtr> parts = image.parts();
+    ImagePtr derived = Image::derived(image, std::move(result));
+    if (session.settings.all_subimages && parts.size() > 1 &&
+        ToneAlgo::find_part(headers_of(image), options, choice, ignored)) {
+        parts.at(size_t(choice.part)) = derived->parts().front();
+        derived = std::make_shared<Image>(image.name(), std::move(parts));
+    }
+    session.stack.push(derived);
+}
+
 void check_same_picture(Session& session, const Call& call, const Image& reference,
                         const PixelOptions& of_reference, const Image& test,
                         const PixelOptions& of_test) {

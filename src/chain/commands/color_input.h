@@ -57,6 +57,10 @@ void check_same_picture(Session& session, const Call& call, const Image& referen
 OIIO::ImageBuf color_input(Session& session, const Call& call, const Image& image,
                            const PixelOptions& options);
 
+/// Pushes what a command has made of color_part(). With -a the other subimages are carried.
+void push_picture(Session& session, const Image& image, const PixelOptions& options,
+                  OIIO::ImageBuf result);
+
 /// As color_input(), but unread where the library may read the file by itself.
 OIIO::ImageBuf color_source(Session& session, const Call& call, const Image& image,
                             const PixelOptions& options);

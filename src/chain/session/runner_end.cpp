@@ -72,8 +72,12 @@ void Runner::finish() {
     check_outputs(m_session);
     refuse_what_was_not_compared();
     warn_of_unused();
-    if (!m_session.outcome.produced && !m_session.outcome.wrote && !m_session.for_images)
+    if (!m_session.outcome.produced && !m_session.outcome.wrote && !m_session.for_images) {
+        if (m_session.settings.listing())
+            throw CommandError("printed nothing: --info, --stats and --hash are of the files that "
+                               "are named after them (valid: --info FILE)");
         throw CommandError("produced no output. Did you forget -o?");
+    }
 }
 
 void Runner::finish_leniently() {
