@@ -316,3 +316,18 @@ def test_with_all_subimages_the_others_are_carried(tonetool, make_image, tmp_pat
     before, after = parts("parts.exr"), parts("all.exr")
     assert len(before) == len(after) == 3 and after[0] == before[0] and after[2] == before[2]
     assert parts("one.exr") == [after[1]] != [before[1]]
+
+
+@pytest.mark.parametrize("command", ["--tonemap", "--cgtmo"])
+def test_negative_pixels_are_counted(tonetool, command):
+    name = command.strip("-")
+    assert f"{name}: negative 1\n" in tonetool("-v", TESTIMAGES / "negative.exr", command, "-o", "o.png").out
+    assert "negative" not in tonetool("-v", CORNELL, command, "-o", "o.png").out
+
+
+@pytest.mark.parametrize("name", ["o.exr", "o.hdr"])
+def test_display_light_in_a_file_of_light_is_warned_about(tonetool, name):
+    said = "is read as linear light (encode=none)"
+    assert said in tonetool(CORNELL, "--tonemap", "-o", name).err
+    assert said not in tonetool(CORNELL, "--tonemap:encode=none", "-o", name).err
+    assert said not in tonetool(CORNELL, "--tonemap", "-o", "o.png").err

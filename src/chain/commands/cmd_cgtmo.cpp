@@ -41,6 +41,8 @@ void report_summary(Session& session, const std::string& label, const CgTmoSumma
     if (session.settings.verbose)
         for (const std::string& note : found.notes)
             line("note", note);
+    if (session.settings.verbose && found.negative > 0)
+        line("negative", std::to_string(found.negative));
     line("samples", std::to_string(found.samples));
     line("background", std::to_string(found.background));
     line("counted", std::to_string(found.counted));

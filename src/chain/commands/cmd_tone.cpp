@@ -94,6 +94,8 @@ void run_tonemap(Session& session, const Call& call) {
         lines.add("table", found.table);
     add_calibration(lines, found.calibration);
     add_notes(lines, session, found.calibration);
+    if (session.settings.verbose && found.negative > 0)
+        lines.add("negative", found.negative);
     session.report(lines.text);
     for (const std::string& warning : found.warnings)
         session.warning(label, image.name() + ": " + warning);

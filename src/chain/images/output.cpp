@@ -139,9 +139,13 @@ void warn_of_encoding(const Warn& warn, const OIIO::ImageSpec& spec,
                       const OIIO::ImageOutput& writer) {
     std::string space = spec.get_string_attribute("oiio:ColorSpace");
     bool linear = space == "lin_rec709" || spec.find_attribute("chromaticities");
-    if (spec.find_attribute("tonemap:curve") && !linear && writer.format_name() == "openexr"s) {
-        warn("the tone mapped values are display-encoded (" + space +
-             "), but OpenEXR is read as linear light (encode=none)");
+    const std::string format = writer.format_name();
+    const std::string of_light = format == "openexr" ? "OpenEXR"
+                                 : format == "hdr"   ? "Radiance"
+                                                     : "";
+    if (spec.find_attribute("tonemap:curve") && !linear && !of_light.empty()) {
+        warn("the tone mapped values are display-encoded (" + space + "), but " + of_light +
+             " is read as linear light (encode=none)");
     }
 }
 
