@@ -343,6 +343,20 @@ def test_a_range_in_one_name_says_what_it_leaves_out(tonetool, pair_of_shots):
         assert tonetool("--warnings-exit", *words, passes).err == ""
 
 
+@pytest.mark.parametrize("command", [FLIP, "--against", "--diff", "--hdrflip"])
+def test_a_shot_against_itself_is_no_check(tonetool, pair_of_shots, command):
+    """The name twice; links between two versions, as of frames that were not rendered again, are a warning."""
+    words = ["r.#.exr", "./r.#.exr", command, "--json", "c.json"]
+    ran = tonetool(*words, status=1)
+    assert "are the same file (valid: the names of two versions)" in ran.err
+    assert "check: error, 3 frames: 3 errors" in ran.out
+    for number in (1, 2, 3):
+        (pair_of_shots / f"t.{number:04d}.exr").unlink()
+        (pair_of_shots / f"t.{number:04d}.exr").symlink_to(f"r.{number:04d}.exr")
+    ran = tonetool(*SHOTS, command, "--json", "c.json")
+    assert "are the same file" in ran.err and "check: warning, 3 frames: 3 warnings" in ran.out
+
+
 def test_files_on_the_disk_are_names(tonetool, pair_of_shots, make_image):
     os.mkfifo(pair_of_shots / "t.0004.exr")
     make_image("r.0004.exr")

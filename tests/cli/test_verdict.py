@@ -192,9 +192,9 @@ def test_a_file_against_itself(tonetool, put, pair, tmp_path, aovs):
                         "--hdrflip:fail=0.5").err
     for name in ("ref.0001.exr", "ref.0002.exr"):
         put(name, GOOD)
-    ran = tonetool("ref.#.exr", "ref.#.exr", "--hdrflip:fail=0.01:print=0", "--json", "s.json")
+    ran = tonetool("ref.#.exr", "ref.#.exr", "--hdrflip:fail=0.01:print=0", "--json", "s.json", status=1)
     found = json.loads((tmp_path / "s.json").read_text(encoding="utf-8"))
-    assert [f["status"] for f in found["frames"]] == ["warning", "warning"]
+    assert [f["status"] for f in found["frames"]] == ["error", "error"]
 
 
 @pytest.mark.parametrize("between", [["--exposure", "1"], ["--mulc", "1"], ["--ch", "R,G,B"],

@@ -102,8 +102,9 @@ void run_against(Session& session, const Call& call) {
         return;
     }
     if (same_file(approved, 0, image, 0)) { // most likely a slip of the command line
-        session.warning(call.row().label(), "approved \"" + approved.name() + "\" and new \"" +
-                                                image.name() + "\" are the same file");
+        tell_same_file(session, call, approved, image,
+                       "approved \"" + approved.name() + "\" and new \"" + image.name() +
+                           "\" are the same file");
     }
     AgainstOptions options;
     options.pixels = pixel_options(call);

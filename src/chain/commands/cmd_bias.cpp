@@ -208,7 +208,7 @@ void check_seeds(Session& session, const Call& call, size_t references) {
                 throw CommandError(text + ", which is one seed and not two (valid: renders of "
                                           "different random numbers)");
             }
-            session.warning(call.row().label(), text);
+            tell_same_file(session, call, a, b, text);
         }
     }
 }

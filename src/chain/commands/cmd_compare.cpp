@@ -52,8 +52,9 @@ void warn_of_same_file(Session& session, const Call& call, const Image& test, co
     const auto r = looked_at(reference, look.reference), t = looked_at(test, look.tests);
     if (r && t && same_file(reference, r->part, test, t->part) && r->color.r == t->color.r &&
         r->color.g == t->color.g && r->color.b == t->color.b) {
-        session.warning(call.row().label(), "reference \"" + reference.name() + "\" and test \"" +
-                                                test.name() + "\" are the same file");
+        tell_same_file(session, call, reference, test,
+                       "reference \"" + reference.name() + "\" and test \"" + test.name() +
+                           "\" are the same file");
     }
 }
 

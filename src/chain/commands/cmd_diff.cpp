@@ -335,8 +335,8 @@ void run_diff(Session& session, const Call& call) {
         check_nothing_left_out(a);
         check_nothing_left_out(b);
         if (same_file(a, 0, b, 0)) {
-            session.warning(call.row().label(),
-                            "\"" + a.name() + "\" and \"" + b.name() + "\" are the same file");
+            tell_same_file(session, call, a, b,
+                           "\"" + a.name() + "\" and \"" + b.name() + "\" are the same file");
         }
         warn_of_unapplied(session, call, a, b);
     }

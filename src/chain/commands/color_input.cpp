@@ -58,6 +58,16 @@ bool same_file(const Image& a, size_t part_of_a, const Image& b, size_t part_of_
     return part_of_a == part_of_b && (one_file || (a.lineage != 0 && a.lineage == b.lineage));
 }
 
+void tell_same_file(Session& session, const Call& call, const Image& a, const Image& b,
+                    const std::string& text) {
+    const auto plain = [](const Image& image) {
+        return std::filesystem::path(image.name()).lexically_normal();
+    };
+    if (session.frame.loops && session.check.result && plain(a) == plain(b))
+        throw CommandError(text + " (valid: the names of two versions)");
+    session.warning(call.row().label(), text);
+}
+
 void tell_encoding(Session& session, const Call& call, const Image& image,
                    const OIIO::ImageSpec& header, const PixelOptions& options) {
     const std::string where = call.row().label(), named = "\"" + image.name() + "\": ";

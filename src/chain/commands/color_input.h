@@ -26,6 +26,12 @@ std::vector<OIIO::ImageSpec> headers_of(const Image& image);
 /// names and links.
 bool same_file(const Image& a, size_t part_of_a, const Image& b, size_t part_of_b);
 
+/// Says that two images that are compared are the same file: a slip of the command line that no
+/// limit finds. An error where every frame of a check would be compared with itself by one name,
+/// a warning elsewhere: versions may have links to each other's files.
+void tell_same_file(Session& session, const Call& call, const Image& a, const Image& b,
+                    const std::string& text);
+
 /// color_part() with a check that its colour space and its layer are known; messages name the
 /// image.
 Part& checked_part(Session& session, const Call& call, const Image& image,
