@@ -278,6 +278,26 @@ def test_the_name_of_a_space_does_not_outlive_it(tonetool, make_image, read):
     assert name_of("--tonemap:encode=none") in (None, "lin_rec709_scene")
 
 
+def test_the_interop_id_names_the_space(tonetool, make_image):
+    """Where nothing else does; OpenImageIO 2 passes it on as any attribute."""
+    pixels = np.random.default_rng(3).random((12, 16, 3)) + 0.1
+    to_rec709 = np.array([[1.70505, -0.62179, -0.08326], [-0.13026, 1.14080, -0.01055], [-0.02400, -0.12897, 1.15297]])
+    make_image("rec709.exr", pixels=pixels @ to_rec709.T)
+    make_image("ap1.exr", pixels=pixels, attributes={"colorInteropID": "lin_ap1_scene"})
+    tonetool("rec709.exr", "ap1.exr", "--hdrflip:fail=0.0005")
+    make_image("srgb.exr", pixels=pixels, attributes={"colorInteropID": "srgb_rec709_scene"})
+    make_image("plain.exr", pixels=pixels)
+    for name in ("ap1.exr", "srgb.exr"):
+        tonetool("plain.exr", name, "--hdrflip:fail=0.01", status=3)
+    tonetool("plain.exr", "srgb.exr", "--hdrflip:from=rec709:fail=0")
+    for name in ("unknown", "data", ""):
+        make_image("id.exr", pixels=pixels, attributes={"colorInteropID": name})
+        tonetool("plain.exr", "id.exr", "--hdrflip:fail=0")
+    make_image("id.exr", pixels=pixels, attributes={"colorInteropID": "lin_nonsense_scene"})
+    said = tonetool("plain.exr", "id.exr", "--hdrflip:fail=0.9", status=1).err
+    assert 'unknown colour space "lin_nonsense_scene" in colorInteropID' in said
+
+
 def test_pfm_and_xyz_are_light(tonetool, make_image, tmp_path):
     pixels = np.random.default_rng(5).random((12, 16, 3)).astype("<f4") * 4
     make_image("a.exr", pixels=pixels)

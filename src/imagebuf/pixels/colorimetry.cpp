@@ -250,8 +250,21 @@ bool is_camera_curve(const OIIO::ImageSpec& spec, const std::string& tag) {
            (!spec.format.is_floating_point() || spec.find_attribute("pnm:bigendian"));
 }
 
-ColorSpace space_of(const OIIO::ImageSpec& spec) {
+// What names the space: oiio:ColorSpace, or colorInteropID where that says no more than "linear".
+struct Tag {
+    std::string attribute, text;
+};
+Tag tag_of(const OIIO::ImageSpec& spec) {
     const std::string tag = spec.get_string_attribute("oiio:ColorSpace");
+    const std::string id = spec.get_string_attribute("colorInteropID");
+    const bool names = !id.empty() && lower(id) != "unknown" && lower(id) != "data";
+    if (names && says_only_linear(tag))
+        return {"colorInteropID", id};
+    return {"oiio:ColorSpace", tag};
+}
+
+ColorSpace space_of(const OIIO::ImageSpec& spec) {
+    const auto [attribute, tag] = tag_of(spec);
     const auto chromaticities = read_chromaticities(spec);
     const bool camera_curve = is_camera_curve(spec, tag);
     const bool integer = !spec.format.is_floating_point();
@@ -259,14 +272,14 @@ ColorSpace space_of(const OIIO::ImageSpec& spec) {
         return of_gamma(gamma);
     const Known* known = tag.empty() || lower(tag) == "rec709" ? nullptr : find_known(tag);
     if (!tag.empty() && !known && !camera_curve)
-        throw Refusal("unknown colour space \"" + tag +
-                      "\" in oiio:ColorSpace; pass from= one of: " + known_names());
+        throw Refusal("unknown colour space \"" + tag + "\" in " + attribute +
+                      "; pass from= one of: " + known_names());
     // A display-encoded tag is what a conversion leaves; the file's old chromaticities stay behind.
     if (known && known->srgb_encoded)
         return space_of(*known);
     if (chromaticities && known && !says_only_linear(tag) &&
         !nearly_equal(*chromaticities, known->primaries))
-        throw Refusal("oiio:ColorSpace says \"" + tag +
+        throw Refusal(attribute + " says \"" + tag +
                       "\" but the chromaticities are those of another space; pass from= one of: " +
                       known_names());
     if (chromaticities)
@@ -332,7 +345,7 @@ ColorSpace find_space(const OIIO::ImageSpec& spec, const std::string& from) {
 }
 
 double stated_gamma(const OIIO::ImageSpec& spec) {
-    const std::string tag = spec.get_string_attribute("oiio:ColorSpace");
+    const std::string tag = tag_of(spec).text;
     // A PNG file with a gAMA chunk and no sRGB chunk is tagged "sRGB" all the same.
     const double gamma = double(spec.get_float_attribute("oiio:Gamma"));
     const bool encoded = lower(tag) == "srgb" || tag.empty();

@@ -35,7 +35,8 @@ struct PixelOptions {
     /// Colour space of the stored values, one of color_spaces(): rec709, acescg, aces2065-1,
     /// rec2020, p3-d65 (all linear, with their usual aliases) or srgb (display-encoded, decoded
     /// first).
-    /// Empty: the `chromaticities` attribute, else `oiio:ColorSpace`, else sRGB for integer
+    /// Empty: the `chromaticities` attribute, else `oiio:ColorSpace` (or `colorInteropID`
+    /// where that says no more than "linear"), else sRGB for integer
     /// files and linear Rec.709 for floating-point ones. The gamma of a PNG file is applied, too,
     /// and the EXPOSURE of a Radiance file is divided out whatever the space.
     std::string from;
