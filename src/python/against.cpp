@@ -47,8 +47,8 @@ void add_against_results(Module& module) {
         .field("name", &L::name, "In the new file.")
         .field("kind", &L::kind, "As of AgainstName.")
         .field("quantities", &L::quantities,
-               "By kind: off; median, off10, one; median, off; mismatch; gain, blocks, one_finite, "
-               "none_finite; alpha_mean, alpha_off.")
+               "By kind: off, median, off10, one, mismatch, gain, blocks, one_finite, "
+               "alpha_mean...")
         .field("x", &L::x, "Column where they differ most.")
         .field("y", &L::y, "Row where they differ most.")
         .field("one_finite_x", &L::one_finite_x,

@@ -102,6 +102,13 @@ def test_one_pair_and_stops(tonetool, suite, pair):
     assert pixels_of(suite / "h.png").shape[1] < dark.shape[1]
 
 
+def test_tests_that_are_not_drawn_are_told(tonetool, make_image):
+    files = [make_image(f"{name}.exr", seed=seed) for seed, name in enumerate(("r", "a", "b"))]
+    ran = tonetool(*files, "--hdrflip:tests=2:print=0", "--figure", "f.png")
+    assert "--figure: of several tests of a reference the first is drawn (valid: %M in the names" in ran.err
+    assert "--figure" not in tonetool(*files[:2], "--hdrflip:print=0", "--figure", "f.png").err
+
+
 def test_an_inset_counts_the_pixels_of_the_file(tonetool, tmp_path, make_image):
     window = (10, 20, 10, 20, 24, 24)
     for name in ("r.exr", "t.exr"):

@@ -61,7 +61,7 @@ def test_several_and_one_by_one(tonetool, oiiotool, images):
 
 
 def test_info_comes_after_it_only(tonetool, images):
-    assert "no output" in tonetool(images("half"), "--info", status=1).err
+    assert "printed nothing" in tonetool(images("half"), "--info", status=1).err
 
 
 def test_verbose_names_what_is_written(tonetool, oiiotool, images):

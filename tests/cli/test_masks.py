@@ -210,7 +210,8 @@ def test_exposures_are_of_what_counts(tonetool, put, tmp_path):
             files = [f"{name}.0001.exr", f"{name}.0002.exr"]
             for file in files:
                 shutil.copy(tmp_path / f"{name}.exr", tmp_path / file)
-            tonetool(f"{name}.#.exr", f"{name}.#.exr", f"--hdrflip:ignore=1x1+5+5{how}", "--json",
+                shutil.copy(tmp_path / file, tmp_path / f"test.{file}")
+            tonetool(f"{name}.#.exr", f"test.{name}.#.exr", f"--hdrflip:ignore=1x1+5+5{how}", "--json",
                      "a.json")
             exposures.append(measured(tmp_path / "a.json")["exposures"])
     assert all(one == exposures[0] for one in exposures), exposures

@@ -166,10 +166,27 @@ public:
         }
         if (!canvas.labelled())
             warning = std::string("no font \"") + kLabelFont + "\" found: the figure has no labels";
+        else if (has_several_tests())
+            warning =
+                "of several tests of a reference the first is drawn (valid: %M in the names, for "
+                "a column of each)";
         return std::move(canvas.image());
     }
 
 private:
+    bool has_several_tests() const {
+        const auto several = [](const FrameResult& frame) {
+            return std::any_of(frame.measurements.begin(), frame.measurements.end(),
+                               [&](const Measurement& one) {
+                                   return one.test != frame.measurements.front().test;
+                               });
+        };
+        return std::any_of(m_rows.begin(), m_rows.end(), [&](const FigureRow& row) {
+            return std::any_of(row.frames.begin(), row.frames.end(),
+                               [&](const auto& of) { return several(*of.second); });
+        });
+    }
+
     void collect(const ShotResult& shot, const PictureStore& pictures) {
         std::set<std::string> names, methods;
         std::map<Item, FigureRow> rows;

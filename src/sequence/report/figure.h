@@ -37,7 +37,8 @@ std::string figure_text(const CasePictures& pictures);
 /// A row for each name: the reference with numbered frames of the insets, then the insets of
 /// reference and methods, each above its error map, and the first number of each method below;
 /// pixels are repeated, never filtered. At the right a bar of the errors' colours. `warning` says
-/// that no font was found. Throws a runtime_error if nothing can be drawn.
+/// that no font was found, or that tests beside the first were not drawn. Throws a runtime_error if
+/// nothing can be drawn.
 OIIO::ImageBuf figure(const ShotResult& shot, const PictureStore& pictures,
                       const FigureOptions& options, std::string& warning);
 
