@@ -170,12 +170,13 @@ void find_blank(QcShot& shot) {
         for (; first < last; ++first) {
             const QcFacts& facts = frames[first]->facts;
             const QcLayer& picture = picture_layer(facts);
+            const std::optional<Severity> milder = fade ? std::optional(Severity::Info)
+                                                   : is_empty(facts.picture)
+                                                       ? empty
+                                                       : severity_of_black(facts.picture);
             shot.add(*frames[first], "black",
                      fade ? "the picture is black at the end of a fade" : "the picture is black",
-                     {picture.name, {}, picture.max,
-                      fade                      ? std::optional(Severity::Info)
-                      : is_empty(facts.picture) ? empty
-                                                : severity_of_black(facts.picture)});
+                     {picture.name, {}, picture.max, milder});
         }
         --first;
     }

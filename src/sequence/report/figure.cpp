@@ -120,7 +120,7 @@ std::string shortened(std::string text, int room) {
         size_t end = text.size() - std::min<size_t>(whole ? 1 : 4, text.size());
         while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0) == 0x80)
             --end;
-        text = text.substr(0, end) + "...";
+        text.replace(end, std::string::npos, "...");
         whole = false;
     }
     return text;

@@ -39,8 +39,8 @@ TEST(CgTmo, DependsOnNeitherRegionNorThreads) {
         }
 }
 
-// A lamp beyond the largest half is Inf in the file, in one channel or in all: as bright as it gets,
-// and none of the numbers that the curve follows from.
+// A lamp beyond the largest half is Inf in the file, in one channel or in all: as bright as it
+// gets, and none of the numbers that the curve follows from.
 TEST(CgTmo, InfinityIsLightAndNaNIsBlack) {
     const ImageBuf scene(TESTIMAGES_DIR "/cornell_ref.exr");
     constexpr float inf = std::numeric_limits<float>::infinity();
