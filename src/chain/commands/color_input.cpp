@@ -159,10 +159,10 @@ void push_picture(Session& session, const Image& image, const PixelOptions& opti
                   OIIO::ImageBuf result) {
     PartChoice choice;
     std::string ignored;
-    std::vector<PartPtr> parts = image.parts();
     ImagePtr derived = Image::derived(image, std::move(result));
-    if (session.settings.all_subimages && parts.size() > 1 &&
+    if (session.settings.all_subimages && image.part_count() > 1 &&
         ToneAlgo::find_part(headers_of(image), options, choice, ignored)) {
+        std::vector<PartPtr> parts = image.parts();
         parts.at(size_t(choice.part)) = derived->parts().front();
         derived = std::make_shared<Image>(image.name(), std::move(parts));
     }

@@ -21,10 +21,12 @@ std::vector<int> numbers_of(const std::vector<Item>& items) {
     return {numbers.begin(), numbers.end()};
 }
 
+std::string frames_text(const std::vector<int>& numbers) {
+    return (numbers.size() == 1 ? "frame " : "frames ") + range_text(numbers);
+}
+
 std::string side_text(const Side& side) {
-    const std::vector<int> numbers = numbers_of(side.files.items);
-    return "\"" + side.pattern + "\" has " + (numbers.size() == 1 ? "frame " : "frames ") +
-           range_text(numbers);
+    return "\"" + side.pattern + "\" has " + frames_text(numbers_of(side.files.items));
 }
 
 // "seq/ref.1001-1004#.exr": the pattern with the range of its files.
@@ -167,8 +169,7 @@ std::string left_out(const std::vector<Side>& sides) {
         std::set_difference(own.begin(), own.end(), chosen.begin(), chosen.end(),
                             std::back_inserter(rest));
         if (side.files.from_disk && !rest.empty()) {
-            return "\"" + side.pattern + "\" also has " +
-                   (rest.size() == 1 ? "frame " : "frames ") + range_text(rest) +
+            return "\"" + side.pattern + "\" also has " + frames_text(rest) +
                    ", which the range of \"" + range->pattern + "\" leaves out (valid: --frames " +
                    range_text(chosen) + " if that is meant, or no range in the name)";
         }
