@@ -134,7 +134,9 @@ ShotResult merged(const std::vector<std::string>& parts, const std::vector<Item>
             whole.suite = part.suite;
         }
         check_same(whole, part, first, file);
-        if (parts.size() > 1) // one alone is an old result that is printed again
+        // One alone, of which nobody says what it is to have, may be an old result that is
+        // printed again.
+        if (parts.size() > 1 || !expected.empty())
             mark_outdated(part, file);
         whole.cases = std::max(whole.cases, part.cases);
         std::move(part.frames.begin(), part.frames.end(), std::back_inserter(whole.frames));
@@ -145,7 +147,7 @@ ShotResult merged(const std::vector<std::string>& parts, const std::vector<Item>
                                                : "");
     if (whole.cases <= whole.frames.size()) // nothing is left out any more
         whole.cases = 0;
-    else if (parts.size() > 1)
+    else
         complaints.push_back("the parts have " + std::to_string(whole.frames.size()) + " of " +
                              std::to_string(whole.cases) +
                              " cases (--suite FILE with --merge tells which are missing)");
