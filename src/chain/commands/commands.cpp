@@ -25,7 +25,8 @@ void add_image_commands() {
 void add_measuring_commands() {
     constexpr bool own = true;
     add_commands(Group::Compare, diff_commands());
-    add_commands(Group::Compare, compare_commands(), own);
+    add_commands(Group::Compare, flip_commands(), own);
+    add_commands(Group::Compare, metric_commands(), own);
     add_commands(Group::Compare, bias_commands(), own);
     add_commands(Group::Compare, noise_floor_commands(), own);
     add_commands(Group::Measure, qc_commands(), own);

@@ -27,7 +27,8 @@ Rows stack_commands();
 Rows diff_commands();
 
 // Those of tonetool itself.
-Rows compare_commands();
+Rows flip_commands();
+Rows metric_commands();
 Rows bias_commands();
 Rows noise_floor_commands();
 Rows qc_commands();
