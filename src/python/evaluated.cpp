@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "imagebuf/pixels/float_rows.h"
 #include "imagebuf/pixels/oiio_compat.h"
 #include "python/types.h"
 #include "tonetool/color_tags.h"
@@ -27,14 +28,15 @@ OIIO::TypeDesc stored_type(const OIIO::ImageBuf& image) {
 // The smallest and largest finite value of the picture's channels, as they are stored.
 std::pair<float, float> range_of(const OIIO::ImageBuf& image, const ColorChoice& choice) {
     float low = 0, high = 0;
-    for (OIIO::ImageBuf::ConstIterator<float> pixel(image); !pixel.done(); ++pixel)
-        for (const int c : {choice.r, choice.g, choice.b}) {
-            const float value = pixel[c];
-            if (std::isfinite(value)) {
-                low = std::min(low, value);
-                high = std::max(high, value);
-            }
-        }
+    for_each_row(image, image.roi(), [&](int /*y*/, const float* row) {
+        const float* const end = row + size_t(image.roi().width()) * size_t(image.nchannels());
+        for (; row < end; row += image.nchannels())
+            for (const int c : {choice.r, choice.g, choice.b})
+                if (std::isfinite(row[c])) {
+                    low = std::min(low, row[c]);
+                    high = std::max(high, row[c]);
+                }
+    });
     return {low, high};
 }
 

@@ -67,3 +67,12 @@ def test_info_comes_after_it_only(tonetool, images):
 def test_verbose_names_what_is_written(tonetool, oiiotool, images):
     words = ["-v", images("half"), "-o", "x.exr"]
     assert tonetool(*words).out == oiiotool(*words).out
+
+
+@pytest.mark.parametrize("kind", ["half", "float", "uint8", "uint16"])
+def test_values_of_any_stored_type(tonetool, make_image, kind):
+    pixels = np.linspace(0, 1, 24).reshape(2, 4, 3)
+    make_image("a.exr", 4, 2, pixels=pixels)
+    name = "a.exr" if kind in ("half", "float") else "a.tif"
+    tonetool("a.exr", "-d", kind, "-o", "b" + name)
+    assert tonetool("--native", "--dumpdata", "b" + name).out == tonetool("--dumpdata", "b" + name).out

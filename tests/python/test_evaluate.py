@@ -132,6 +132,24 @@ def test_integers_of_ldr(integer, srgb, noise, other, tmp_path):
     assert held.spec().get_string_attribute("oiio:ColorSpace") in ("sRGB", "srgb_rec709_scene")
 
 
+@pytest.mark.parametrize("srgb", [True, False])
+def test_halves_of_ldr(srgb, noise, other, tmp_path):
+    """Their bits, taken for floats, would be beyond 0 to 1."""
+    halves = [np.clip(image, 0, 1).astype(np.float16) for image in (noise, other)]
+    floats = [image.astype(np.float32) for image in halves]
+    wanted = tonetool.evaluate(*floats, "LDR", srgb)
+    assert np.array_equal(tonetool.evaluate(*halves, "LDR", srgb)[0], wanted[0])
+    for value in (1.5, -0.3):
+        with pytest.raises(ValueError, match="takes 0 to 1"):
+            tonetool.evaluate(np.full((16, 16, 3), value, np.float16), np.zeros((16, 16, 3), np.float16), "LDR", srgb)
+    held = [oiio.ImageBuf(oiio.ImageSpec(image.shape[1], image.shape[0], 3, oiio.HALF)) for image in halves]
+    for image, values in zip(held, floats):
+        image.set_pixels(image.roi, values)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        tonetool.evaluate(*held, "LDR", srgb)
+
+
 def test_srgb_and_linear_differ(noise, other, tmp_path):
     codes, others = ((image * 255).astype(np.uint8) for image in (noise, other))
     assert tonetool.evaluate(codes, others, "LDR", True)[1] != tonetool.evaluate(codes, others, "LDR", False)[1]

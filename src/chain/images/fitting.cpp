@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "chain/images/channels.h"
+#include "imagebuf/pixels/float_rows.h"
 #include "imagebuf/pixels/oiio_compat.h"
 #include "text/error.h"
 #include "tonetool/pixels.h"
@@ -175,13 +176,14 @@ void warn_of_unseen(const Warn& warn, const OIIO::ImageBuf& pixels, const OIIO::
         !is_alpha(spec, alpha))
         return;
     int64_t lit = 0, unseen = 0;
-    for (OIIO::ImageBuf::ConstIterator<float> pixel(pixels); !pixel.done(); ++pixel) {
-        bool light = false;
-        for (int c = 0; c < alpha; ++c)
-            light = light || pixel[c] > 0;
-        lit += light;
-        unseen += light && pixel[alpha] <= 0;
-    }
+    for_each_row(pixels, pixels.roi(), [&](int /*y*/, const float* pixel) {
+        for (int x = 0; x < spec.width; ++x, pixel += spec.nchannels) {
+            const bool light =
+                std::any_of(pixel, pixel + alpha, [](float value) { return value > 0; });
+            lit += light;
+            unseen += light && pixel[alpha] <= 0;
+        }
+    });
     if (double(unseen) > share * double(lit)) {
         warn("alpha is 0 in " + std::to_string(unseen) + " of the " + std::to_string(lit) +
              " pixels that have a colour: viewers that heed alpha do not show them");

@@ -9,6 +9,7 @@
 #include <ostream>
 #include <regex>
 
+#include "imagebuf/pixels/float_rows.h"
 #include "text/error.h"
 #include "text/text.h"
 
@@ -122,20 +123,19 @@ std::string dump_text(const Image& image, const Listing& what, size_t subimage) 
     std::string text = what.dump->empty() ? ""
                                           : format("{} {}[{}][{}][{}] =\n{{\n", type, *what.dump,
                                                    spec.height, spec.width, spec.nchannels);
-    std::vector<float> values(static_cast<size_t>(spec.nchannels));
-    for (OIIO::ImageBuf::ConstIterator<float> pixel(pixels); !pixel.done(); ++pixel) {
-        for (int c = 0; c < spec.nchannels; ++c)
-            values[static_cast<size_t>(c)] = pixel[c];
-        bool last = pixel.x() == spec.x + spec.width - 1;
+    const auto add = [&](int x, int y, const std::vector<float>& values) {
+        const bool last = x == spec.x + spec.width - 1;
         if (!what.dump->empty()) {
-            text +=
-                format("{}/* ({}, {}): */ {}{}\n", pixel.x() == spec.x ? "  { " : "    ", pixel.x(),
-                       pixel.y(), pixel_text(values, type, true), last ? " }," : ",");
+            text += format("{}/* ({}, {}): */ {}{}\n", x == spec.x ? "  { " : "    ", x, y,
+                           pixel_text(values, type, true), last ? " }," : ",");
         } else if (what.dump_black || values != std::vector<float>(values.size())) {
-            text += format("    Pixel ({}, {}): {}\n", pixel.x(), pixel.y(),
-                           pixel_text(values, type, false));
+            text += format("    Pixel ({}, {}): {}\n", x, y, pixel_text(values, type, false));
         }
-    }
+    };
+    for_each_row(pixels, pixels.roi(), [&](int y, const float* row) {
+        for (int x = 0; x < spec.width; ++x, row += spec.nchannels)
+            add(spec.x + x, y, {row, row + spec.nchannels});
+    });
     return text + (what.dump->empty() ? "" : "};\n");
 }
 

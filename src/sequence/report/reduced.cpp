@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "imagebuf/pixels/float_rows.h"
 #include "imagebuf/pixels/oiio_compat.h"
 #include "sequence/report/pixel_rows.h"
 
@@ -170,12 +171,17 @@ void mark_nonfinite(ImageBuf& shown, const ImageBuf& image, const PixelOptions& 
                     const ROI& region) {
     const ColorChoice choice = color_of(image, options);
     const float magenta[3] = {1, 0, 1};
-    for (ImageBuf::ConstIterator<float> pixel(image, region); !pixel.done(); ++pixel) {
-        const bool finite = std::isfinite(pixel[choice.r]) && std::isfinite(pixel[choice.g]) &&
-                            std::isfinite(pixel[choice.b]);
-        if (!finite)
-            shown.setpixel(pixel.x() - region.xbegin, pixel.y() - region.ybegin, magenta);
-    }
+    ROI all = region;
+    all.chbegin = 0;
+    all.chend = image.nchannels();
+    for_each_row(image, all, [&](int y, const float* pixel) {
+        for (int x = 0; x < region.width(); ++x, pixel += all.nchannels()) {
+            const bool finite = std::isfinite(pixel[choice.r]) && std::isfinite(pixel[choice.g]) &&
+                                std::isfinite(pixel[choice.b]);
+            if (!finite)
+                shown.setpixel(x, y - region.ybegin, magenta);
+        }
+    });
 }
 
 } // namespace tonetool::sequence
