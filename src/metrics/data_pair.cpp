@@ -100,6 +100,16 @@ double coverage_of(const float* pixel, size_t channels, uint32_t id) {
     return sum;
 }
 
+// Of all ids; a lone id covers its pixel.
+double coverage_of(const float* pixel, size_t channels) {
+    if (channels % 2 != 0)
+        return bits_of(*pixel) != 0;
+    double sum = 0;
+    for (size_t c = 1; c < channels; c += 2)
+        sum += std::isfinite(pixel[c]) ? double(pixel[c]) : 0;
+    return sum;
+}
+
 // Half of the differences of the coverages of all ids: 1 where it is another object altogether.
 double id_difference(const PixelPair& pixel) {
     if (same_bits(pixel))
@@ -142,6 +152,8 @@ double difference_of(PairKind kind, const PixelPair& pixel, const float* depth, 
         return distance;
     }
     case PairKind::Ids:
+        row.covered[0] += coverage_of(pixel.a, pixel.channels);
+        row.covered[1] += coverage_of(pixel.b, pixel.channels);
         return id_difference(pixel);
     case PairKind::Alpha:
         return largest_difference(pixel);
@@ -188,6 +200,8 @@ void DataPair::add(const DataPair& row) {
     both += row.both;
     one += row.one;
     sum += row.sum;
+    covered[0] += row.covered[0];
+    covered[1] += row.covered[1];
     steps.add(row.codes);
     if (row.most > most) {
         most = row.most;

@@ -2,6 +2,7 @@
 // Two layers of data that should be the same: depths, positions, normals, motion, ids, alpha.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -12,9 +13,9 @@ namespace tonetool::metrics {
 
 /// What is compared, of pixels of interleaved channels.
 enum class PairKind {
-    Depth,    ///< one channel; beyond kSky, or not finite, nothing is there
+    Depth,    ///< the first channel says where it is; beyond kSky, or not finite, nothing is there
     Position, ///< each pixel's differences are held against its depth
-    Normal,   ///< three channels
+    Normal,   ///< the first three channels
     Motion,   ///< pairs of channels, in pixels
     Ids,      ///< pairs of an id, by its bits, and its coverage; or one id
     Alpha,
@@ -26,16 +27,22 @@ struct DataPair {
     static constexpr float kSky = 1e9f;
 
     int64_t pixels = 0;
-    int64_t off = 0;     ///< pixels that differ, by the measure of the kind
-    int64_t both = 0;    ///< of normals: pixels where both have a length
-    int64_t one = 0;     ///< and where only one has
-    double sum = 0;      ///< of differences: of ids by half their coverage, of alpha absolute
-    StepHistogram steps; ///< of angles in degrees, of distances in pixels
+    int64_t off = 0;  ///< pixels that differ, by the measure of the kind
+    int64_t both = 0; ///< of normals: pixels where both have a length
+    int64_t one = 0;  ///< and where only one has
+    double sum = 0;   ///< of differences: of ids by half their coverage, of alpha absolute
+    double covered[2] = {0, 0};               ///< of ids: the coverage of each side
+    StepHistogram steps;                      ///< of angles in degrees, of distances in pixels
     std::vector<StepHistogram::Code> codes{}; ///< of one row, before it is added
     double most = 0;                          ///< the largest difference, and where it is
     int64_t x = 0, y = 0;
 
     void add(const DataPair& row);
+    /// Of ids: the part of what the layer covers that are others.
+    double others() const {
+        const double whole = std::max(covered[0], covered[1]);
+        return whole > 0 ? sum / whole : 0;
+    }
     double share(int64_t count) const { return pixels > 0 ? double(count) / double(pixels) : 0; }
 };
 

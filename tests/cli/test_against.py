@@ -131,6 +131,11 @@ DIFFERENCES = {
     "group": (layer("Combined_key", lambda a: a * 1.3), "error group"),
     "albedo little": (layer("DiffCol", lambda a: a * 1.02), "warning albedo"),
     "albedo": (layer("DiffCol", lambda a: a * 0.9), "error albedo"),
+    "empty light": (layer("Combined_key", lambda a: a * 0), "error empty"),
+    "empty albedo": (layer("DiffCol", lambda a: a * 0), "error empty"),
+    "empty depth": (layer("Depth", lambda a: a * 0), "error empty"),
+    "empty ids": (layer("CryptoObject00", lambda a: a * 0), "error empty"),
+    "empty motion": (layer("Vector", lambda a: a * 0), "error empty"),
 }
 # A row of blocks, and one of them: their median stays.
 for _name, _code, _few in (("Combined", "color", 32), ("Combined_key", "group", 80),
@@ -169,6 +174,7 @@ HEADERS = {
     "view": "left",
     "cryptomatte/7f1a2b3/hash": "MurmurHash3_64",
     "cryptomatte/7f1a2b3/conversion": "float",
+    "cryptomatte/7f1a2b3/name": "CryptoMaterial",
     "camera": "persp",
 }
 
@@ -182,14 +188,44 @@ def test_what_headers_must_agree_in(against, name):
     assert f'header: {name} is "{value if isinstance(value, str) else int(value)}", ' in ran.out
 
 
+@pytest.mark.parametrize("name", ["Camera", "cameraName"])
+def test_names_of_cameras(against, name):
+    frames = [approved_frame(), new_frame()]
+    for frame, camera in zip(frames, ("a", "b")):
+        del frame.attributes["camera"]
+        header(**{name: camera})(frame, 0, None)
+    ran, found = against(*frames)
+    assert found == ["warning header"] and f'{name} is "b", approved is "a"' in ran.out
+
+
 def test_headers_that_may_differ(against):
     new = header(Software="renderer 4.3", DateTime="2026:11:29 10:00:00", PixelAspectRatio=1.0)
     assert against(approved_frame(), new(new_frame(), 0, None))[1] == []
-    ran, found = against(words=":attribute=Software,owner")
+    ran, found = against(words=":attribute=Software,camera")
     assert found == ["error header"]
     assert 'Software is "renderer 4.3", approved is "renderer 4.2"' in ran.out
     assert against(words=":attribute=Software:header=info")[1] == ["info header"]
     assert against(words=":attribute=Software:header=off")[1] == []
+
+
+@pytest.mark.parametrize("name", ["Softwar", "software", "Soft*", "nosuch"])
+def test_an_attribute_that_neither_has_holds_nothing(against, tonetool, name):
+    against(header(Software="a")(approved_frame(), 0, None), header(Software="b")(new_frame(), 0, None))
+    ran = tonetool("approved.exr", "new.exr", f"--against:attribute=camera, {name}", status=1)
+    assert f'attribute: neither header has "{name}"' in ran.err
+    assert ('did you mean "Software"?' in ran.err) == (name[:5].lower() == "softw")
+    assert against(words=":attribute= Software ")[1] == ["error header"]
+
+
+@pytest.mark.parametrize("kept, found", [(None, ["error header"]), ("{}", ["error header"]),
+                                         ('{"lamp":"3f123456","new":"3f000001"}', [])])
+def test_a_manifest_that_is_gone(against, kept, found):
+    name = "cryptomatte/7f1a2b3/manifest"
+    new = new_frame()
+    if kept:
+        header(**{name: kept})(new, 0, None)
+    ran, all_found = against(header(**{name: '{"lamp":"3f123456"}'})(approved_frame(), 0, None), new)
+    assert all_found == found and ("names no object" in ran.out) == bool(found)
 
 
 def test_a_frame_rate_is_a_number_however_it_is_written(against):
@@ -255,12 +291,12 @@ def test_ids_are_compared_by_their_bits(against, layers, tonetool):
     approved = layer("CryptoObject00", lambda a: value)(approved_frame(), 0, None)
     turned = layer("CryptoObject00", lambda a: value[..., [2, 3, 0, 1]])(new_frame(), 0, None)
     assert against(approved, turned)[1] == []
-    assert layers()["CryptoObject00"] == {"mismatch": 0}
+    assert layers()["CryptoObject00"] == {"mismatch": 0, "others": 0}
     assert "qc: " not in tonetool("approved.exr", "--qc").out
     signs = value.view(np.uint32) ^ np.array([0x80000000, 0, 0, 0], np.uint32)
     other = layer("CryptoObject00", lambda a: signs.view(np.float32))(new_frame(), 0, None)
     assert against(None, other)[1] == ["error id"]
-    assert layers()["CryptoObject00"] == {"mismatch": 0.75}
+    assert layers()["CryptoObject00"] == {"mismatch": 0.75, "others": 0.75}
 
 
 def test_unknown_layers_are_told_unless_their_kind_is_said(against, tonetool):
@@ -279,6 +315,72 @@ def test_unknown_layers_are_told_unless_their_kind_is_said(against, tonetool):
     for words, text in ((":kind=Extra=depht", 'unknown kind "depht"'),
                         (":kind=Extra", "LAYER=KIND"), (":kind==depth", "LAYER=KIND")):
         assert text in tonetool("approved.exr", "new.exr", "--against" + words, status=1).err
+
+
+# Filtered depth is often written as a colour.
+@pytest.mark.parametrize("name, channels", [("Depth", 1), ("ZDepth", 3), ("Z", 3), ("Extra", 2)])
+def test_depth_of_any_number_of_channels(against, name, channels):
+    depth = np.repeat(approved_frame().layers["Depth"], channels, axis=2)
+    words = ":kind=Extra=depth" if name == "Extra" else ""
+    frames = [frame() for frame in (approved_frame, new_frame, new_frame)]
+    for frame in frames:
+        del frame.layers["Depth"]
+        frame.layers[name] = depth.copy()
+    assert against(*frames[:2], words)[1] == []
+    frames[2].layers[name] = depth * np.float32(1.01)
+    assert against(None, frames[2], words)[1] == ["error depth"]
+    frames[2].layers[name] = depth * (1, 1, 1, 1.01)[-channels:]  # the last one alone
+    assert against(None, frames[2], words)[1] == ["error depth"]
+
+
+@pytest.mark.parametrize("channels", [3, 4])
+def test_normals_are_the_first_three_channels(against, channels):
+    def with_extra(frame, sign):
+        normal = frame.layers["Normal"] * sign
+        frame.layers["Extra"] = np.concatenate([normal, normal[..., :1] * 0 + 1], axis=2)[..., :channels]
+        return frame
+    words = ":kind=Extra=normal"
+    assert against(with_extra(approved_frame(), 1), with_extra(new_frame(), 1), words)[1] == []
+    assert against(None, with_extra(new_frame(), -1), words)[1][0] == "error normal"
+
+
+@pytest.mark.parametrize("channels", [1, 2])
+def test_a_kind_that_does_not_fit_is_an_error(against, tonetool, channels):
+    against(added("Extra", 1, channels)(approved_frame()), added("Extra", 1, channels)(new_frame()))
+    ran = tonetool("approved.exr", "new.exr", "--against:kind=Extra=normal", status=1)
+    assert ("kind= says that layer Extra is of the kind normal, which has three channels, and it has "
+            f"{channels}") in ran.err
+    assert against(words=":kind=Extra=data")[1] == []
+
+
+def test_a_layer_that_noise_leaves_empty_is_no_fault(against):
+    few = of("Extra", 15 / PIXELS, lambda a: a + 1)
+    approved = few(added("Extra", 0, 1)(approved_frame()), 0, None)
+    assert against(approved, added("Extra", 0, 1)(new_frame()))[1] == ["info data"]
+    some = of("Extra", 0.002, lambda a: a + 1)
+    approved = some(added("Extra", 0, 1)(approved_frame()), 0, None)
+    ran, found = against(approved)
+    assert found == ["error empty"] and "layer Extra is 0 everywhere, the approved one is not" in ran.out
+    assert against(words=":empty=warning")[1] == ["warning empty"]
+    assert against(words=":empty=off")[1] == ["info data"]  # what it hid is told again
+    assert against(some(added("Extra", 0, 1)(approved_frame()), 0, None), approved)[1] == []
+
+
+def test_a_rank_of_the_edges_with_other_objects(against, layers):
+    """Ranks above the first cover so little that a share of the picture never shows it."""
+    def rank(ids):
+        value = np.zeros((HEIGHT, WIDTH, 4), np.float32)
+        value[::9, ::9, 0] = np.array(ids, np.uint32).view(np.float32)
+        value[::9, ::9, 1] = 0.3
+        return value
+    approved, new = approved_frame(), new_frame()
+    approved.layers["CryptoObject01"], new.layers["CryptoObject01"] = rank(0x3F123456), rank(0x3F654321)
+    ran, found = against(approved, new)
+    assert found == ["error idothers"] and "100 % of what layer CryptoObject01 covers are other objects" in ran.out
+    assert layers()["CryptoObject01"]["mismatch"] < 0.005
+    new.layers["CryptoObject01"] = rank(0x3F123456)
+    new.layers["CryptoObject01"][:, : WIDTH // 2] *= 2  # noise of coverage
+    assert against(None, new)[1] == []
 
 
 def test_layers_that_are_skipped_are_not_missed_either(against):

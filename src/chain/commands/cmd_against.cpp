@@ -18,7 +18,10 @@ namespace {
 
 Strings words_of(const Call& call, const std::string& key) {
     const auto text = call.text(key);
-    return text ? split(*text, ',') : Strings();
+    Strings words = text ? split(*text, ',') : Strings();
+    for (std::string& word : words)
+        word = OIIO::Strutil::strip(word);
+    return words;
 }
 
 // kind=LAYER=KIND,...
@@ -85,6 +88,19 @@ void check_words(Session&, const Call& call) {
             throw CommandError("layer " + layer + ": " + unknown_name("kind", kind, valid));
 }
 
+// What is to agree must be there: a name that neither header has holds nothing.
+void check_attributes(const AgainstFacts& facts, const Strings& names) {
+    Strings there;
+    for (const AgainstFile* file : {&facts.approved, &facts.file})
+        for (const QcPart& part : file->parts)
+            for (const auto& [name, value] : part.metadata)
+                there.push_back(name);
+    for (const std::string& name : names)
+        if (std::find(there.begin(), there.end(), name) == there.end())
+            throw CommandError("attribute: neither header has \"" + name + "\"" +
+                               meant(name, there));
+}
+
 void run_against(Session& session, const Call& call) {
     const Image &approved = *call.images[0], &image = *call.images[1];
     const sequence::FaultLimits limits = fault_limits(call, sequence::against_rules());
@@ -122,7 +138,9 @@ void run_against(Session& session, const Call& call) {
         session.warning(call.row().label(), "no layer is called \"" + pattern + "\"");
     take_types(approved, facts.approved.channels);
     take_types(image, facts.file.channels);
-    sequence::AgainstRecord record = sequence::record_of(facts, words_of(call, "attribute"));
+    const Strings attributes = words_of(call, "attribute");
+    check_attributes(facts, attributes);
+    sequence::AgainstRecord record = sequence::record_of(facts, attributes);
     record.limits = limits;
     session.check.result->against = sequence::to_json(record);
     show_differences(session, call, record);
@@ -139,14 +157,15 @@ Modifiers own_modifiers() {
 } // namespace
 
 Rows against_commands() {
-    return {command("against",
-                    "Compare each layer with the approved version: approved, new -> both; "
-                    "severities: off, info, warning, error",
-                    run_against)
-                .checked(check_words)
-                .images(2, 2)
-                .modifiers(pixel_modifiers(), own_modifiers(),
-                           fault_modifiers(sequence::against_rules()))};
+    return {
+        command(
+            "against",
+            "Compare each layer with the approved version; severities: off, info, warning, error",
+            run_against)
+            .checked(check_words)
+            .images(2, 2)
+            .modifiers(pixel_modifiers(), own_modifiers(),
+                       fault_modifiers(sequence::against_rules()))};
 }
 
 } // namespace tonetool::chain

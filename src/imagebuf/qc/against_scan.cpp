@@ -6,8 +6,10 @@
 #include <algorithm>
 #include <map>
 
+#include "imagebuf/pixels/layer_name.h"
 #include "imagebuf/pixels/parallel.h"
 #include "imagebuf/qc/qc_header.h"
+#include "metrics/refusal.h"
 
 namespace tonetool {
 namespace {
@@ -33,9 +35,18 @@ std::optional<PairKind> data_kind(const std::string& kind) {
     return found == kinds.end() ? std::nullopt : std::optional(found->second);
 }
 
-// Whether a measure fits the channels that a layer has; else it is data.
+// Whether a measure fits the channels that a layer has.
 bool fits(PairKind kind, size_t channels) {
-    return kind == PairKind::Depth ? channels == 1 : kind != PairKind::Normal || channels == 3;
+    return kind != PairKind::Normal || channels >= 3;
+}
+
+// The pixels of a row that are not 0 in all of the channels.
+int64_t filled_pixels(const std::vector<float>& row, size_t channels) {
+    int64_t filled = 0;
+    for (size_t at = 0; at < row.size(); at += channels)
+        filled += std::any_of(row.begin() + ptrdiff_t(at), row.begin() + ptrdiff_t(at + channels),
+                              [](float value) { return value != 0; });
+    return filled;
 }
 
 } // namespace
@@ -44,10 +55,16 @@ std::string AgainstScan::Side::moment() const {
     return exact.empty() ? std::string() : fingerprint(hashes.data(), hashes.size());
 }
 
-std::string AgainstScan::kind_of(const LayerReader::Layer& layer) const {
+std::optional<std::string> AgainstScan::kind_asked(const std::string& layer) const {
     for (const auto& [pattern, kind] : m_options.kinds)
-        if (is_meant(pattern, layer.name))
+        if (is_meant(pattern, layer))
             return kind;
+    return std::nullopt;
+}
+
+std::string AgainstScan::kind_of(const LayerReader::Layer& layer) const {
+    if (const auto asked = kind_asked(layer.name))
+        return *asked;
     static const std::map<std::string, std::string> names = {
         {"picture", "color"}, {"light", "group"}, {"motion", "vector"}};
     const auto found = names.find(layer.kind);
@@ -142,6 +159,11 @@ void AgainstScan::add_pair(size_t approved, size_t file) {
     pair.alpha[1] = b.alpha;
     pair.data = data_kind(pair.kind);
     if (pair.data && !fits(*pair.data, a.channels.size())) {
+        if (kind_asked(a.name)) {
+            throw Refusal("kind= says that layer " + shown_layer(a.name) + " is of the kind " +
+                          pair.kind + ", which has three channels, and it has " +
+                          std::to_string(a.channels.size()) + " (valid: data, or no kind=)");
+        }
         pair.kind = "data";
         pair.data = PairKind::Data;
     }
@@ -211,12 +233,14 @@ AgainstScan::PairRow AgainstScan::scan_pair_row(const Pair& pair, int y) const {
     if (!row.there)
         return row;
     const std::vector<float> a = values(pair, 0, y), b = values(pair, 1, y);
+    row.filled[0] = filled_pixels(a, pair.channels[0].size());
+    row.filled[1] = filled_pixels(b, pair.channels[1].size());
     if (pair.light)
         row.light = pair.light->scan(a, b);
     std::vector<float> depth;
     if (pair.data == PairKind::Position && m_depth >= 0) {
         const LayerReader::Layer& from = m_sides[0].reader.layers()[size_t(m_depth)];
-        depth = m_sides[0].reader.values(from.part, from.channels, pair.window, y);
+        depth = m_sides[0].reader.values(from.part, {from.channels.front()}, pair.window, y);
     }
     if (pair.data) {
         row.data = metrics::scan_pair(*pair.data, a, b, pair.channels[0].size(),
@@ -239,6 +263,8 @@ void AgainstScan::add(int y, const Row& row) {
             continue;
         if (pair.light)
             pair.light->add(y - pair.window.ybegin, row.pairs[i].light);
+        for (size_t side = 0; side < 2; ++side)
+            pair.filled[side] += row.pairs[i].filled[side];
         pair.sums.add(row.pairs[i].data);
         pair.alpha_sums.add(row.pairs[i].alpha);
     }
@@ -271,10 +297,15 @@ AgainstLayer AgainstScan::result_of(const Pair& pair) const {
     } else if (*pair.data == PairKind::Motion) {
         out.quantities = {{"median", sums.steps.quantile(0.5)}, {"off", sums.share(sums.off)}};
     } else if (*pair.data == PairKind::Ids) {
+        constexpr double few = 16; // pixels that it covers: those of noise are others
         out.quantities = {{"mismatch", sums.sum / pixels}};
+        if (std::max(sums.covered[0], sums.covered[1]) >= few)
+            out.quantities["others"] = sums.others();
     } else {
         out.quantities = {{"off", sums.share(sums.off)}};
     }
+    if (pair.is_emptied())
+        out.quantities["emptied"] = 1;
     if (pair.alpha_sums.pixels > 0) {
         out.quantities["alpha_mean"] = pair.alpha_sums.sum / double(pair.alpha_sums.pixels);
         out.quantities["alpha_off"] = pair.alpha_sums.share(pair.alpha_sums.off);

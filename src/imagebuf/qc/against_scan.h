@@ -47,17 +47,28 @@ private:
         std::optional<metrics::PairKind> data;
         metrics::DataPair sums, alpha_sums;
         int alpha[2] = {-1, -1};
+        int64_t filled[2] = {0, 0}; ///< pixels that are not 0
+
+        /// Noise leaves no layer empty of which a thousandth, and more than a few pixels, had
+        /// something.
+        bool is_emptied() const {
+            return filled[1] == 0 && filled[0] >= 16 &&
+                   double(filled[0]) >= 1e-3 * double(window.npixels());
+        }
     };
     struct PairRow {
         bool there = false;
         metrics::LightPair::Row light;
         metrics::DataPair data, alpha;
+        int64_t filled[2] = {0, 0};
     };
     struct Row {
         std::vector<PairRow> pairs;
         std::string hashes[2];
     };
 
+    /// That of `kinds`, if one of them means the layer.
+    std::optional<std::string> kind_asked(const std::string& layer) const;
     /// As --against calls it.
     std::string kind_of(const LayerReader::Layer& layer) const;
     bool is_skipped(const std::string& layer) const;

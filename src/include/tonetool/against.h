@@ -45,9 +45,9 @@ struct AgainstFile {
 struct AgainstLayer {
     std::string name, kind; ///< of the new file
     /// By kind: depth, position: off; normal: median, off10, one; vector: median, off; id:
-    /// mismatch; albedo, color, group: gain, blocks, one_finite, and none_finite (1) if no pixel is
-    /// finite in both; any with an alpha: alpha_mean, alpha_off;
-    /// data: off.
+    /// mismatch, and others where it covers 16 pixels; albedo, color, group: gain, blocks, one_finite, and none_finite (1) if no pixel is
+    /// finite in both; any with an alpha: alpha_mean, alpha_off; data: off; any: emptied (1) if
+    /// the new one is 0 everywhere, and a thousandth of the approved one's pixels, at least 16, not.
     std::map<std::string, double> quantities;
     int x = 0, y = 0; ///< where they differ most
     /// The first pixel that is finite in only one, where there is one.
@@ -75,15 +75,19 @@ TONETOOL_API std::vector<std::string> against_kinds();
 ///   degrees apart; one: share of pixels where only one has a normal longer than 0.5; off of
 ///   vectors: share more than half a pixel apart.
 /// - mismatch: mean over pixels of half the differences of the coverages of all ids, which are
-///   compared by their bits.
+///   compared by their bits. others: the same, as a part of what the layer covers: a rank of the
+///   edges alone covers little.
 /// - gain: stops by which the light of the new file is brighter (negative: darker), the smaller of
 ///   the median over lit blocks of 16 x 16 pixels and of the sum, 0 where these do not agree.
 ///   blocks: share of the blocks that differ by more than six standard errors of their noise and
 ///   5 %. Colours are compared in linear Rec.709. Pixels that are not finite in one file count in
 ///   neither.
 ///
+/// Depths may have any number of channels, of which the first says where there is nothing; normals
+/// are the first three.
+///
 /// Returns false with the reason in `error` where an image is deep or unreadable, the beauty cannot
-/// be told, or a kind has no such name.
+/// be told, a kind has no such name, or a layer has too few channels for the one that it is given.
 TONETOOL_API bool against_facts(AgainstFacts& facts,
                                 const std::vector<const OIIO::ImageBuf*>& approved,
                                 const std::vector<const OIIO::ImageBuf*>& parts, std::string& error,

@@ -30,7 +30,7 @@ using ComparedFrames = std::vector<Compared>;
 struct Beyond {
     const AgainstQuantity* quantity;
     double value; ///< with its sign
-    double limit; ///< of an error
+    double limit; ///< that it is beyond
     Severity severity;
 };
 
@@ -39,10 +39,12 @@ std::optional<Beyond> beyond(const FaultLimits& limits, const AgainstQuantity& q
                              double value) {
     const double limit = limits.threshold(quantity.code), size = std::abs(value);
     const auto severity = limits.severity(quantity.code);
-    if (!severity || !(size > quantity.warning_share * limit))
+    const double warning = quantity.warning_share * limit;
+    if (!severity || !(size > warning))
         return std::nullopt;
-    return Beyond{&quantity, value, limit,
-                  size > limit ? *severity : std::min(*severity, Severity::Warning)};
+    if (size > limit)
+        return Beyond{&quantity, value, limit, *severity};
+    return Beyond{&quantity, value, warning, std::min(*severity, Severity::Warning)};
 }
 
 // The worst quantity of a layer, or of its alpha. The first of those that are as severe says most:
@@ -94,6 +96,8 @@ std::string sentence_of(const AgainstLayer& layer, const Beyond& beyond) {
                       what);
     else if (quantity == "mismatch")
         text = format("{} shows other objects in {} of the picture", what, percent(value));
+    else if (quantity == "others")
+        text = format("{} of what {} covers are other objects", percent(value), what);
     else if (quantity == "alpha_mean")
         return format("alpha of {} differs from the approved one by {:.3g} on average", what,
                       value);
@@ -126,8 +130,25 @@ bool tells_moment(const std::string& code) {
     return code == "position" || code == "depth";
 }
 
+// Its other differences say no more.
+bool add_empty(const AgainstRecord& record, const AgainstLayer& layer, std::vector<Fault>& faults) {
+    const auto severity = record.limits.severity("empty");
+    if (!severity || layer.quantities.count("emptied") == 0)
+        return false;
+    Fault fault;
+    fault.command = "against";
+    fault.code = "empty";
+    fault.severity = *severity;
+    fault.layer = layer.name;
+    fault.sentence = layer_words(layer) + " is 0 everywhere, the approved one is not";
+    faults.push_back(std::move(fault));
+    return true;
+}
+
 void add_layers(const AgainstRecord& record, std::vector<Fault>& faults) {
     for (const AgainstLayer& layer : record.layers) {
+        if (add_empty(record, layer, faults))
+            continue;
         for (const std::string& kind : {layer.kind, std::string()})
             if (const auto worst = worst_of(record, layer, kind))
                 faults.push_back(fault_of(layer, *worst));

@@ -209,18 +209,27 @@ bool same_value(const std::string& name, std::string a, std::string b) {
     return a == b;
 }
 
+// By which renderers call the camera.
+const char* const kCameras[] = {"camera", "Camera", "cameraName", "CameraName"};
+
+bool is_camera(const std::string& name) {
+    return std::find(std::begin(kCameras), std::end(kCameras), name) != std::end(kCameras);
+}
+
 // The names that must agree: those that are always meant, Cryptomatte's, and the user's.
 std::set<std::string> header_names(const AgainstFile& approved, const AgainstFile& file,
                                    const Names& more) {
     std::set<std::string> names = {
-        "PixelAspectRatio", "framesPerSecond", "FramesPerSecond", "view",  "multiView",
-        "chromaticities",   "oiio:ColorSpace", "colorInteropID",  "camera"};
+        "PixelAspectRatio", "framesPerSecond", "FramesPerSecond", "view",
+        "multiView",        "chromaticities",  "oiio:ColorSpace", "colorInteropID"};
+    names.insert(std::begin(kCameras), std::end(kCameras));
     names.insert(more.begin(), more.end());
     for (const AgainstFile* side : {&approved, &file})
         for (const QcPart& part : side->parts)
             for (const auto& [name, value] : part.metadata)
                 if (OIIO::Strutil::starts_with(name, "cryptomatte/") &&
                     (OIIO::Strutil::ends_with(name, "/hash") ||
+                     OIIO::Strutil::ends_with(name, "/name") ||
                      OIIO::Strutil::ends_with(name, "/conversion")))
                     names.insert(name);
     return names;
@@ -236,9 +245,29 @@ void compare_headers(const AgainstFile& approved, const AgainstFile& file, const
         if (!same_value(name, theirs, ours)) {
             out.push_back({"header", "",
                            format("{} is {}, approved is {}", name, shown(ours), shown(theirs)),
-                           name == "camera" ? Severity::Warning : Severity::Error});
+                           is_camera(name) ? Severity::Warning : Severity::Error});
         }
     }
+}
+
+// The objects of a manifest change with the scene. One that is gone leaves ids that nobody can
+// name.
+void compare_manifests(const AgainstFile& approved, const AgainstFile& file, Differences& out) {
+    const auto names_objects = [](const std::string& manifest) {
+        return manifest.find(':') != std::string::npos ||
+               manifest.find(", SHA-1 ") != std::string::npos;
+    };
+    std::set<std::string> names;
+    for (const QcPart& part : approved.parts)
+        for (const auto& [name, value] : part.metadata)
+            if (OIIO::Strutil::starts_with(name, "cryptomatte/") &&
+                OIIO::Strutil::ends_with(name, "/manifest") && names_objects(value))
+                names.insert(name);
+    for (const std::string& name : names)
+        if (!names_objects(said(file, name)))
+            out.push_back({"header", "",
+                           name + " names no object, that of the approved version does",
+                           Severity::Error});
 }
 
 } // namespace
@@ -256,6 +285,7 @@ AgainstRecord record_of(const AgainstFacts& facts, const Names& headers) {
     compare_types(facts.approved, facts.file, record.differences);
     compare_compression(facts.approved, facts.file, record.differences);
     compare_headers(facts.approved, facts.file, headers, record.differences);
+    compare_manifests(facts.approved, facts.file, record.differences);
     return record;
 }
 

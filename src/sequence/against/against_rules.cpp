@@ -17,8 +17,15 @@ const FaultRules& against_rules() {
          error,
          {},
          "",
-         "pixel aspect, frames per second, view, chromaticities, colour space, Cryptomatte's hash "
-         "or an attribute of attribute= is another; the camera's name: warning"},
+         "pixel aspect, frames per second, view, chromaticities, colour space, Cryptomatte's name "
+         "or "
+         "hash, or an attribute of attribute= is another, or its manifest is gone; the camera's "
+         "name: warning"},
+        {"empty",
+         error,
+         {},
+         "",
+         "a layer is 0 everywhere, and the approved one is not in a thousandth of its pixels"},
         {"position", error, 0.01, "share of the pixels", "positions that moved; warning at 0.2 X"},
         {"depth", error, 0.01, "share of the pixels", "depths that are others; warning at 0.2 X"},
         {"normal", error, 2.0, "degrees", "the median angle of the normals; warning at 0.25 X"},
@@ -30,6 +37,8 @@ const FaultRules& against_rules() {
         {"vectoroff", error, 0.05, "share of the pixels",
          "motion more than half a pixel apart; warning at 0.4 X"},
         {"id", error, 0.02, "share of the coverage", "other objects; warning at 0.25 X"},
+        {"idothers", error, 0.9, "share of what the layer covers",
+         "nearly all objects of a layer, as a rank of the edges; warning at 0.9 X"},
         {"color", error, 0.15, "stops",
          "a layer of colour is brighter or darker; warning at 0.33 X"},
         {"colorblocks", error, 0.08, "share of the blocks",
@@ -77,6 +86,7 @@ const std::vector<AgainstQuantity>& against_quantities() {
         {"vector", "median", "vector", 0.2},
         {"vector", "off", "vectoroff", 0.4},
         {"id", "mismatch", "id", 0.25},
+        {"id", "others", "idothers", 0.9},
         {"color", "none_finite", "nonfinite", 1e-6},
         {"color", "gain", "color", 1.0 / 3},
         {"color", "one_finite", "nonfinite", 1e-6},
