@@ -104,6 +104,22 @@ def test_nonfinite_pixels_are_the_largest_error(tonetool_v, testimages, read):
     assert ran.fact("max").startswith("0 ") and ran.fact("nonfinite-in-both") == "1"
 
 
+# A method must not gain by pixels that are no numbers, whatever its other errors are.
+@pytest.mark.parametrize("metric, value", [("mse", "inf"), ("mae", "inf"), ("relmse", "inf"), ("rmae", "inf"),
+                                           ("psnr", "-inf"), ("smape", None), ("mpsnr", None)])
+def test_no_limit_holds_where_the_test_alone_is_not_finite(tonetool, testimages, metric, value):
+    words = [testimages / "plain.exr", testimages / "nan_center.exr"]
+    limit = "-299" if metric == "psnr" else "1e9"
+    if value is None:  # the largest error there is
+        assert tonetool(*words, f"--errormap:metric={metric}:print=0", "--csv", "-").out.count("inf") == 0
+        return
+    ran = tonetool(*words, f"--errormap:metric={metric}:fail={limit}", status=3)
+    assert f"FAIL {metric} {value} " in ran.out
+    # Where the reference is not finite nobody can tell; where the pixel does not count it does not.
+    assert "inf" not in tonetool(*words[::-1], f"--errormap:metric={metric}:fail={limit}").out
+    assert "-inf" not in tonetool(*words, f"--errormap:metric={metric}:fail={limit}:ignore=1x1+32+24").out
+
+
 def test_quiet_and_print(tonetool, pair):
     assert tonetool("-q", *pair, "--errormap:metric=mae:fail=1e9").out == ""
     ran = tonetool(*pair, "--errormap:metric=mae:fail=1e9:print=0")

@@ -133,8 +133,7 @@ void FlipMaps::take(int begin, int end, const ColorPlanes& reference, const Colo
             return;
         if (m_plan.alpha())
             compare_alpha(y, sides);
-        if (nonfinite)
-            override_nonfinite(y, sides);
+        const int64_t lost = nonfinite ? override_nonfinite(y, sides) : 0;
         if (reference.ignored)
             clear_ignored(y, *reference.ignored);
         const Unseen found = unseen(y, sides);
@@ -142,6 +141,7 @@ void FlipMaps::take(int begin, int end, const ColorPlanes& reference, const Colo
         m_unseen.differing += found.differing;
         m_unseen.white += found.white;
         m_unseen.black += found.black;
+        m_lost += lost;
     });
 }
 
@@ -164,7 +164,9 @@ void FlipMaps::compare_alpha(int y, const Sides& sides) {
 }
 
 // The largest error where one image alone is non-finite or both are in another way, else 0.
-void FlipMaps::override_nonfinite(int y, const Sides& sides) {
+int64_t FlipMaps::override_nonfinite(int y, const Sides& sides) {
+    const IgnoredPixels* const ignored = sides.reference.ignored;
+    int64_t lost = 0;
     const size_t at = sides.reference.at(y) + size_t(m_roi.xbegin - sides.reference.region.xbegin);
     for (size_t x = 0; x < size_t(m_roi.width()); ++x) {
         const bool r = sides.reference.nonfinite[at + x], t = sides.test.nonfinite[at + x];
@@ -177,7 +179,9 @@ void FlipMaps::override_nonfinite(int y, const Sides& sides) {
             row(m_index, y)[x] = 0;
         for (FlipExposure& picture : m_pictures)
             row(picture.flip, y)[x] = error;
+        lost += !r && !(ignored && ignored->at(m_roi.xbegin + int(x), y));
     }
+    return lost;
 }
 
 void FlipMaps::clear_ignored(int y, const IgnoredPixels& ignored) {
@@ -381,6 +385,8 @@ FlipSummary FlipMaps::summarize(const Sides& sides, const Found& found) {
         }
     }
     s.pool = pooled(sides.reference.ignored);
+    if (m_unbounded && m_lost > 0) // nothing bounds the error of these pixels
+        s.pool.mean = std::numeric_limits<double>::infinity();
     s.alpha_mean /= double(s.pool.pixels);
     collect_warnings(sides.reference, sides.test, s);
     warn_of_unseen(sides, s);

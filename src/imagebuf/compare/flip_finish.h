@@ -59,7 +59,8 @@ private:
     OIIO::ImageBuf make_image(int channels) const;
     float* row(OIIO::ImageBuf& image, int y) const;
     void compare_alpha(int y, const Sides& sides);
-    void override_nonfinite(int y, const Sides& sides);
+    /// Returns how many pixels that count the test alone has lost.
+    int64_t override_nonfinite(int y, const Sides& sides);
     void clear_ignored(int y, const IgnoredPixels& ignored);
     void mark_ignored(const IgnoredPixels& ignored, float value);
     FlipPool pooled(const IgnoredPixels* ignored);
@@ -84,6 +85,7 @@ private:
     std::vector<FlipExposure> m_pictures;
     std::vector<AlphaRow> m_alpha;
     Unseen m_unseen;
+    int64_t m_lost = 0; ///< pixels that are non-finite in the test alone
     Clipping m_clipping;
 };
 
