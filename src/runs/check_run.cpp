@@ -71,6 +71,8 @@ int PlanRun::run() {
     sequence::check_places(m_plan.check.written_places());
     refuse_to_write_over(m_plan);
     check_cases_asked_for(m_plan);
+    if (judges_frames())
+        refuse_shot_against_itself(m_plan);
     m_accepted = accepted_by(m_plan.check, m_plan.check.essence);
     if (m_plan.check.only_validates || judges_frames()) {
         try_outputs(m_plan);

@@ -52,7 +52,7 @@ void make_folders(const FramePlan& plan, const FrameRun& run) {
 bool same_file(const FramePlan& plan, const CheckPlan& check, const Strings& words) {
     const Strings files = words_at(words, check.inputs.size() == 2 ? check.inputs : plan.sequences);
     std::error_code none;
-    return plan.named && check.compares && files.size() > 1 &&
+    return plan.named && check.compares_pairs() && files.size() > 1 &&
            std::filesystem::equivalent(files[0], files[1], none);
 }
 

@@ -103,7 +103,12 @@ void list_frames(Scan& scan, Files& first, std::vector<Files>& listings) {
     if (scan.plan.check.compares && !scan.for_images)
         sequence::check_same_numbers(sides_of(scan));
     for (const Pattern& pattern : scan.patterns) {
-        listings.push_back(listing_of(scan, pattern, scan.texts()[pattern.at], first));
+        const std::string& word = scan.texts()[pattern.at];
+        listings.push_back(listing_of(scan, pattern, word, first));
+        const bool told = !scan.plan.named && !scan.plan.line.compat && !scan.for_images;
+        if (const std::string lacking = sequence::gaps({word, listings.back()});
+            told && scan.plan.check.is_input(pattern.at) && !lacking.empty())
+            scan.plan.warnings.push_back(lacking);
         first = listings.front();
         if (first.names.empty() && !scan.plan.line.compat) {
             throw CommandError("no file matches \"" + scan.texts()[pattern.at] +

@@ -213,21 +213,48 @@ void check_cases_asked_for(const FramePlan& plan) {
     const CheckPlan& check = plan.check;
     if (check.has("table") && !plan.named && !check.has("merge")) // parts may have names
         throw CommandError(std::string("--table: ") + sequence::kTableNeedsNames);
-    const auto need = [&](const char* key, const Strings& asked,
+    if (check.has("table") && !check.table.methods.empty() && !check.has("merge") &&
+        std::all_of(plan.runs.begin(), plan.runs.end(),
+                    [](const FrameRun& run) { return run.frame.item().method.empty(); }))
+        throw CommandError(
+            "--table: methods= needs methods (valid: %M in the names of the images)");
+    const auto need = [&](const char* command, const char* key, const Strings& asked,
                           std::string sequence::Item::*member) {
         std::set<std::string> there;
         for (const FrameRun& run : plan.runs)
             there.insert(run.frame.item().*member);
         for (const std::string& one : asked)
             if (there.count(one) == 0)
-                throw CommandError(std::string("--figure: ") + key + " has \"" + one +
+                throw CommandError(std::string(command) + ": " + key + " has \"" + one +
                                    "\" (there are: " + join({there.begin(), there.end()}, ", ") +
                                    ")");
     };
+    if (check.has("table") && !check.has("merge"))
+        need("--table", "methods", check.table.methods, &sequence::Item::method);
     if (!check.has("figure"))
         return;
-    need("names", check.figure.names, &sequence::Item::name);
-    need("methods", check.figure.methods, &sequence::Item::method);
+    need("--figure", "names", check.figure.names, &sequence::Item::name);
+    need("--figure", "methods", check.figure.methods, &sequence::Item::method);
+}
+
+void refuse_shot_against_itself(const FramePlan& plan) {
+    const std::vector<size_t>& pair = plan.sequences.empty() ? plan.check.inputs : plan.sequences;
+    if (plan.named || !plan.loops || !plan.check.compares_pairs() || pair.size() != 2)
+        return;
+    size_t same = 0;
+    for (const FrameRun& run : plan.runs) {
+        const Strings files = words_at(run.words, pair);
+        std::error_code none;
+        if (std::filesystem::equivalent(files[0], files[1], none))
+            ++same;
+        else if (std::filesystem::exists(files[0], none) && std::filesystem::exists(files[1], none))
+            return;
+    }
+    if (same > 1) {
+        throw CommandError("in all " + std::to_string(same) + " frames \"" +
+                           plan.line.texts[pair[0]] + "\" and \"" + plan.line.texts[pair[1]] +
+                           "\" are the same file (valid: the names of two versions)");
+    }
 }
 
 void try_outputs(const FramePlan& plan) {

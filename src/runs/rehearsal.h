@@ -15,6 +15,11 @@ void try_outputs(const FramePlan& plan);
 /// names to write.
 void check_cases_asked_for(const FramePlan& plan);
 
+/// A CommandError where all frames of a shot are the same files in both sequences, by links or
+/// other names: nothing would be compared. Some may be, as versions share frames that did not
+/// change.
+void refuse_shot_against_itself(const FramePlan& plan);
+
 /// Prints what is wrong with the commands of the line, or with the layers that they ask for, as
 /// their run would; false where something is. A layer is looked for in the headers of the first
 /// frame that is there, and only where that lacks it in those of all others. `worker`: in a process

@@ -9,6 +9,7 @@
 #include "runs/check_end.h"
 #include "runs/frame_context.h"
 #include "sequence/frames/file_stamp.h"
+#include "sequence/results/limits_file.h"
 #include "text/error.h"
 #include "text/token.h"
 
@@ -51,12 +52,18 @@ std::vector<EndFile> places_of(const CheckPlan& check) {
     return places;
 }
 
-// A text in the place of a frame is a slip, whether this line reads that frame or not.
-void refuse_image_name(const EndFile& place) {
-    if (place.command == "figure" || place.command == "contactsheet")
-        return;
+// A text in the place of a frame is a slip, whether this line reads that frame or not; so is a
+// picture in a file that cannot hold one.
+void refuse_name_of_other_kind(const EndFile& place) {
+    const bool picture = place.command == "figure" || place.command == "contactsheet";
     const bool image = bool(OIIO::ImageOutput::create(place.file));
     (void)OIIO::geterror();
+    if (picture && !image)
+        throw CommandError("--" + place.command + ": \"" + place.file +
+                           "\" has no extension of an image that can be written (valid: .png, "
+                           ".tif, .jpg, .exr and others)");
+    if (picture)
+        return;
     const std::string ending = place.command == "report" ? "html"
                                : place.command == "csv"  ? "csv"
                                                          : "json";
@@ -78,6 +85,8 @@ Strings files_read(const FramePlan& plan, const FrameRun& run) {
             if (chain::names_file(word.argument_name(i)))
                 files.push_back(texts[word.arguments[i]]);
         for (const auto& [key, text] : parse_token(texts[word.at], true).modifiers) {
+            if ((key == "fail" || key == "warn") && sequence::names_limits_file(text))
+                files.push_back(text);
             for (const chain::Modifier& modifier : word.row->modifiers)
                 if (modifier.key == key && chain::value_names_file(modifier, text))
                     files.push_back(text);
@@ -168,7 +177,7 @@ void refuse_to_write_over(const FramePlan& plan, const Strings& parts) {
         refuse_in_run(plan, places, plan.line.texts, parts);
     for (size_t i = 0; i < plan.runs.size() && !places.empty(); ++i)
         refuse_in_run(plan, places, plan.runs[i].words, files_read(plan, plan.runs[i]));
-    std::for_each(places.begin(), places.end(), refuse_image_name);
+    std::for_each(places.begin(), places.end(), refuse_name_of_other_kind);
 }
 
 } // namespace tonetool::runs

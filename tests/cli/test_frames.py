@@ -91,6 +91,9 @@ def test_parallel_frames_are_the_same_bit_for_bit(tonetool, read):
 @pytest.mark.usefixtures("shot")
 def test_progress_as_json_and_none_when_piped(tonetool):
     words = ["shot.#.exr", "-o", "out.#.exr"]
+    gap = "tonetool WARNING: \"shot.#.exr\" has no frame 3 (valid: "
+    assert tonetool(*words).err.startswith(gap) and tonetool(*words).err.count("\n") == 1
+    words = ["--frames", "1,2,4", *words]
     assert tonetool(*words).err == ""
     lines = [json.loads(line) for line in tonetool("--progress=json", *words).err.splitlines()]
     assert [line["frame"] for line in lines] == [1, 2, 4]
@@ -345,16 +348,21 @@ def test_a_range_in_one_name_says_what_it_leaves_out(tonetool, pair_of_shots):
 
 @pytest.mark.parametrize("command", [FLIP, "--against", "--diff", "--hdrflip"])
 def test_a_shot_against_itself_is_no_check(tonetool, pair_of_shots, command):
-    """The name twice; links between two versions, as of frames that were not rendered again, are a warning."""
+    """By name or links; links of some frames, as of those that were not rendered again, are a warning."""
     words = ["r.#.exr", "./r.#.exr", command, "--json", "c.json"]
-    ran = tonetool(*words, status=1)
+    told = 'in all 3 frames "{}" and "{}" are the same file (valid: the names of two versions)'
+    assert told.format(*words) in tonetool(*words, status=1).err
+    ran = tonetool("--frames", "2", *words, status=1)  # a task of a farm
     assert "are the same file (valid: the names of two versions)" in ran.err
-    assert "check: error, 3 frames: 3 errors" in ran.out
+    assert "check: error, 1 frame: 1 error" in ran.out
     for number in (1, 2, 3):
         (pair_of_shots / f"t.{number:04d}.exr").unlink()
         (pair_of_shots / f"t.{number:04d}.exr").symlink_to(f"r.{number:04d}.exr")
+    assert told.format(*SHOTS) in tonetool(*SHOTS, command, "--json", "c.json", status=1).err
+    (pair_of_shots / "t.0003.exr").unlink()
+    shutil.copy(pair_of_shots / "r.0003.exr", pair_of_shots / "t.0003.exr")
     ran = tonetool(*SHOTS, command, "--json", "c.json")
-    assert "are the same file" in ran.err and "check: warning, 3 frames: 3 warnings" in ran.out
+    assert "are the same file" in ran.err and "2 warnings" in ran.out
 
 
 def test_files_on_the_disk_are_names(tonetool, pair_of_shots, make_image):
@@ -561,3 +569,60 @@ def test_values_behind_an_equals_sign_and_results_on_the_standard_output(tonetoo
     assert tonetool("--echo", "--frames=1", "--echo", "x").out == "--frames=1\nx\n"
     with open("/dev/full", "w", encoding="ascii") as full:
         assert "standard output" in tonetool(*words, "--json", "-", status=1, stdout=full).err
+
+
+# ---- one shot by two names
+
+@pytest.mark.parametrize("command", [FLIP, "--hdrflip", "--against"])
+def test_a_shot_against_links_to_it(tonetool, pair_of_shots, command):
+    shot = pair_of_shots
+    (shot / "latest").symlink_to(".")
+    for other in ("latest/r.#.exr", f"{shot}/r.#.exr"):
+        ran = tonetool("r.#.exr", other, command, status=1)
+        assert f'frames "r.#.exr" and "{other}" are the same file (valid: the names of two versions)' in ran.err
+    # A version may share frames that did not change.
+    (shot / "v2").mkdir()
+    for file in shot.glob("r.*.exr"):
+        (shot / "v2" / file.name).symlink_to(f"../{file.name}")
+    first = sorted((shot / "v2").iterdir())[0]
+    shutil.copy(first.resolve(), shot / "copy.exr")
+    first.unlink()
+    (shot / "copy.exr").rename(first)
+    assert "are the same file" in tonetool("r.#.exr", "v2/r.#.exr", command).err
+
+
+def test_an_error_map_in_the_place_of_its_reference(tonetool, pair_of_shots):
+    before = {file: file.read_bytes() for file in pair_of_shots.glob("*.exr")}
+    (pair_of_shots / "link.exr").symlink_to("r.0001.exr")
+    told = "is read by this line, and what a comparison has made would be written over it"
+    for words in (["r.#.exr", "t.#.exr", "--hdrflip", "-o", "r.#.exr"],
+                  ["r.0001.exr", "t.0001.exr", "--hdrflip", "-o", "t.0001.exr"],
+                  ["r.0001.exr", "t.0001.exr", "--hdrflip", "-o", "link.exr"],
+                  ["r.0001.exr", "t.0001.exr", "--hdrflip", "--colormap", "magma", "-o", "./r.0001.exr"]):
+        assert told in tonetool(*words, status=1).err
+    assert all(file.read_bytes() == data for file, data in before.items())
+    tonetool("r.0001.exr", "t.0001.exr", "--hdrflip", "--pop", "r.0001.exr", "--mulc", "2", "-o", "r.0001.exr")
+
+
+def test_limits_are_not_written_over_by_what_they_judge(tonetool, pair_of_shots):
+    tonetool("r.#.exr", "t.#.exr", "--hdrflip:fail=0.99", "--json", "limits.json")
+    before = (pair_of_shots / "limits.json").read_bytes()
+    for key in ("fail", "warn"):
+        ran = tonetool("r.#.exr", "t.#.exr", f"--hdrflip:{key}=limits.json", "--json", "./limits.json", status=1)
+        assert "is read, and would be written over" in ran.err
+    assert (pair_of_shots / "limits.json").read_bytes() == before
+    tonetool("r.#.exr", "t.#.exr", "--hdrflip:fail=limits.json", "--json", "today.json")
+
+
+# ---- gaps
+
+def test_a_gap_in_what_is_only_converted_is_told(tonetool, pair_of_shots):
+    shutil.copy(pair_of_shots / "t.0003.exr", pair_of_shots / "t.0006.exr")
+    ran = tonetool("t.#.exr", "--mulc", "2", "-o", "o.#.exr")
+    assert ran.err == ('tonetool WARNING: "t.#.exr" has no frames 4-5 (valid: --frames 1-3,6 if that is meant, '
+                       "--frames 1-6 where a missing frame is an error)\n")
+    tonetool("t.#.exr", "--mulc", "2", "-o", "o.#.exr", "--warnings-exit", status=2)
+    for words in (["--frames", "1-3,6", "t.#.exr"], ["--compat", "t.#.exr"], ["r.#.exr"]):
+        assert tonetool(*words, "--mulc", "2", "-o", "o.#.exr").err == ""
+    ran = tonetool("t.#.exr", "r.#.exr", "--hdrflip", status=1)
+    assert ": it lacks frame 6 (valid: --frames with numbers that both have)" in ran.err

@@ -102,6 +102,7 @@ void push_file(Session& session, const std::string& filename) {
     if (real) {
         if (!session.stack.first_header)
             session.stack.first_header = image->part().header();
+        session.stack.files_read.push_back(filename);
         session.stack.newest_input =
             std::max(session.stack.newest_input, OIIO::Filesystem::last_write_time(filename));
     }

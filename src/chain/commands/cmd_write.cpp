@@ -3,6 +3,7 @@
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/strutil.h>
 #include <algorithm>
+#include <filesystem>
 #include <map>
 
 #include "chain/commands/commands.h"
@@ -138,9 +139,23 @@ bool keeps_old(Session& session, const Call& call, const std::string& filename) 
     return current;
 }
 
+// What a comparison has made in the place of an image that it was made of, by whatever name.
+void refuse_over_compared(const Session& session, const Image& image, const std::string& filename) {
+    if (!image.is_result || session.settings.compat)
+        return;
+    for (const std::string& file : session.stack.files_read) {
+        std::error_code none;
+        if (std::filesystem::equivalent(file, filename, none))
+            throw CommandError("\"" + filename +
+                               "\" is read by this line, and what a comparison "
+                               "has made would be written over it");
+    }
+}
+
 void write_one(Session& session, const Call& call, const ImagePtr& image,
                const std::string& filename, const Save& save) {
     session.claim(filename);
+    refuse_over_compared(session, *image, filename);
     if (keeps_old(session, call, filename))
         return;
     if (session.settings.verbose) {

@@ -61,7 +61,8 @@ bool same_file(const Image& a, size_t part_of_a, const Image& b, size_t part_of_
 void tell_same_file(Session& session, const Call& call, const Image& a, const Image& b,
                     const std::string& text) {
     const auto plain = [](const Image& image) {
-        return std::filesystem::path(image.name()).lexically_normal();
+        std::error_code none;
+        return std::filesystem::absolute(image.name(), none).lexically_normal();
     };
     if (session.frame.loops && session.check.result && plain(a) == plain(b))
         throw CommandError(text + " (valid: the names of two versions)");

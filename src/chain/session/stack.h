@@ -26,6 +26,7 @@ struct Stack {
     ReadTypes types;
     std::optional<OIIO::ImageSpec> first_header;
     std::time_t newest_input = 0;
+    std::vector<std::string> files_read;
 
     const ImagePtr& top() const { return images.back(); }
     /// The images on top, the deepest first.

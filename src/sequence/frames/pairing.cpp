@@ -36,7 +36,20 @@ std::string with_range(const Side& side) {
            side.pattern.substr(at);
 }
 
-std::string by_position_text(const Side& a, const Side& b) {
+std::vector<int> without(const std::vector<int>& all, const std::vector<int>& some) {
+    std::vector<int> rest;
+    std::set_difference(all.begin(), all.end(), some.begin(), some.end(), std::back_inserter(rest));
+    return rest;
+}
+
+// What makes pairs of two sequences whose numbers differ.
+std::string pairs_text(const Side& a, const Side& b) {
+    const std::vector<int> of_a = numbers_of(a.files.items), of_b = numbers_of(b.files.items);
+    const std::vector<int> lacks = without(of_a, of_b);
+    if (of_a.size() != of_b.size() && lacks.size() < of_a.size()) {
+        return (lacks.empty() ? "" : ": it lacks " + frames_text(lacks)) +
+               " (valid: --frames with numbers that both have)";
+    }
     return " (valid: --frames with numbers that both have; or ranges of equal length in the names, "
            "which pair them by position: " +
            with_range(a) + " " + with_range(b) + ")";
@@ -100,7 +113,7 @@ void check_common_number(const std::vector<Side>& sides) {
         std::set_intersection(a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(common));
         if (!a.empty() && !b.empty() && common.empty()) {
             throw std::runtime_error(side_text(first) + ", " + side_text(side) +
-                                     ": none has the same number" + by_position_text(first, side));
+                                     ": none has the same number" + pairs_text(first, side));
         }
     }
 }
@@ -165,9 +178,7 @@ std::string left_out(const std::vector<Side>& sides) {
     const std::vector<int> chosen = numbers_of(range->files.items);
     for (const Side& side : sides) {
         const std::vector<int> own = numbers_of(side.files.items);
-        std::vector<int> rest;
-        std::set_difference(own.begin(), own.end(), chosen.begin(), chosen.end(),
-                            std::back_inserter(rest));
+        const std::vector<int> rest = without(own, chosen);
         if (side.files.from_disk && !rest.empty()) {
             return "\"" + side.pattern + "\" also has " + frames_text(rest) +
                    ", which the range of \"" + range->pattern + "\" leaves out (valid: --frames " +
@@ -177,13 +188,32 @@ std::string left_out(const std::vector<Side>& sides) {
     return "";
 }
 
+std::string gaps(const Side& side) {
+    std::set<Item> all(side.files.items.begin(), side.files.items.end());
+    const std::vector<int> there = numbers_of(side.files.items);
+    if (!side.files.from_disk || there.size() < 3)
+        return "";
+    try {
+        fill_holes(all);
+    } catch (const std::runtime_error&) { // far apart
+        return "";
+    }
+    const std::vector<int> lacking = without(numbers_of({all.begin(), all.end()}), there);
+    return lacking.empty()
+               ? ""
+               : "\"" + side.pattern + "\" has no " + frames_text(lacking) + " (valid: --frames " +
+                     range_text(there) + " if that is meant, --frames " +
+                     std::to_string(there.front()) + "-" + std::to_string(there.back()) +
+                     " where a missing frame is an error)";
+}
+
 void check_same_numbers(const std::vector<Side>& sides) {
     for (const Side& side : sides) {
         const Side& first = sides.front();
         const bool ranges = !side.files.from_disk && !first.files.from_disk;
         if (!ranges && !(side.files.items == first.files.items)) {
             throw std::runtime_error(side_text(first) + ", " + side_text(side) +
-                                     by_position_text(first, side));
+                                     pairs_text(first, side));
         }
     }
 }

@@ -45,6 +45,10 @@ Pairing pair_sides(const std::vector<Side>& sides, const PatternOptions& options
 /// that is nothing. A --frames or a range in each name says that it is meant.
 std::string left_out(const std::vector<Side>& sides);
 
+/// The numbers that a sequence on the disk lacks between its first and last, as a sentence; empty
+/// where there are none, of two files, and where they are too far apart to be one.
+std::string gaps(const Side& side);
+
 /// Throws a runtime_error that names the numbers where pairing by position would pair files of
 /// different numbers although no range asks for it.
 void check_same_numbers(const std::vector<Side>& sides);
