@@ -161,9 +161,15 @@ private:
                 figure.scale = checked_integer(name + ": " + key, value, {1, 64});
             else if (key == "stops")
                 figure.stops = checked_number(name + ": " + key, value, {-100, 100});
-            else
-                throw CommandError(name + " has no modifier \"" + key +
-                                   "\" (valid: names, methods, inset, scale, stops)");
+            else if (key == "text")
+                figure.text = checked_integer(name + ": " + key, value, {8, 200});
+            else if (key == "background") {
+                check_choice(name + ": " + key, value, {"white", "dark"});
+                figure.dark = value == "dark";
+            } else
+                throw CommandError(
+                    name + " has no modifier \"" + key +
+                    "\" (valid: names, methods, inset, scale, stops, text, background)");
         }
     }
 

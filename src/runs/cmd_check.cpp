@@ -52,6 +52,8 @@ chain::Rows check_commands() {
             .modifier("inset", "WxH+X+Y,...", "parts of the picture (whole pictures)")
             .modifier("scale", "N", "times which pixels of insets are repeated (4)")
             .modifier("stops", "X", "exposure of all pictures (the middle of the row's)")
+            .modifier("text", "PIXELS", "height of the labels, 8 to 200 (16)")
+            .modifier("background", "white|dark", "colour of the paper (white)")
             .whole_line(),
         command("github",
                 "Print what did not pass as annotations of GitHub, and add a summary to the file "

@@ -9,7 +9,7 @@ import pytest
 
 MAE = "--errormap:metric=mae:print=0"
 FLIP = "--ldrflip:print=0"
-BACKGROUND = 33  # of sheets
+DARK = 33
 
 
 @pytest.fixture
@@ -97,9 +97,28 @@ def test_one_pair_and_stops(tonetool, suite, pair):
     tonetool(*pair, "--hdrflip:print=0", "--figure:stops=3", "g.png")
     dark, bright = pixels_of(suite / "f.png"), pixels_of(suite / "g.png")
     assert dark.shape == bright.shape and bright.mean() > dark.mean() + 10
-    assert (dark[0, 0] == BACKGROUND).all()
+    assert (dark[0, 0] == 255).all()
     tonetool(*pair, MAE, "-q", "--figure", "h.png")  # without a bound there are no colours and no bar
     assert pixels_of(suite / "h.png").shape[1] < dark.shape[1]
+
+
+def test_labels_and_paper(tonetool, suite, pair):
+    tonetool(*pair, "--hdrflip:print=0", "--figure", "f.png")
+    tonetool(*pair, "--hdrflip:print=0", "--figure:text=32", "g.png")
+    tonetool(*pair, "--hdrflip:print=0", "--figure:background=dark", "h.png")
+    small, large, dark = (pixels_of(suite / name) for name in ("f.png", "g.png", "h.png"))
+    assert large.shape[0] > small.shape[0] + 32
+    assert (small[0, 0] == 255).all() and (dark[0, 0] == DARK).all() and dark.shape == small.shape
+    # Text is dark on white and light on dark: above the pictures there is nothing else.
+    assert small[:30].min() < 40 and dark[:30].max() > 200
+
+
+@pytest.mark.parametrize("command", ["--figure", "--contactsheet"])
+def test_a_picture_in_a_file_that_holds_none(tonetool, suite, pair, command):
+    for words in ([], ["--dry-run"]):
+        ran = tonetool(*pair, "--hdrflip", command, "f.pdf", *words, status=1)
+        assert f'{command}: "f.pdf" has no extension of an image that can be written' in ran.err
+        assert "mean" not in ran.out
 
 
 def test_tests_that_are_not_drawn_are_told(tonetool, make_image):
@@ -125,6 +144,7 @@ def test_an_inset_counts_the_pixels_of_the_file(tonetool, tmp_path, make_image):
     (":methods=a,c", '--figure: methods has "c" (there are: a, b)'),
     (":inset=8x8", '--figure: inset is "8x8" (valid: WIDTHxHEIGHT+X+Y'),
     (":inset=0x8+0+0", '--figure: inset is "0x8+0+0"'),
+    (":text=2", "--figure: text"), (":background=blue", "--figure: background"),
     (":scale=0", "--figure: scale"), (":columns=3", '--figure has no modifier "columns"')])
 def test_before_any_work(tonetool, suite, modifiers, told):
     assert told in tonetool(*WORDS, "--figure" + modifiers, "f.png", status=1).err

@@ -17,14 +17,18 @@ gallery,0.364424,0.195588,0.159064
 nightstreet,0.543955,0.410784,
 mean,0.412802,0.266328,
 """
-MARKDOWN = """| | 4spp | 16spp | 16spp_filtered |
+MARKDOWN = """errormap.mse, lower is better
+
+| | 4spp | 16spp | 16spp_filtered |
 |---|--:|--:|--:|
 | cornell | 0.3300 | 0.1926 | **0.1463** |
 | gallery | 0.3644 | 0.1956 | **0.1591** |
 | nightstreet | 0.5440 | **0.4108** | – |
 | mean | 0.4128 | **0.2663** | – |
 """
-LATEX = r"""\begin{tabular}{lrrr}
+LATEX = r"""% errormap.mse, lower is better
+% needs \usepackage{booktabs}
+\begin{tabular}{lrrr}
 \toprule
  & 4spp & 16spp & 16spp\_filtered \\
 \midrule
@@ -74,15 +78,17 @@ def test_order_digits_and_ties(tonetool, tmp_path, methods):
     methods("t/copy/cornell.exr", VALUES["cornell"][2])
     tonetool(*WORDS, "--table:digits=2", "t.md", status=1)
     lines = (tmp_path / "t.md").read_text(encoding="utf-8").splitlines()
-    assert lines[0] == "| | 16spp | 16spp_filtered | 4spp | copy |"
-    assert lines[2] == "| cornell | 0.19 | **0.15** | 0.33 | **0.15** |"
+    assert lines[2] == "| | 16spp | 16spp_filtered | 4spp | copy |"
+    assert lines[4] == "| cornell | 0.19 | **0.15** | 0.33 | **0.15** |"
 
 
 @pytest.mark.usefixtures("methods")
 def test_higher_is_better(tonetool, tmp_path):
     tonetool("r/%N.exr", "t/%M/%N.exr", "--errormap:metric=psnr:print=0", "-q",
              "--table:methods=4spp,16spp", "t.md", status=1)
-    row = (tmp_path / "t.md").read_text(encoding="utf-8").splitlines()[2].split(" | ")
+    lines = (tmp_path / "t.md").read_text(encoding="utf-8").splitlines()
+    assert lines[0] == "errormap.psnr, higher is better"
+    row = lines[4].split(" | ")
     assert row[0] == "| cornell" and not row[1].startswith("**") and row[2].startswith("**")
 
 
@@ -124,11 +130,13 @@ def test_names_are_escaped(tonetool, tmp_path, make_image):
     ([*WORDS, "--table", "t.txt"], '"t.txt" has no extension of a table (valid: .md, .tex, .csv)'),
     ([*WORDS, "--table:quantity=errormap.rmse", "t.md"], 'no case has the quantity "errormap.rmse"'),
     ([*WORDS, "--table:quantity=errormap.mse,errormap.max", "t.md"], "over methods a table has one"),
-    ([*WORDS, "--table:methods=4spp,8spp", "t.md"], 'there is no method "8spp"'),
+    ([*WORDS, "--table:methods=4spp,8spp", "t.md"], '--table: methods has "8spp" (there are: 16spp, 16spp_filtered, 4spp)'),
     ([*WORDS, "--table:methods=4spp,4spp", "t.md"], 'the method "4spp" is named twice'),
     ([*WORDS, "--table:digits=x", "t.md"], "digits"),
     ([*WORDS, "--table:columns=2", "t.md"], 'no modifier "columns" (valid: quantity, digits, methods)'),
     (["r/cornell.exr", "t/4spp/cornell.exr", MSE, "--table", "t.md"], "a row for each name"),
+    (["r/%N.exr", "t/4spp/%N.exr", MSE, "--table:methods=4spp", "t.md"],
+     "--table: methods= needs methods (valid: %M in the names of the images)"),
 ])
 def test_errors(tonetool, tmp_path, words, text):
     assert text in tonetool(*words, status=1).err

@@ -8,6 +8,7 @@
 #include <OpenImageIO/strutil.h>
 #include <algorithm>
 #include <array>
+#include <optional>
 #include <stdexcept>
 #include <string>
 
@@ -16,17 +17,22 @@
 namespace tonetool {
 
 using SheetColor = std::array<float, 3>;
-inline constexpr SheetColor kSheetBackground{0.13f, 0.13f, 0.13f}, kSheetInk{0.9f, 0.9f, 0.9f};
+struct SheetColors {
+    SheetColor background, ink;
+};
+inline constexpr SheetColors kDarkSheet{{0.13f, 0.13f, 0.13f}, {0.9f, 0.9f, 0.9f}};
+inline constexpr SheetColors kWhiteSheet{{1, 1, 1}, {0, 0, 0}};
 
 /// R, G, B, sRGB-encoded. Throws a runtime_error where something cannot be drawn.
 class Canvas {
 public:
     /// An empty `font` leaves all text out.
     Canvas(int width, int height, const std::string& font,
-           OIIO::TypeDesc format = OIIO::TypeDesc::FLOAT)
+           OIIO::TypeDesc format = OIIO::TypeDesc::FLOAT, const SheetColors& colors = kDarkSheet)
         : m_image(spec_of(width, height, format)),
-          m_font(font) {
-        check(OIIO::ImageBufAlgo::fill(m_image, kSheetBackground));
+          m_font(font),
+          m_colors(colors) {
+        check(OIIO::ImageBufAlgo::fill(m_image, colors.background));
     }
 
     void paste(const OIIO::ImageBuf& picture, int x, int y) {
@@ -48,16 +54,17 @@ public:
     void write(int x, int y, const std::string& text, int size,
                OIIO::ImageBufAlgo::TextAlignX align = OIIO::ImageBufAlgo::TextAlignX::Left,
                OIIO::ImageBufAlgo::TextAlignY above = OIIO::ImageBufAlgo::TextAlignY::Top,
-               const SheetColor& color = kSheetInk) {
+               const std::optional<SheetColor>& color = {}) {
         if (m_font.empty() || text.empty())
             return;
-        if (!OIIO::ImageBufAlgo::render_text(m_image, x, y, text, size, m_font, color, align,
-                                             above)) {
+        if (!OIIO::ImageBufAlgo::render_text(m_image, x, y, text, size, m_font,
+                                             color.value_or(m_colors.ink), align, above)) {
             (void)m_image.geterror();
             m_font.clear();
         }
     }
 
+    const SheetColors& colors() const { return m_colors; }
     bool labelled() const { return !m_font.empty(); }
     OIIO::ImageBuf& image() { return m_image; }
 
@@ -74,6 +81,7 @@ private:
 
     OIIO::ImageBuf m_image;
     std::string m_font;
+    SheetColors m_colors;
 };
 
 /// Values from 0 to 1, from left to right or, for a bar that stands, from below.
@@ -102,7 +110,7 @@ inline void draw_bar(Canvas& canvas, const OIIO::ImageBuf& colors, int x, int y,
     canvas.paste(colors, x, y);
     for (int i = 0; i <= steps; ++i) {
         const int at = y + (height - 1) * (steps - i) / steps;
-        canvas.rectangle(x + text, at, text / 3, 1, kSheetInk);
+        canvas.rectangle(x + text, at, text / 3, 1, canvas.colors().ink);
         const TextAlignY align = i == 0       ? TextAlignY::Bottom
                                  : i == steps ? TextAlignY::Top
                                               : TextAlignY::Center;

@@ -29,7 +29,7 @@ using TextAlignX = OIIO::ImageBufAlgo::TextAlignX;
 using TextAlignY = OIIO::ImageBufAlgo::TextAlignY;
 
 constexpr double kMostFigurePixels = 1 << 28;
-constexpr int kText = 16, kGap = 4, kSpace = 12, kLine = kText + kText / 2;
+constexpr int kGap = 4, kSpace = 12;
 // Of Okabe and Ito, which colour-blind readers tell apart.
 constexpr std::array<SheetColor, 6> kInsetColors{{{0.90f, 0.62f, 0.00f},
                                                   {0.34f, 0.71f, 0.91f},
@@ -37,7 +37,7 @@ constexpr std::array<SheetColor, 6> kInsetColors{{{0.90f, 0.62f, 0.00f},
                                                   {0.94f, 0.89f, 0.26f},
                                                   {0.84f, 0.37f, 0.00f},
                                                   {0.80f, 0.47f, 0.65f}}};
-constexpr SheetColor kNothing{0.05f, 0.05f, 0.05f};
+constexpr SheetColor kNothingDark{0.05f, 0.05f, 0.05f}, kNothingWhite{0.9f, 0.9f, 0.9f};
 
 // ---- a case as text
 
@@ -110,9 +110,9 @@ ImageBuf cut_and_repeated(const ImageBuf& picture, const ROI& part, int scale) {
 }
 
 // As much of the text as has room.
-std::string shortened(std::string text, int room) {
+std::string shortened(std::string text, int height, int room) {
     const auto width = [&] {
-        const ROI size = OIIO::ImageBufAlgo::text_size(text, kText, font_of_labels());
+        const ROI size = OIIO::ImageBufAlgo::text_size(text, height, font_of_labels());
         return size.defined() ? size.width() : 0;
     };
     bool whole = true;
@@ -126,25 +126,22 @@ std::string shortened(std::string text, int room) {
     return text;
 }
 
-// Texts beside each other stand on one line, whatever their letters.
-void write_line(Canvas& canvas, int x, int y, const std::string& text) {
-    canvas.write(x, y + kText, text, kText, TextAlignX::Left, TextAlignY::Baseline);
-}
-
 class Figure {
 public:
     Figure(const ShotResult& shot, const PictureStore& pictures, const FigureOptions& options)
         : m_options(options),
           m_scale(options.scale > 0        ? options.scale
                   : options.insets.empty() ? 1
-                                           : 4) {
+                                           : 4),
+          m_text(options.text),
+          m_line(m_text + m_text / 2) {
         collect(shot, pictures);
         for (const FigureRow& row : m_rows)
             measure(row);
     }
 
     ImageBuf draw(std::string& warning) {
-        const int bar = m_errors ? kSpace + bar_width(kText) : 0;
+        const int bar = m_errors ? kSpace + bar_width(m_text) : 0;
         const int width = columns_end() + bar + kSpace;
         int height = kSpace;
         for (const FigureRow& row : m_rows)
@@ -153,16 +150,17 @@ public:
             throw std::runtime_error(format("the figure would have {}x{} pixels (valid: fewer "
                                             "names or methods, or smaller insets)",
                                             width, height));
-        Canvas canvas(width, height, font_of_labels(), OIIO::TypeDesc::UINT8);
+        Canvas canvas(width, height, font_of_labels(), OIIO::TypeDesc::UINT8,
+                      m_options.dark ? kDarkSheet : kWhiteSheet);
         int y = kSpace;
         for (const FigureRow& row : m_rows) {
             draw_row(canvas, row, y);
             y += row_height(row) + kSpace;
         }
         if (m_errors) {
-            const int size = std::max(cells_height(m_rows.front()), 2 * kText);
-            draw_bar(canvas, colored_bytes(ramp_of_values(kText, size, true), "magma"),
-                     columns_end() + kSpace, kSpace + head_height(), kText);
+            const int size = std::max(cells_height(m_rows.front()), 2 * m_text);
+            draw_bar(canvas, colored_bytes(ramp_of_values(m_text, size, true), "magma"),
+                     columns_end() + kSpace, kSpace + head_height(), m_text);
         }
         if (!canvas.labelled())
             warning = std::string("no font \"") + kLabelFont + "\" found: the figure has no labels";
@@ -252,7 +250,12 @@ private:
     void measure(const FigureRow& row) {
         m_left = std::max(m_left, whole_size(row).first);
         for (const ROI& part : row.parts)
-            m_column = std::max({m_column, part.width() * m_scale, 7 * kText});
+            m_column = std::max({m_column, part.width() * m_scale, 7 * m_text});
+    }
+
+    // Texts beside each other stand on one line, whatever their letters.
+    void write_line(Canvas& canvas, int x, int y, const std::string& text) const {
+        canvas.write(x, y + m_text, text, m_text, TextAlignX::Left, TextAlignY::Baseline);
     }
 
     int cells_height(const FigureRow& row) const {
@@ -262,9 +265,9 @@ private:
         return height;
     }
     // Beside the whole picture its title has a place of its own.
-    int head_height() const { return m_left > 0 ? kLine : 2 * kLine; }
+    int head_height() const { return m_left > 0 ? m_line : 2 * m_line; }
     int row_height(const FigureRow& row) const {
-        return head_height() + cells_height(row) + kGap + kLine;
+        return head_height() + cells_height(row) + kGap + m_line;
     }
     int column_x(size_t column) const {
         return kSpace + (m_left > 0 ? m_left + kSpace : 0) + int(column) * (m_column + kSpace);
@@ -278,14 +281,15 @@ private:
         std::string title = row.item.named() ? printable(item_name(row.item)) : "";
         if (!row.stops.empty())
             title += (title.empty() ? "" : ", ") + row.stops + " stops";
-        write_line(canvas, kSpace, y, shortened(title, m_left > 0 ? m_left : columns_end()));
+        write_line(canvas, kSpace, y,
+                   shortened(title, m_text, m_left > 0 ? m_left : columns_end()));
         y += head_height();
         if (m_left > 0)
             draw_whole(canvas, row, *reference, y);
-        write_line(canvas, column_x(0), y - kLine, "Reference");
+        write_line(canvas, column_x(0), y - m_line, "Reference");
         draw_column(canvas, row, 0, *reference, std::nullopt, y);
         write_line(canvas, column_x(0), y + cells_height(row) + kGap,
-                   shortened(quantity_name(row), m_column));
+                   shortened(quantity_name(row), m_text, m_column));
         for (size_t i = 0; i < m_methods.size(); ++i)
             draw_method(canvas, row, i, y);
     }
@@ -293,8 +297,8 @@ private:
     void draw_method(Canvas& canvas, const FigureRow& row, size_t i, int y) const {
         const std::string& method = m_methods[i];
         const int x = column_x(i + 1), below = y + cells_height(row) + kGap;
-        write_line(canvas, x, y - kLine,
-                   shortened(method.empty() ? "Test" : printable(method), m_column));
+        write_line(canvas, x, y - m_line,
+                   shortened(method.empty() ? "Test" : printable(method), m_text, m_column));
         const auto found = row.cases.find(method);
         const auto frame = row.frames.find(method);
         if (found != row.cases.end()) {
@@ -340,11 +344,13 @@ private:
             const int left = along(part.xbegin), top = along(part.ybegin);
             canvas.frame(kSpace + left, y + top, along(part.xend) - left, along(part.yend) - top, 2,
                          color_of_inset(i));
-            const bool room = top >= kText + 2; // for the number above the frame
-            const int number_y = room ? y + top - kText - 2 : y + along(part.yend) + 2;
-            canvas.rectangle(kSpace + left - 2, number_y, kText, kText, kSheetBackground);
-            canvas.write(kSpace + left + kText / 2 - 2, number_y + kText / 2, std::to_string(i + 1),
-                         kText - 2, TextAlignX::Center, TextAlignY::Center, color_of_inset(i));
+            const bool room = top >= m_text + 2; // for the number above the frame
+            const int number_y = room ? y + top - m_text - 2 : y + along(part.yend) + 2;
+            canvas.rectangle(kSpace + left - 2, number_y, m_text, m_text,
+                             canvas.colors().background);
+            canvas.write(kSpace + left + m_text / 2 - 2, number_y + m_text / 2,
+                         std::to_string(i + 1), m_text - 2, TextAlignX::Center, TextAlignY::Center,
+                         color_of_inset(i));
         }
     }
 
@@ -369,7 +375,7 @@ private:
             if (column > 0)
                 cell(canvas, x, y, part, error);
             else if (!m_options.insets.empty())
-                canvas.write(x, y + kGap, std::to_string(i + 1), kText, TextAlignX::Left,
+                canvas.write(x, y + kGap, std::to_string(i + 1), m_text, TextAlignX::Left,
                              TextAlignY::Top, color_of_inset(i));
             y += height + kSpace;
         }
@@ -380,11 +386,12 @@ private:
         if (picture)
             canvas.paste(cut_and_repeated(*picture, part, m_scale), x, y);
         else
-            canvas.rectangle(x, y, part.width() * m_scale, part.height() * m_scale, kNothing);
+            canvas.rectangle(x, y, part.width() * m_scale, part.height() * m_scale,
+                             m_options.dark ? kNothingDark : kNothingWhite);
     }
 
     const FigureOptions& m_options;
-    int m_scale;
+    int m_scale, m_text, m_line;
     std::vector<FigureRow> m_rows;
     std::vector<std::string> m_methods;
     bool m_errors = false;

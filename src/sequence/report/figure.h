@@ -24,6 +24,8 @@ struct FigureOptions {
     std::vector<Inset> insets{};        ///< empty: the whole pictures
     int scale = 0;                      ///< 0: 4 of insets, 1 of whole pictures
     std::optional<double> stops{};      ///< else the middle of the row's exposures
+    int text = 16;                      ///< height of the labels in pixels
+    bool dark = false;                  ///< else white, as paper is
 
     bool wants(const Item& item) const;
 };

@@ -175,9 +175,14 @@ NumberTable table_of(const ShotResult& shot, const MethodTableOptions& options) 
 
 // ---- texts
 
-// Which numbers of a row are the best: of methods, whose numbers are of one kind.
+std::string digits_of(double value, int digits) {
+    return format("{:.{}f}", value, digits);
+}
+
+// Which numbers of a row are the best: of methods, whose numbers are of one kind. A reader takes
+// for equal what is printed with the same digits.
 std::vector<bool> best_of(const std::vector<std::optional<double>>& row,
-                          const std::vector<TableColumn>& columns) {
+                          const std::vector<TableColumn>& columns, int digits) {
     std::vector<bool> best(row.size(), false);
     std::optional<double> most;
     for (const auto& value : row)
@@ -185,22 +190,39 @@ std::vector<bool> best_of(const std::vector<std::optional<double>>& row,
             most = !most                         ? *value
                    : columns[0].higher_is_better ? std::max(*most, *value)
                                                  : std::min(*most, *value);
+    if (most && std::isinf(*most) && (*most < 0) == columns[0].higher_is_better)
+        return best; // all are as bad as can be
     for (size_t i = 0; i < row.size() && most; ++i)
-        best[i] = columns[i].method && row[i] && *row[i] == *most;
+        best[i] =
+            columns[i].method && row[i] && digits_of(*row[i], digits) == digits_of(*most, digits);
     return best;
 }
 
 struct TableWords {
-    const char *bold, *bold_end, *deviation, *nothing;
+    const char *bold, *bold_end, *deviation, *nothing, *minus, *infinity;
 };
+
+std::string number_text(double value, int digits, const TableWords& words) {
+    const std::string size =
+        std::isinf(value) ? words.infinity : digits_of(std::abs(value), digits);
+    return (std::signbit(value) && !std::isnan(value) ? words.minus : "") + size;
+}
 
 std::string cell_text(const TableCell& cell, bool best, int digits, const TableWords& words) {
     if (!cell.is_there())
         return words.nothing;
-    std::string text = format("{:.{}f}", cell.mean(), digits);
+    std::string text = number_text(cell.mean(), digits, words);
     if (cell.values.size() > 1)
-        text += words.deviation + format("{:.{}f}", cell.deviation(), digits);
+        text += words.deviation + number_text(cell.deviation(), digits, words);
     return best ? words.bold + text + words.bold_end : text;
+}
+
+// "hdrflip.mean, lower is better": of a table of methods.
+std::string caption_of(const NumberTable& table) {
+    const TableColumn& first = table.columns.front();
+    return first.method
+               ? first.quantity + (first.higher_is_better ? ", higher" : ", lower") + " is better"
+               : "";
 }
 
 std::vector<std::string> texts_of_row(const NumberTable& table, const std::vector<TableCell>& row,
@@ -208,7 +230,7 @@ std::vector<std::string> texts_of_row(const NumberTable& table, const std::vecto
     std::vector<std::optional<double>> values;
     for (const TableCell& cell : row)
         values.push_back(cell.is_there() ? std::optional(cell.mean()) : std::nullopt);
-    const std::vector<bool> best = best_of(values, table.columns);
+    const std::vector<bool> best = best_of(values, table.columns, digits);
     std::vector<std::string> texts;
     for (size_t i = 0; i < row.size(); ++i)
         texts.push_back(cell_text(row[i], best[i], digits, words));
@@ -234,7 +256,7 @@ std::string escaped_for(const std::string& text, const std::map<char, std::strin
 }
 
 std::string markdown(const NumberTable& table, int digits) {
-    const TableWords words{"**", "**", " \u00b1 ", "\u2013"};
+    const TableWords words{"**", "**", " \u00b1 ", "\u2013", "-", "inf"};
     const auto safe = [](const std::string& text) {
         return escaped_for(text, {{'|', "\\|"},
                                   {'<', "&lt;"},
@@ -244,7 +266,8 @@ std::string markdown(const NumberTable& table, int digits) {
                                   {'`', "\\`"},
                                   {'\\', "\\\\"}});
     };
-    std::string text = "| |", rule = "|---|";
+    const std::string caption = caption_of(table);
+    std::string text = (caption.empty() ? "" : safe(caption) + "\n\n") + "| |", rule = "|---|";
     for (const TableColumn& column : table.columns) {
         text += " " + safe(column.title) + " |";
         rule += "--:|";
@@ -263,7 +286,7 @@ std::string markdown(const NumberTable& table, int digits) {
 }
 
 std::string latex(const NumberTable& table, int digits) {
-    const TableWords words{"\\textbf{", "}", " $\\pm$ ", "--"};
+    const TableWords words{"\\textbf{", "}", " $\\pm$ ", "--", "$-$", "$\\infty$"};
     const auto safe = [](const std::string& text) {
         return escaped_for(text, {{'\\', "\\textbackslash{}"},
                                   {'{', "\\{"},
@@ -276,8 +299,10 @@ std::string latex(const NumberTable& table, int digits) {
                                   {'#', "\\#"},
                                   {'$', "\\$"}});
     };
-    std::string text =
-        "\\begin{tabular}{l" + std::string(table.columns.size(), 'r') + "}\n\\toprule\n";
+    const std::string caption = caption_of(table);
+    std::string text = (caption.empty() ? "" : "% " + printable_lines(valid_utf8(caption)) + "\n") +
+                       "% needs \\usepackage{booktabs}\n\\begin{tabular}{l" +
+                       std::string(table.columns.size(), 'r') + "}\n\\toprule\n";
     for (const TableColumn& column : table.columns)
         text += " & " + safe(column.title);
     text += " \\\\\n\\midrule\n";
