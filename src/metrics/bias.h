@@ -45,9 +45,13 @@ private:
     std::vector<double> m_sum[3], m_half[2]; // of all seeds; luminance of every second one
 };
 
+/// Of a block in which a mean is rejected, the channel of the smallest p (Y, if it is as small as
+/// any); null of others.
+const BiasScale::Channel* rejected_channel(const BiasScale& scale, size_t at);
+
 enum class BiasMap {
     Signed, ///< relative difference, its half-width, confidence 1 - p; of the finest rejected block
-            ///< and its channel of the smallest p, else of the 32-block in Y
+            ///< and its rejected_channel(), else of the 32-block in Y
     P,      ///< log10 of the smallest p over the channels of the 16-, 32- and 64-block, >= -300
     Rejected ///< how many scales rejected a mean (-1: none could be tested in Y); how many a
              ///< structure (-1: not run)

@@ -26,14 +26,6 @@ bool any_rejected(const BiasScale& scale, size_t at) {
                        [at](const auto& channel) { return channel.rejected[at] != 0; });
 }
 
-// Y where it is as significant as any other.
-const BiasScale::Channel& most_significant(const BiasScale& scale, size_t at) {
-    const auto* const best =
-        std::min_element(std::begin(scale.channel), std::end(scale.channel),
-                         [at](const auto& a, const auto& b) { return a.p[at] < b.p[at]; });
-    return *best;
-}
-
 double over(double value, double base) {
     if (base > 0)
         return value / base;
@@ -49,7 +41,7 @@ Values signed_at(const BiasResult& result, const Place& place) {
     const bool found = s < kBiasScales;
     const BiasScale& scale = result.scales[found ? s : 1];
     const size_t at = place[found ? s : 1];
-    const BiasScale::Channel& channel = found ? most_significant(scale, at) : scale.channel[0];
+    const BiasScale::Channel& channel = found ? *rejected_channel(scale, at) : scale.channel[0];
     const double base = std::max(channel.level[at], result.dark);
     return {over(channel.mean[at], base), over(scale.t_alpha * channel.se[at], base),
             1 - channel.p[at]};
@@ -142,6 +134,13 @@ private:
 };
 
 } // namespace
+
+const BiasScale::Channel* rejected_channel(const BiasScale& scale, size_t at) {
+    if (!any_rejected(scale, at))
+        return nullptr;
+    return std::min_element(std::begin(scale.channel), std::end(scale.channel),
+                            [at](const auto& a, const auto& b) { return a.p[at] < b.p[at]; });
+}
 
 void bias_map(const BiasResult& result, BiasMap map, float* out, int step,
               const kernels::ParallelFor& parallel) {

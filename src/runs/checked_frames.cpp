@@ -26,8 +26,12 @@ using sequence::FrameResult;
 using sequence::State;
 using sequence::Status;
 
+// What --qc and --against find is known when they have seen all frames.
 std::string in_words(const FrameResult& result) {
-    return status_name(result.status) + (result.message.empty() ? "" : " (" + result.message + ")");
+    const bool open = !result.qc.empty() || !result.against.empty();
+    const bool passed = result.status == Status::Passed;
+    return status_name(open && passed ? Status::Measured : result.status) +
+           (result.message.empty() ? "" : " (" + result.message + ")");
 }
 
 // Whether a command that draws a pair for the report runs whatever comes of the others.

@@ -1139,3 +1139,12 @@ def test_files_that_cannot_be_compared(tonetool, files, testimages, tmp_path):
             ran = tonetool(*words, "--biascheck:crop=1", "-o", "x.exr", status=1)
             assert name in ran.err and "PASS" not in ran.out
             assert not (tmp_path / "x.exr").exists()
+
+
+def test_the_place_of_the_largest_difference_is_in_the_map(tonetool, testimages, read):
+    words = [testimages / "seeds/approved.1.exr", testimages / "seeds/clamped.1.exr"]
+    ran = tonetool(*words, "--biascheck", "-o", "map.exr", status=3)
+    x, y, percent = re.search(r"; most at (\d+),(\d+): (-?\d+) %", ran.out).groups()
+    pixels, spec = read("map.exr")
+    difference = pixels[:, :, spec.channelnames.index("difference")]
+    assert round(100 * difference[int(y), int(x)]) == int(percent) == round(100 * difference.min())

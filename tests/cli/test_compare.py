@@ -207,3 +207,19 @@ def test_another_picture_is_said_where_nothing_judges(tonetool, make_image):
     assert "both have ViewLayer.Combined" in tonetool("one.exr", "both.exr", "--hdrflip").err
     make_image("plain.exr")
     assert "both have" not in tonetool("one.exr", "plain.exr", "--hdrflip").err
+
+
+@pytest.mark.parametrize("layer, told", [
+    ("Combned", 'no colour layer "Combned"; did you mean "ViewLayer.Combined"? layers with R,G,B: '),
+    ("difcol", 'no colour layer "difcol"; did you mean "ViewLayer.DiffCol"? '),
+    ("Depth", 'layer "Depth" has no R,G,B; layers with R,G,B: '), ("Nothing", 'no colour layer "Nothing"; layers')])
+def test_a_layer_that_is_not_there(tonetool, testimages, layer, told):
+    words = [testimages / "cornell_ref.exr", testimages / "cornell_test.exr"]
+    assert told in tonetool(*words, f"--hdrflip:layer={layer}", status=1).err
+
+
+def test_pictures_of_two_sizes_are_named(tonetool, testimages):
+    words = [testimages / "cornell_ref.exr", testimages / "gallery_ref.exr"]
+    ran = tonetool(*words, "--hdrflip", status=1)
+    assert ("hdrflip : the reference's display window is 96x96+0+0, the test's 128x72+0+0; they must be the same, "
+            f'or ask for resize=1 or crop=1 (reference "{words[0]}", test "{words[1]}")') in ran.err

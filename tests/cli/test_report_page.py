@@ -164,7 +164,7 @@ def test_the_verdict_comes_first_and_the_worst_frame_with_it(page):
     assert page.ask("document.body.innerText.trim().split('\\n')[0].toLowerCase()") in (
         "missing", "to the pictures")
     assert page.text("h1").lower() == "missing"
-    assert page.text(".sentence") == "2 of 9 frames need a look: 9 missing, 5 hdrflip: p99 0.971931 > 0.7"
+    assert page.text(".sentence") == "2 of 9 frames need a look: frame 9: missing; frame 5: hdrflip: p99 0.971931 > 0.7"
     assert "9 frames: 1 missing, 1 failed, 7 passed" in page.text(".counted")
     worst = [row.text.split("\n")[0] for row in page.all("#worst strong")]
     assert worst[:2] == ["Frame 9", "Frame 5"]

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "chain/commands/comparing.h"
 
+#include <algorithm>
+
 #include "chain/commands/color_input.h"
 #include "chain/commands/frame_pictures.h"
 #include "imagebuf/pixels/upright.h"
@@ -20,6 +22,22 @@ void warn_of_same_file(Session& session, const Call& call, const Image& test, co
                        "reference \"" + reference.name() + "\" and test \"" + test.name() +
                            "\" are the same file");
     }
+}
+
+// What a function says, without its name, which is the command's, and with those of the files.
+std::string said_of(const Call& call, std::string error) {
+    const size_t name = error.find_first_not_of("abcdefghijklmnopqrstuvwxyz_");
+    if (name != std::string::npos && name > 0 && error.compare(name, 2, ": ") == 0)
+        error.erase(0, name + 2);
+    const auto& images = call.images;
+    if (std::any_of(images.begin(), images.end(), [&](const ImagePtr& image) {
+            return error.find(image->name()) != std::string::npos;
+        }))
+        return error;
+    error += " (reference \"" + images.front()->name() + "\", test";
+    for (size_t i = 1; i < images.size(); ++i)
+        error += (i == 1 ? " \"" : ", \"") + images[i]->name() + "\"";
+    return error + ")";
 }
 
 } // namespace
@@ -49,7 +67,7 @@ Compared compare_tests(Session& session, const Call& call, const Look& look,
     }
     done.maps.resize(tests.size());
     if (!function(done.maps, done.views.front(), tests))
-        throw CommandError(done.maps.front().geterror());
+        throw CommandError(said_of(call, done.maps.front().geterror()));
     session.outcome.produced = true;
     return done;
 }

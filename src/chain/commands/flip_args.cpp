@@ -66,11 +66,11 @@ Modifiers hdr_modifiers() {
 
 Modifiers threshold_modifiers(const Measures& measures, const std::string& unless) {
     Modifiers rows = {
-        {"fail", "X|QUANTITY=X,...|JSON",
+        {"fail", "X|QUANTITY=X,...|auto|JSON",
          "exit status 3 unless the quantity is " + unless +
-             (measures.map ? "; p99.9 and max find local faults, which the mean does not" : "")},
-        {"warn", "X|QUANTITY=X,...|JSON",
-         "a warning unless the quantity is " + unless + "; JSON: a file of --noisefloor"},
+             (measures.map ? "; p99.9 and max find local faults, which the mean does not" : "") +
+             "; auto: by the other frames; JSON: what a check or --noisefloor has measured"},
+        {"warn", "X|QUANTITY=X,...|JSON", "a warning unless the quantity is " + unless},
         {"quantity", choices(measures.names) + (measures.map ? "|pNN|above" : ""),
          "what a limit without a name tests (the first)" +
              std::string(measures.map ? "; pNN: any percentile, p99.95" : "")}};

@@ -58,8 +58,8 @@ std::string topics_text() {
 }
 
 // The commands that a first day needs.
-const char* const kFirstCommands[] = {"hdrflip", "errormap", "diff", "qc",   "report",
-                                      "json",    "tonemap",  "info", "help", "o"};
+const char* const kFirstCommands[] = {"against", "biascheck", "qc",      "hdrflip", "diff",
+                                      "report",  "json",      "tonemap", "info",    "o"};
 
 } // namespace
 

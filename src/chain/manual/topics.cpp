@@ -162,7 +162,7 @@ const char* const kTonemap = R"(Showing an HDR picture
 
 curve= is one of the tone curves that --tonecurves lists; stops= sets the exposure, method=mean
 measures it, method=auto its key, too, and method=camera exposes as a camera does, by its settings or
-the header's. Both need to know what a pixel value of 1 is in cd/m2: unit=, else the header's
+the header's. The last two need to know what a pixel value of 1 is in cd/m2: unit=, else the header's
 whiteLuminance, else 1. The result is sRGB-encoded (encode= takes others) and clamped to 0 to 1.
 --cgtmo is a local tone mapper for rendered images: position, normal and albedo guide it. --bloom
 spreads bright light as the eye does, in linear light: before the tone mapping.

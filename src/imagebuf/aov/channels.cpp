@@ -120,13 +120,15 @@ bool is_grey_picture(const OIIO::ImageSpec& spec, const Layer& layer) {
            kind_of_layer(last) == AovKind::Light;
 }
 
-std::string list(const std::vector<Layer>& layers) {
-    if (layers.empty())
-        return "none";
+std::vector<std::string> names_of(const std::vector<Layer>& layers) {
     std::vector<std::string> names;
     for (const Layer& layer : layers)
         names.push_back(layer.name.empty() && !is_picture(layer) ? layer.part : layer.shown());
-    return OIIO::Strutil::join(names, ", ");
+    return names;
+}
+
+std::string list(const std::vector<Layer>& layers) {
+    return layers.empty() ? "none" : OIIO::Strutil::join(names_of(layers), ", ");
 }
 
 std::string list_channels(const OIIO::ImageSpec& spec) {
@@ -230,10 +232,22 @@ std::vector<Layer> of_part(const OIIO::ImageSpec& spec, const std::vector<Layer>
     return found.empty() && layers.size() == 1 ? layers : found;
 }
 
+// Whether channels of that layer are there: "Depth" of ViewLayer.Depth.Z.
+bool has_data_layer(const OIIO::ImageSpec& spec, const std::string& name) {
+    const std::string inner = "." + lower(name) + ".";
+    return std::any_of(spec.channelnames.begin(), spec.channelnames.end(),
+                       [&](const std::string& channel) {
+                           return ("." + lower(channel)).find(inner) != std::string::npos;
+                       });
+}
+
 std::string no_layer_text(const OIIO::ImageSpec& spec, const std::vector<Layer>& layers,
                           const std::string& name) {
     if (!name.empty())
-        return "no colour layer \"" + name + "\"; layers with R,G,B: " + list(layers);
+        return (has_data_layer(spec, name)
+                    ? "layer \"" + name + "\" has no R,G,B; "
+                    : "no colour layer \"" + name + "\"; " + meant_layer(name, names_of(layers))) +
+               "layers with R,G,B: " + list(layers);
     const auto grey = layers.empty() ? grey_picture(spec) : std::vector<Layer>{};
     if (layers.size() == 1 || !grey.empty())
         return data_text(spec, layers.empty() ? grey[0] : layers[0]);

@@ -85,12 +85,16 @@ std::vector<Picture> pictures_of(const std::vector<ImageSpec>& parts) {
     return all;
 }
 
-std::string list(const std::vector<Picture>& pictures) {
+std::vector<std::string> names_of(const std::vector<Picture>& pictures) {
     std::vector<std::string> names;
     for (const Picture& one : pictures)
         if (std::find(names.begin(), names.end(), one.shown) == names.end())
             names.push_back(one.shown);
-    return names.empty() ? "none" : OIIO::Strutil::join(names, ", ");
+    return names;
+}
+
+std::string list(const std::vector<Picture>& pictures) {
+    return pictures.empty() ? "none" : OIIO::Strutil::join(names_of(pictures), ", ");
 }
 
 // How well a part answers to a name: 3 exactly, 2 in any case, 1 by its view or the last part of a
@@ -135,8 +139,9 @@ int find_named(const std::vector<ImageSpec>& parts, const PixelOptions& options,
     }
     found = beauties_of(pictures, found);
     if (found.empty())
-        throw Refusal("no colour layer or part \"" + options.layer +
-                      "\"; there are: " + list(pictures));
+        throw Refusal("no colour layer or part \"" + options.layer + "\"; " +
+                      meant_layer(options.layer, names_of(pictures)) +
+                      "there are: " + list(pictures));
     if (found.size() > 1)
         throw Refusal(std::to_string(found.size()) + " parts could be meant by layer=" +
                       options.layer + "; there are: " + list(pictures));

@@ -180,17 +180,16 @@ std::optional<BiasPlace> bias_place(const BiasResult& result) {
     std::optional<BiasPlace> worst;
     for (const BiasScale& scale : result.scales) {
         for (size_t at = 0; at < size_t(scale.blocks()) && scale.rejected > 0; ++at) {
-            for (const BiasScale::Channel& channel : scale.channel) {
-                const double base = std::max(channel.level[at], result.dark);
-                const double difference = base > 0 ? channel.mean[at] / base : 0;
-                if (!channel.rejected[at] ||
-                    (worst && std::abs(difference) <= std::abs(worst->difference)))
-                    continue;
-                const size_t row = at / size_t(scale.columns()),
-                             column = at % size_t(scale.columns());
-                worst = {result.x + (scale.x[column] + scale.x[column + 1]) / 2,
-                         result.y + (scale.y[row] + scale.y[row + 1]) / 2, difference};
-            }
+            const BiasScale::Channel* channel = metrics::rejected_channel(scale, at);
+            if (!channel)
+                continue;
+            const double base = std::max(channel->level[at], result.dark);
+            const double difference = base > 0 ? channel->mean[at] / base : 0;
+            if (worst && std::abs(difference) <= std::abs(worst->difference))
+                continue;
+            const size_t row = at / size_t(scale.columns()), column = at % size_t(scale.columns());
+            worst = {result.x + (scale.x[column] + scale.x[column + 1]) / 2,
+                     result.y + (scale.y[row] + scale.y[row + 1]) / 2, difference};
         }
         if (worst)
             break; // the finest blocks that differ

@@ -131,7 +131,7 @@ ROI compared_region(const ImageBuf& reference, const ImageBuf& test, SizePolicy 
     if (size != SizePolicy::Crop && !same_window(ref_full, test_full))
         throw Refusal("the reference's display window is " + window_text(ref_full) +
                       ", the test's " + window_text(test_full) +
-                      "; they must be the same, or ask for resize= or crop=");
+                      "; they must be the same, or ask for resize=1 or crop=1");
     ROI region = plane_of(OIIO::roi_union(reference.roi(), test.roi()));
     if (size == SizePolicy::Crop) {
         region = OIIO::roi_intersection(region, plane_of(ref_full));

@@ -2,7 +2,11 @@
 // How texts call a layer. Header only: the command language and checks of sequences use it, too.
 #pragma once
 
+#include <algorithm>
 #include <string>
+#include <vector>
+
+#include "imagebuf/pixels/names.h"
 
 namespace tonetool {
 
@@ -12,6 +16,22 @@ inline constexpr const char* kPlainLayer = "R,G,B";
 /// The layer's name, or what stands for an empty one.
 inline std::string shown_layer(const std::string& name) {
     return name.empty() ? kPlainLayer : name;
+}
+
+/// "did you mean "ViewLayer.Combined"? " of a word that nearly is one of the names, or the last
+/// part of one; else empty.
+inline std::string meant_layer(const std::string& word, const std::vector<std::string>& names) {
+    std::vector<std::string> ends;
+    for (const std::string& name : names)
+        ends.push_back(name.substr(name.find_last_of('.') + 1));
+    for (const std::vector<std::string>& written : {names, ends}) {
+        const std::vector<std::string> near = nearest_names(word, written, 1);
+        if (near.empty())
+            continue;
+        const auto at = std::find(written.begin(), written.end(), near.front()) - written.begin();
+        return "did you mean \"" + names[size_t(at)] + "\"? ";
+    }
+    return "";
 }
 
 } // namespace tonetool

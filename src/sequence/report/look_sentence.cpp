@@ -54,8 +54,11 @@ std::string name_of(const FrameResult& frame) {
 }
 
 std::string text_of(const Run& run) {
-    return name_of(*run.first) + (run.first == run.last ? "" : "-" + name_of(*run.last)) + " " +
-           run.reason;
+    const std::string noun = run.first->item().named() ? ""
+                             : run.first == run.last   ? "frame "
+                                                       : "frames ";
+    return noun + name_of(*run.first) + (run.first == run.last ? "" : "-" + name_of(*run.last)) +
+           ": " + run.reason;
 }
 
 std::vector<Run> runs_of(const ShotResult& shot, const ordered_json& result) {
@@ -117,7 +120,7 @@ std::string look_sentence(const ShotResult& shot, const ordered_json& result) {
     if (told < size_t(bad))
         texts.push_back(format("... {} more", size_t(bad) - told));
     return format("{} of {} {} {} a look: {}{}", bad, all, named ? "cases" : "frames",
-                  bad == 1 ? "needs" : "need", OIIO::Strutil::join(texts, ", "),
+                  bad == 1 ? "needs" : "need", OIIO::Strutil::join(texts, "; "),
                   accepted_text(shot));
 }
 

@@ -9,8 +9,8 @@
 
 namespace tonetool::sequence {
 
-/// Which frames need a look and why: "2 of 24 frames need a look: 1004 missing, 1006 hole (48x48 at
-/// 160,64)". `result` is to_json(shot): places of faults are read from there.
+/// Which frames need a look and why: "2 of 24 frames need a look: frame 1004: missing; frame 1006:
+/// hole (48x48 at 160,64)". `result` is to_json(shot): places of faults are read from there.
 std::string look_sentence(const ShotResult& shot, const nlohmann::ordered_json& result);
 
 } // namespace tonetool::sequence

@@ -113,6 +113,19 @@ double excess(const Threshold& threshold) {
     return over <= 0 ? 0 : under > 0 ? over / under : kWorstBadness;
 }
 
+// The number of faults; of as many those are worse of which one is further from its limit.
+double faultiness(const FrameResult& frame) {
+    double count = 0, share = 0;
+    for (const Fault& fault : frame.faults) {
+        if (fault.severity == Severity::Info)
+            continue;
+        ++count;
+        if (fault.value && fault.threshold && *fault.threshold != 0)
+            share = std::max(share, 1 - 1 / (1 + std::abs(*fault.value / *fault.threshold)));
+    }
+    return count + share / 2;
+}
+
 std::map<Status, size_t> count_of_each(const ShotResult& shot) {
     std::map<Status, size_t> counts;
     for (const FrameResult& frame : shot.frames)
@@ -369,8 +382,7 @@ double badness(const FrameResult& frame) {
     }
     if (most > 0)
         return most;
-    for (const Fault& fault : frame.faults)
-        most += fault.severity == Severity::Info ? 0 : 1;
+    most = faultiness(frame);
     const auto& all = frame.measurements;
     if (most > 0 || all.empty() || all.front().quantities.empty())
         return most;

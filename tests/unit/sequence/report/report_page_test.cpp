@@ -268,8 +268,9 @@ TEST(Page, TheFirstSentenceSaysWhichFramesNeedALookAndWhy) {
         frames.push_back(missing);
     }
     EXPECT_EQ(sentence(frames),
-              "6 of 7 frames need a look: 7-8 missing, 10 missing, 3 blacklayer in neon, "
-              "4 hdrflip: p99 0.7 &gt; 0.5, 2 firefly (at 3,4)");
+              "6 of 7 frames need a look: frames 7-8: missing; frame 10: missing; "
+              "frame 3: blacklayer in neon; frame 4: hdrflip: p99 0.7 &gt; 0.5; "
+              "frame 2: firefly (at 3,4)");
     EXPECT_EQ(sentence({frame(1, 0.1)}), "No frame needs a look.");
 }
 
