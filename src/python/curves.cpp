@@ -79,19 +79,20 @@ void add_curves(Module& module) {
                     "A file that is no curve; the error names the line.",
                     kCurvesSource},
         table_of<CurveOptions>().fields, of_file);
-    define(
-        module,
-        Description{"tone_curve_response",
-                    "What a tone curve makes of greys.",
-                    {{"values", "Sequence[float]", "Exposed scene values.", ""}},
-                    "NDArray[np.float64]",
-                    "Display light of each, unclamped, a one-dimensional "
-                    "array.",
-                    "Shapes: one dimension. Units: 1 is the display's white. NaN gives NaN or is "
-                    "refused by the curve.",
-                    "An unknown curve or parameter, a value out of range.",
-                    kCurvesSource},
-        table_of<CurveOptions>().fields, response);
+    define(module,
+           Description{
+               "tone_curve_response",
+               "What a tone curve makes of greys.",
+               {{"values", "Sequence[float]", "Exposed scene values.", ""}},
+               "NDArray[np.float64]",
+               "Display light of each, unclamped, a one-dimensional "
+               "array.",
+               "Shapes: one dimension. Units: 1 is the display's white. It is the formula itself, "
+               "of negative values and infinities, too, which tonemap() takes for 0 and 65504; "
+               "NaN gives NaN or is refused by the curve.",
+               "An unknown curve or parameter, a value out of range.",
+               kCurvesSource},
+           table_of<CurveOptions>().fields, response);
 }
 
 } // namespace tonetool::python

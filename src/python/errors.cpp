@@ -69,8 +69,11 @@ void add_errors(Module& module) {
             pair_notes("Units: those of the metric, the mean over R, G, B of each pixel; psnr and "
                        "mpsnr are in dB, higher is better.\nNegative components count as 0.\n"
                        "NaN, Inf: a pixel that has them in one image counts as the largest "
-                       "error, in both as 0. Counted, and in summary.warnings."),
-            "An unknown metric, no R, G, B, deep images, different display windows, a value out "
+                       "error of the map, alike in both as 0. Where the test alone has them, the "
+                       "value and the mean of measures without a bound are inf (psnr: -inf). "
+                       "Counted, and in summary.warnings."),
+            "No metric, or an unknown one, no R, G, B, deep images, different display windows, a "
+            "value out "
             "of range, an unreadable file, no finite pixel.",
             sources()},
         errors_fields(), run_errors);

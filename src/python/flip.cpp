@@ -37,7 +37,8 @@ const std::string kSourceHdr =
     kSourceLdr;
 const std::string kMapNotes =
     "Units of the map: FLIP's error, 0 (no visible difference) to 1.\n"
-    "NaN, Inf: a pixel that has them in one image has error 1, in both 0; neighbours see the other "
+    "NaN, Inf: a pixel that has them in one image has error 1, as has one that has other ones in "
+    "both; alike in both: 0. Neighbours see the other "
     "image's pixel. Counted, and in summary.warnings.";
 const std::string kPairErrors =
     "No R, G, B, two candidates for the beauty, deep images, different display windows, a value "

@@ -67,7 +67,8 @@ std::string docstring(const Description& d, const std::vector<Parameter>& keywor
         parameters += entry(p);
     std::string raises =
         "TypeError\n" + wrapped("An argument of a wrong type, an unknown keyword.", 4);
-    raises += "ValueError\n" + wrapped("An array of a wrong shape, an unknown name.", 4);
+    raises +=
+        "ValueError\n" + wrapped("An array of a wrong shape, or of numbers that are not taken.", 4);
     raises += "tonetool.Error\n" + wrapped(d.errors, 4);
     return signature_text(d.name, d.positional, keywords) + "\n--\n\n" + wrapped(d.summary, 0) +
            section("Parameters", parameters) +

@@ -126,6 +126,8 @@ InputImage::InputImage(const py::object& object, const std::string& where, Chann
                    std::string(kWantedImage) +
                        (py::isinstance<py::str>(object) || py::hasattr(object, "__fspath__")
                             ? "; tonetool.image(name) is that of a file"
+                        : py::hasattr(object, "__array__") || py::isinstance<py::list>(object)
+                            ? "; numpy.asarray(x) makes an array of it"
                             : ""));
 }
 

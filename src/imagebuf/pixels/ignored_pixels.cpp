@@ -146,7 +146,9 @@ int64_t IgnoredPixels::count(const ROI& part) const {
 int64_t IgnoredPixels::counted(const ROI& part) const {
     const int64_t count = int64_t(part.width()) * part.height() - this->count(part);
     if (count == 0)
-        throw Refusal("mask and ignore leave no pixel that counts: there is nothing to compare");
+        throw Refusal("mask and ignore leave no pixel that counts: there is nothing to compare (a "
+                      "mask counts where it is "
+                      "0.5 or more, as uint8 from 128 on)");
     return count;
 }
 
