@@ -88,7 +88,9 @@ const itemName = (frame) => (isCase(frame)
   ? [frame.name, frame.method && `[${frame.method}]`, frame.frame ? `frame ${frame.frame}` : "", frame.view].filter(Boolean).join(" ")
   : String(frame.frame) + (frame.view ? ` ${frame.view}` : ""));
 const frameName = (frame) => itemName(frame) + (frame.test_frame === undefined ? "" : ` (test ${frame.test_frame})`);
-const frameTitle = (frame) => `${isCase(frame) ? "Case" : "Frame"} ${frameName(frame)}`;
+/** One image, which has no others beside it. */
+const STILL = document.body.classList.contains("still");
+const frameTitle = (frame) => STILL ? "The image" : `${isCase(frame) ? "Case" : "Frame"} ${frameName(frame)}`;
 const NOUN = frames.some(isCase) ? "case" : "frame";
 const capital = (word) => word[0].toUpperCase() + word.slice(1);
 const entries = (list) => (Array.isArray(list) ? list : Object.entries(list || {}));

@@ -19,9 +19,9 @@ function radios(box, group, options, chosen, choose) {
 
 // ---- legends
 
-function legendOf(bar, low, high, words) {
+function legendOf(bar, low, high, words, below = null) {
   return make("div", { className: "legend", role: "img", "aria-label": words },
-    make("span", {}, low), make("img", { src: bar, alt: "" }), make("span", {}, high));
+    make("span", {}, low), make("img", { src: bar, alt: "" }), make("span", {}, high), below && make("p", {}, below));
 }
 
 const LEGENDS = {
@@ -32,7 +32,8 @@ const LEGENDS = {
   bias: ({ bias_range: most }) => {
     const range = `${number(100 * most)} %`;
     return legendOf(data.legends.bias, `\u2212${range}`, `+${range}`,
-      `From blue, ${range} darker, to orange, ${range} brighter, where that is more than noise`);
+      `From blue, ${range} darker, to orange, ${range} brighter, where that is more than noise`,
+      "Grey: no more than noise. Dark stripes: not tested. White stripes: edges differ.");
   },
 };
 

@@ -99,6 +99,12 @@ std::string look_sentence(const ShotResult& shot, const ordered_json& result) {
     const std::vector<Run> runs = runs_of(shot, result);
     const size_t all = shot.frames.size();
     const bool named = is_named(shot);
+    if (runs.empty() && is_still(shot)) {
+        return std::string(shot.verdict == Status::Passed
+                               ? "The image needs no look"
+                               : "Measured only: no limit says whether it needs a look") +
+               accepted_text(shot) + ".";
+    }
     if (runs.empty()) {
         const std::string noun = named ? "case" : "frame";
         const std::string what =
@@ -109,7 +115,7 @@ std::string look_sentence(const ShotResult& shot, const ordered_json& result) {
     }
     const auto bad = std::count_if(shot.frames.begin(), shot.frames.end(),
                                    [](const auto& frame) { return has_problem(frame.status); });
-    if (all == 1 && shot.frames.front().frame == 0 && !named)
+    if (is_still(shot))
         return "The image needs a look: " + runs.front().reason + accepted_text(shot);
     std::vector<std::string> texts;
     size_t told = 0;

@@ -324,7 +324,10 @@ std::string counts_html(const ShotResult& shot) {
     for (const FrameResult& frame : shot.frames)
         ++counts[frame.status];
     std::string html = format("<div><dt>{}</dt><dd>{}</dd></div>",
-                              is_named(shot) ? "cases" : "frames", shot.frames.size());
+                              is_named(shot)   ? "cases"
+                              : is_still(shot) ? "image"
+                                               : "frames",
+                              shot.frames.size());
     for (auto item = counts.rbegin(); item != counts.rend(); ++item) {
         html += format("<div class=\"{}\"><dt>{}</dt><dd>{}</dd></div>", page_class(item->first),
                        status_name(item->first), item->second);
@@ -354,7 +357,7 @@ std::string shot_name(const ShotResult& shot) {
     for (const FrameResult& frame : shot.frames)
         if (name.empty() && !frame.test.empty())
             name = frame.test + (frame.reference.empty() ? "" : " against " + frame.reference);
-    if (shot.frames.empty())
+    if (shot.frames.empty() || is_still(shot))
         return name;
     if (is_named(shot))
         return format("{} case{}{}", shot.frames.size(), shot.frames.size() == 1 ? "" : "s",
@@ -381,6 +384,7 @@ std::string report_page(const ShotResult& shot, const PictureStore& pictures,
                                {"version", escaped(version())},
                                {"title", escaped(verdict + ": " + shot_name(shot))},
                                {"style", page::style},
+                               {"body_class", is_still(shot) ? "still" : ""},
                                {"verdict", escaped(verdict)},
                                {"verdict_class", page_class(shot.verdict)},
                                {"verdict_sign", page_sign(shot.verdict)},

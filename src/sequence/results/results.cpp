@@ -183,13 +183,6 @@ std::string counts_text(const ShotResult& shot) {
     return OIIO::Strutil::join(parts, ", ");
 }
 
-// A command line without frames.
-bool is_still(const ShotResult& shot) {
-    return shot.frames.size() == 1 && shot.frames.front().frame == 0 &&
-           !shot.frames.front().item().named() &&
-           std::none_of(shot.check.begin(), shot.check.end(), is_pattern);
-}
-
 // "12 of 40", where not all were asked for.
 std::string of_text(const ShotResult& shot) {
     const size_t count = shot.frames.size();
@@ -257,6 +250,12 @@ std::vector<size_t> by_badness(const std::vector<FrameResult>& frames) {
 }
 
 } // namespace
+
+bool is_still(const ShotResult& shot) {
+    return shot.frames.size() == 1 && shot.frames.front().frame == 0 &&
+           !shot.frames.front().item().named() &&
+           std::none_of(shot.check.begin(), shot.check.end(), is_pattern);
+}
 
 std::string status_name(Status status) {
     return kStatusNames.at(size_t(status));

@@ -243,4 +243,7 @@ std::optional<double> quantity_of(const Measurement& measured, const std::string
 /// NaN is worse than any other value.
 double badness(const FrameResult& frame);
 
+/// Whether it is one image, of a command line without frames.
+bool is_still(const ShotResult& shot);
+
 } // namespace tonetool::sequence
