@@ -131,11 +131,11 @@ DIFFERENCES = {
     "group": (layer("Combined_key", lambda a: a * 1.3), "error group"),
     "albedo little": (layer("DiffCol", lambda a: a * 1.02), "warning albedo"),
     "albedo": (layer("DiffCol", lambda a: a * 0.9), "error albedo"),
-    "empty light": (layer("Combined_key", lambda a: a * 0), "error empty"),
-    "empty albedo": (layer("DiffCol", lambda a: a * 0), "error empty"),
-    "empty depth": (layer("Depth", lambda a: a * 0), "error empty"),
-    "empty ids": (layer("CryptoObject00", lambda a: a * 0), "error empty"),
-    "empty motion": (layer("Vector", lambda a: a * 0), "error empty"),
+    "empty light": (layer("Combined_key", lambda a: a * 0), "error group"),
+    "empty albedo": (layer("DiffCol", lambda a: a * 0), "error albedo"),
+    "empty depth": (layer("Depth", lambda a: a * 0), "error depth"),
+    "empty ids": (layer("CryptoObject00", lambda a: a * 0), "error id"),
+    "empty motion": (layer("Vector", lambda a: a * 0), "error vector"),
 }
 # A row of blocks, and one of them: their median stays.
 for _name, _code, _few in (("Combined", "color", 32), ("Combined_key", "group", 80),
@@ -362,7 +362,7 @@ def test_a_layer_that_noise_leaves_empty_is_no_fault(against):
     ran, found = against(approved)
     assert found == ["error empty"] and "layer Extra is 0 everywhere, the approved one is not" in ran.out
     assert against(words=":empty=warning")[1] == ["warning empty"]
-    assert against(words=":empty=off")[1] == ["info data"]  # what it hid is told again
+    assert against(words=":empty=off")[1] == ["info data"]
     assert against(some(added("Extra", 0, 1)(approved_frame()), 0, None), approved)[1] == []
 
 

@@ -63,6 +63,10 @@ std::optional<Beyond> worst_of(const AgainstRecord& record, const AgainstLayer& 
     return worst;
 }
 
+bool is_emptied(const AgainstLayer& layer) {
+    return layer.quantities.count("emptied") > 0;
+}
+
 std::string layer_words(const AgainstLayer& layer) {
     return (layer.kind == "group" ? "light group " : "layer ") + shown_layer(layer.name);
 }
@@ -77,7 +81,8 @@ std::string sentence_of(const AgainstLayer& layer, const Beyond& beyond) {
     const double value = beyond.value;
     std::string text;
     if (quantity == "gain")
-        text = format("{} is {:.2g} stops {} than approved", what, std::abs(value),
+        text = format("{} is {}{:.2g} stops {} than approved", what,
+                      is_emptied(layer) ? "0 everywhere, " : "", std::abs(value),
                       value > 0 ? "brighter" : "darker");
     else if (quantity == "blocks")
         text = format("{} differs from the approved one by more than its noise in {} of the blocks",
@@ -130,10 +135,10 @@ bool tells_moment(const std::string& code) {
     return code == "position" || code == "depth";
 }
 
-// Its other differences say no more.
+// Where no other difference is an error.
 bool add_empty(const AgainstRecord& record, const AgainstLayer& layer, std::vector<Fault>& faults) {
     const auto severity = record.limits.severity("empty");
-    if (!severity || layer.quantities.count("emptied") == 0)
+    if (!severity || !is_emptied(layer))
         return false;
     Fault fault;
     fault.command = "against";
@@ -147,11 +152,14 @@ bool add_empty(const AgainstRecord& record, const AgainstLayer& layer, std::vect
 
 void add_layers(const AgainstRecord& record, std::vector<Fault>& faults) {
     for (const AgainstLayer& layer : record.layers) {
-        if (add_empty(record, layer, faults))
-            continue;
+        bool found = false;
         for (const std::string& kind : {layer.kind, std::string()})
-            if (const auto worst = worst_of(record, layer, kind))
+            if (const auto worst = worst_of(record, layer, kind)) {
                 faults.push_back(fault_of(layer, *worst));
+                found |= worst->severity == Severity::Error;
+            }
+        if (!found && add_empty(record, layer, faults))
+            continue;
         const auto off = layer.quantities.find("off");
         const auto severity = record.limits.severity("data");
         if (layer.kind == "data" && severity && off != layer.quantities.end() && off->second > 0) {

@@ -25,7 +25,8 @@ const FaultRules& against_rules() {
          error,
          {},
          "",
-         "a layer is 0 everywhere, and the approved one is not in a thousandth of its pixels"},
+         "a layer is 0 everywhere, and the approved one is not in a thousandth of its pixels; told "
+         "where no other difference of it is an error"},
         {"position", error, 0.01, "share of the pixels", "positions that moved; warning at 0.2 X"},
         {"depth", error, 0.01, "share of the pixels", "depths that are others; warning at 0.2 X"},
         {"normal", error, 2.0, "degrees", "the median angle of the normals; warning at 0.25 X"},
