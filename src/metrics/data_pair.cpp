@@ -74,6 +74,10 @@ double position_difference(const PixelPair& pixel, const float* depth) {
     return sky ? 0 : distance_of(pixel, size);
 }
 
+bool is_finite(const float* pixel, size_t channels) {
+    return std::all_of(pixel, pixel + channels, [](float value) { return std::isfinite(value); });
+}
+
 // What is not finite has no direction.
 bool is_normal(const float* v) {
     const double square = double(v[0]) * v[0] + double(v[1]) * v[1] + double(v[2]) * v[2];
@@ -141,6 +145,7 @@ double difference_of(PairKind kind, const PixelPair& pixel, const float* depth, 
         const bool a = is_normal(pixel.a), b = is_normal(pixel.b);
         row.both += a && b;
         row.one += a != b;
+        row.lost += a && !is_finite(pixel.b, 3);
         const double angle = a && b ? angle_between(pixel.a, pixel.b) : 0;
         if (a && b)
             row.codes.push_back(StepHistogram::code(float(angle)));
@@ -148,6 +153,7 @@ double difference_of(PairKind kind, const PixelPair& pixel, const float* depth, 
     }
     case PairKind::Motion: {
         const double distance = std::min(motion_difference(pixel), double(DataPair::kSky));
+        row.lost += is_finite(pixel.a, pixel.channels) && !is_finite(pixel.b, pixel.channels);
         row.codes.push_back(StepHistogram::code(float(distance)));
         return distance;
     }
@@ -200,6 +206,7 @@ void DataPair::add(const DataPair& row) {
     both += row.both;
     one += row.one;
     sum += row.sum;
+    lost += row.lost;
     covered[0] += row.covered[0];
     covered[1] += row.covered[1];
     steps.add(row.codes);

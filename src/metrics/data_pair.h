@@ -31,6 +31,7 @@ struct DataPair {
     int64_t both = 0; ///< of normals: pixels where both have a length
     int64_t one = 0;  ///< and where only one has
     double sum = 0;   ///< of differences: of ids by half their coverage, of alpha absolute
+    int64_t lost = 0; ///< of normals and motion: pixels that are finite in the approved alone
     double covered[2] = {0, 0};               ///< of ids: the coverage of each side
     StepHistogram steps;                      ///< of angles in degrees, of distances in pixels
     std::vector<StepHistogram::Code> codes{}; ///< of one row, before it is added

@@ -207,6 +207,24 @@ std::string fixed_name(const FramePlan& plan, size_t at, const std::string& file
                : file;
 }
 
+// The words at these places, if they are the same file in all frames that have both.
+void refuse_if_same(const FramePlan& plan, const std::vector<size_t>& pair) {
+    size_t same = 0;
+    for (const FrameRun& run : plan.runs) {
+        const Strings files = words_at(run.words, pair);
+        std::error_code none;
+        if (std::filesystem::equivalent(files[0], files[1], none))
+            ++same;
+        else if (std::filesystem::exists(files[0], none) && std::filesystem::exists(files[1], none))
+            return;
+    }
+    if (same > 1) {
+        throw CommandError("in all " + std::to_string(same) + " frames \"" +
+                           plan.line.texts[pair[0]] + "\" and \"" + plan.line.texts[pair[1]] +
+                           "\" are the same file (valid: the names of two versions)");
+    }
+}
+
 } // namespace
 
 void check_cases_asked_for(const FramePlan& plan) {
@@ -238,23 +256,18 @@ void check_cases_asked_for(const FramePlan& plan) {
 }
 
 void refuse_shot_against_itself(const FramePlan& plan) {
-    const std::vector<size_t>& pair = plan.sequences.empty() ? plan.check.inputs : plan.sequences;
-    if (plan.named || !plan.loops || !plan.check.compares_pairs() || pair.size() != 2)
+    if (plan.named || !plan.loops || !plan.check.compares_pairs())
         return;
-    size_t same = 0;
-    for (const FrameRun& run : plan.runs) {
-        const Strings files = words_at(run.words, pair);
-        std::error_code none;
-        if (std::filesystem::equivalent(files[0], files[1], none))
-            ++same;
-        else if (std::filesystem::exists(files[0], none) && std::filesystem::exists(files[1], none))
+    follow_stack(plan.line, plan.check, [&](const StackedCommand& command) {
+        const bool compares =
+            command.word.row->group == chain::Group::Compare || command.word.is("against");
+        const size_t all = command.stack.size();
+        if (!compares || command.pops != 2 || all < 2)
             return;
-    }
-    if (same > 1) {
-        throw CommandError("in all " + std::to_string(same) + " frames \"" +
-                           plan.line.texts[pair[0]] + "\" and \"" + plan.line.texts[pair[1]] +
-                           "\" are the same file (valid: the names of two versions)");
-    }
+        const StackedImage &reference = command.stack[all - 2], &test = command.stack[all - 1];
+        if (reference.file && test.file && reference.unchanged && test.unchanged)
+            refuse_if_same(plan, {*reference.file, *test.file});
+    });
 }
 
 void try_outputs(const FramePlan& plan) {

@@ -119,12 +119,6 @@ size_t last_comparison(const chain::ParsedLine& line) {
     return last;
 }
 
-std::string place_of(const std::string& file) {
-    std::error_code why;
-    const std::filesystem::path place = std::filesystem::weakly_canonical(file, why);
-    return why ? file : place.string();
-}
-
 // Outputs of a line that judges in the place of what it compares: the frame that reads it next
 // would compare the output of another, and nobody has the image any more. A line of one frame may
 // write over an image before it compares.
@@ -134,12 +128,13 @@ void refuse_over_compared(const FramePlan& plan) {
     std::set<std::string> read;
     for (const FrameRun& run : plan.runs)
         for (const std::string& file : words_at(run.words, plan.check.inputs))
-            read.insert(place_of(file));
+            read.insert(sequence::place_of(file));
     const size_t last = plan.runs.size() > 1 ? 0 : last_comparison(plan.line);
     for (const FrameRun& run : plan.runs) {
         for (const size_t at : plan.check.outputs) {
             const std::string& file = run.words.at(at);
-            if (at >= last && file.find('{') == std::string::npos && read.count(place_of(file)) > 0)
+            if (at >= last && file.find('{') == std::string::npos &&
+                read.count(sequence::place_of(file)) > 0)
                 throw CommandError("\"" + file +
                                    "\" is read by this check, and -o would write over it");
         }

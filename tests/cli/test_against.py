@@ -550,6 +550,12 @@ def test_pixels_that_are_not_finite(against, layers):
             ["error nonfinite"]
         assert against(None, spoiled(new_frame(), value, "Depth"))[1] == ["error depth"]
         assert against(None, spoiled(new_frame(), value, "Vector"))[1] == ["error vectoroff"]
+        for name in ("Normal", "Vector"):
+            few = of(name, 0.002, lambda a, value=value: a * 0 + value)(new_frame(), 0, None)
+            ran, found = against(None, few)
+            assert found == ["error nonfinite"] and f"layer {name} is NaN or infinite in 0.1" in ran.out
+            few = of(name, 0.0005, lambda a, value=value: a * 0 + value)(new_frame(), 0, None)
+            assert against(None, few)[1] == ["warning nonfinite"]
     assert against(spoiled(approved_frame(), np.inf, "Depth"),
                    spoiled(new_frame(), FAR, "Depth"))[1] == []
 

@@ -587,3 +587,16 @@ def test_a_line_for_every_finished_frame(tonetool, anim):
     assert [int(line.split()[1].rstrip(":")) for line in lines] == list(range(1, 9))
     assert lines[4].startswith("frame 5: failed (hdrflip: p99 0.")
     assert " passed, " in lines[3]
+
+
+def test_two_results_in_one_file_by_a_link(tonetool, tmp_path, pair):
+    """Also before the file is there."""
+    (tmp_path / "b").symlink_to("a")
+    (tmp_path / "folder").mkdir()
+    (tmp_path / "same").symlink_to("folder")
+    for first, second in (("a", "b"), ("a", tmp_path / "a"), ("folder/x", "same/x")):
+        ran = tonetool(*pair, "--hdrflip", "--json", first, "--csv", second, status=1)
+        assert "is also another's file" in ran.err
+    assert not (tmp_path / "a").exists()
+    tonetool(*pair, "--hdrflip", "--json", "b")
+    assert (tmp_path / "b").is_symlink() and (tmp_path / "a").read_text().startswith("{")

@@ -227,3 +227,9 @@ def test_completion(tonetool, tmp_path, shell):
     assert "stops" in complete(script, "tonetool a.exr b.exr --hdrflip:exposuremap=")
     assert {"uncharted2", "uchimura"} <= set(
         complete(script, "tonetool a.exr b.exr --hdrflip:fail=0.1:tonemapper=u"))
+
+
+def test_a_word_of_the_help_is_taken_for_a_modifier(tonetool, testimages):
+    ran = tonetool(testimages / "plain.exr", "--tonemap:exposure=1", status=1)
+    assert 'unknown modifier "exposure", did you mean "stops" (exposure in stops, ' in ran.err
+    assert "valid: " not in ran.err

@@ -28,7 +28,7 @@ double checked_number(const std::string& what, const std::string& value, Range r
                            "\" is not a number (valid: " + range_text(range) + ")");
     }
     if (*number < range.low || *number > range.high) {
-        const bool percent = *number > 1 && *number <= 100 && range.high <= 1;
+        const bool percent = *number >= 2 && *number <= 100 && range.high <= 1;
         throw CommandError(what + " " + value + " is out of range (valid: " + range_text(range) +
                            (percent ? ", a part of 1: 10 % is 0.1)" : ")"));
     }

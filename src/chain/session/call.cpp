@@ -18,11 +18,21 @@ Strings keys_of(const Command& row) {
     return keys;
 }
 
+// A modifier whose help has the word that somebody took for its name: stops= for "exposure".
+std::string told_by_help(const std::string& word, const Command& row) {
+    for (const Modifier& modifier : row.modifiers)
+        if (word.size() > 3 && !modifier.of_curve &&
+            modifier.help.compare(0, word.size(), word) == 0)
+            return ", did you mean \"" + modifier.key + "\" (" + modifier.help + ")?";
+    return "";
+}
+
 void check_keys(const Command& row, const Token& token) {
     const Strings keys = keys_of(row);
     for (const auto& [key, value] : token.modifiers) {
         if (std::find(keys.begin(), keys.end(), key) == keys.end()) {
-            const std::string near = meant(key, keys);
+            std::string near = meant(key, keys);
+            near = near.empty() ? told_by_help(key, row) : near;
             const std::string rest = keys.empty()   ? " (this command has none)"
                                      : near.empty() ? " (valid: " + join(keys, ", ") + ")"
                                                     : " (--help " + row.label() + " lists all)";

@@ -21,10 +21,13 @@ inline std::string shown_layer(const std::string& name) {
 /// "did you mean "ViewLayer.Combined"? " of a word that nearly is one of the names, or the last
 /// part of one; else empty.
 inline std::string meant_layer(const std::string& word, const std::vector<std::string>& names) {
+    constexpr size_t least = 3; // any letter is near any other
     std::vector<std::string> ends;
     for (const std::string& name : names)
         ends.push_back(name.substr(name.find_last_of('.') + 1));
     for (const std::vector<std::string>& written : {names, ends}) {
+        if (word.size() < least)
+            break;
         const std::vector<std::string> near = nearest_names(word, written, 1);
         if (near.empty())
             continue;

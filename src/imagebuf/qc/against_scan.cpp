@@ -293,9 +293,12 @@ AgainstLayer AgainstScan::result_of(const Pair& pair) const {
     } else if (*pair.data == PairKind::Normal) {
         out.quantities = {{"median", sums.steps.quantile(0.5)},
                           {"off10", double(sums.off) / double(std::max<int64_t>(sums.both, 1))},
-                          {"one", sums.share(sums.one)}};
+                          {"one", sums.share(sums.one)},
+                          {"lost", sums.share(sums.lost)}};
     } else if (*pair.data == PairKind::Motion) {
-        out.quantities = {{"median", sums.steps.quantile(0.5)}, {"off", sums.share(sums.off)}};
+        out.quantities = {{"median", sums.steps.quantile(0.5)},
+                          {"off", sums.share(sums.off)},
+                          {"lost", sums.share(sums.lost)}};
     } else if (*pair.data == PairKind::Ids) {
         constexpr double few = 16; // pixels that it covers: those of noise are others
         out.quantities = {{"mismatch", sums.sum / pixels}};

@@ -44,10 +44,11 @@ struct AgainstFile {
 /// What was measured of a layer that both have.
 struct AgainstLayer {
     std::string name, kind; ///< of the new file
-    /// By kind: depth, position: off; normal: median, off10, one; vector: median, off; id:
-    /// mismatch, and others where it covers 16 pixels; albedo, color, group: gain, blocks, one_finite, and none_finite (1) if no pixel is
-    /// finite in both; any with an alpha: alpha_mean, alpha_off; data: off; any: emptied (1) if
-    /// the new one is 0 everywhere, and a thousandth of the approved one's pixels, at least 16, not.
+    /// By kind: depth, position: off; normal: median, off10, one, lost; vector: median, off, lost;
+    /// id: mismatch, and others where it covers 16 pixels; albedo, color, group: gain, blocks,
+    /// one_finite, and none_finite (1) if no pixel is finite in both; any with an alpha:
+    /// alpha_mean, alpha_off; data: off; any: emptied (1) if the new one is 0 everywhere, and a
+    /// thousandth of the approved one's pixels, at least 16, not.
     std::map<std::string, double> quantities;
     int x = 0, y = 0; ///< where they differ most
     /// The first pixel that is finite in only one, where there is one.
@@ -73,7 +74,8 @@ TONETOOL_API std::vector<std::string> against_kinds();
 ///   not finite); of data by their bits.
 /// - median of normals in degrees, of vectors in pixels; off10: share of normals more than 10
 ///   degrees apart; one: share of pixels where only one has a normal longer than 0.5; off of
-///   vectors: share more than half a pixel apart.
+///   vectors: share more than half a pixel apart. lost: share that is NaN or infinite in the new
+///   file, and was not.
 /// - mismatch: mean over pixels of half the differences of the coverages of all ids, which are
 ///   compared by their bits. others: the same, as a part of what the layer covers: a rank of the
 ///   edges alone covers little.

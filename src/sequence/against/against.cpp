@@ -101,6 +101,9 @@ std::string sentence_of(const AgainstLayer& layer, const Beyond& beyond) {
                       what);
     else if (quantity == "mismatch")
         text = format("{} shows other objects in {} of the picture", what, percent(value));
+    else if (quantity == "lost")
+        text =
+            format("{} is NaN or infinite in {} of the pixels, and was not", what, percent(value));
     else if (quantity == "others")
         text = format("{} of what {} covers are other objects", percent(value), what);
     else if (quantity == "alpha_mean")

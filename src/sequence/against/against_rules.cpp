@@ -8,10 +8,10 @@ namespace tonetool::sequence {
 const FaultRules& against_rules() {
     constexpr Severity error = Severity::Error, warning = Severity::Warning, info = Severity::Info;
     static const FaultRules rules = {
-        {"layermissing", error, {}, "", "a layer of the approved version is not there"},
-        {"channels", error, {}, "", "a layer has other channels"},
         {"displaywindow", error, {}, "", "the display window is another"},
         {"datawindow", error, {}, "", "the data window is another"},
+        {"layermissing", error, {}, "", "a layer of the approved version is not there"},
+        {"channels", error, {}, "", "a layer has other channels"},
         {"eyes", error, {}, "", "a view shows what another view of the approved version shows"},
         {"header",
          error,
@@ -49,9 +49,9 @@ const FaultRules& against_rules() {
         {"albedo", error, 0.05, "stops", "the same of an albedo; warning at 0.4 X"},
         {"albedoblocks", error, 0.03, "share of the blocks", "the same; warning at 0.33 X"},
         {"nonfinite", error, 0.001, "share of the pixels",
-         "NaN or infinity in the light of one version alone; warning at the first pixel. No pixel "
-         "that "
-         "is finite in both: error"},
+         "NaN or infinity in the light of one version alone, or in normals and motion of the new "
+         "one; "
+         "warning at the first pixel. No pixel that is finite in both: error"},
         {"alpha", error, 0.01, "of 1", "the mean difference of an alpha; warning at 0.1 X"},
         {"alphaoff", error, 0.02, "share of the pixels",
          "alpha that differs by more than 0.02; warning at 0.1 X"},
@@ -84,8 +84,10 @@ const std::vector<AgainstQuantity>& against_quantities() {
         {"normal", "median", "normal", 0.25},
         {"normal", "off10", "normaloff", 1.0 / 3},
         {"normal", "one", "normalone", 0.2},
+        {"normal", "lost", "nonfinite", 1e-6},
         {"vector", "median", "vector", 0.2},
         {"vector", "off", "vectoroff", 0.4},
+        {"vector", "lost", "nonfinite", 1e-6},
         {"id", "mismatch", "id", 0.25},
         {"id", "others", "idothers", 0.9},
         {"color", "none_finite", "nonfinite", 1e-6},

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <filesystem>
 #include <map>
 #include <mutex>
 #include <set>
@@ -42,6 +43,18 @@ Stamp stamp_of(const std::string& file) {
         stamp.changed = nanoseconds(found.st_ctim);
     }
     return stamp;
+}
+
+std::string place_of(const std::string& file) {
+    namespace fs = std::filesystem;
+    constexpr int most = 40; // as the system follows
+    std::error_code why;
+    fs::path path = file;
+    for (int links = 0; links < most && fs::is_symlink(path, why) && !fs::exists(path, why);
+         ++links)
+        path = path.parent_path() / fs::read_symlink(path, why);
+    const fs::path place = fs::weakly_canonical(fs::absolute(path, why), why);
+    return (why ? fs::absolute(path, why).lexically_normal() : place).string();
 }
 
 bool is_current(const Stamps& stamps) {

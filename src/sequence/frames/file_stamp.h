@@ -23,6 +23,9 @@ struct Stamp {
 using Stamps = std::vector<Stamp>;
 
 Stamp stamp_of(const std::string& file);
+/// Where a file is, or will be: its folder and links are resolved, those that lead nowhere yet,
+/// too.
+std::string place_of(const std::string& file);
 bool is_current(const Stamps& stamps);
 
 int64_t now_in_nanoseconds();

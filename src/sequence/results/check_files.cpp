@@ -16,6 +16,7 @@
 #include <unistd.h>
 
 #include "imagebuf/write/temporary_names.h"
+#include "sequence/frames/file_stamp.h"
 #include "sequence/results/results_json.h"
 #include "sequence/results/tables.h"
 #include "tonetool/write.h"
@@ -126,7 +127,7 @@ void check_places(const CheckFiles& files) {
         }
         if (!makes_folder && fs::is_directory(file, none))
             throw std::runtime_error(start + "\"" + file + "\" is a folder");
-        if (!seen.insert(fs::path(file).lexically_normal().string()).second)
+        if (!seen.insert(place_of(file)).second)
             throw std::runtime_error(start + "\"" + file + "\" is also another's file");
     }
 }
