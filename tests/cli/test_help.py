@@ -231,5 +231,5 @@ def test_completion(tonetool, tmp_path, shell):
 
 def test_a_word_of_the_help_is_taken_for_a_modifier(tonetool, testimages):
     ran = tonetool(testimages / "plain.exr", "--tonemap:exposure=1", status=1)
-    assert 'unknown modifier "exposure", did you mean "stops" (exposure in stops, ' in ran.err
+    assert 'unknown modifier "exposure", did you mean "method" or "stops"? (--help tonemap lists all)' in ran.err
     assert "valid: " not in ran.err

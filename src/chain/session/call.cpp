@@ -18,13 +18,15 @@ Strings keys_of(const Command& row) {
     return keys;
 }
 
-// A modifier whose help has the word that somebody took for its name: stops= for "exposure".
+// Modifiers whose help begins with the word that somebody took for a name: stops= for "exposure".
 std::string told_by_help(const std::string& word, const Command& row) {
+    constexpr size_t least = 4;
+    Strings keys;
     for (const Modifier& modifier : row.modifiers)
-        if (word.size() > 3 && !modifier.of_curve &&
+        if (word.size() >= least && !modifier.of_curve &&
             modifier.help.compare(0, word.size(), word) == 0)
-            return ", did you mean \"" + modifier.key + "\" (" + modifier.help + ")?";
-    return "";
+            keys.push_back("\"" + modifier.key + "\"");
+    return keys.empty() ? "" : ", did you mean " + join(keys, " or ") + "?";
 }
 
 void check_keys(const Command& row, const Token& token) {
