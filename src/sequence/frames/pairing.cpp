@@ -198,12 +198,12 @@ std::string gaps(const Side& side) {
     } catch (const std::runtime_error&) { // far apart
         return "";
     }
-    const std::vector<int> lacking = without(numbers_of({all.begin(), all.end()}), there);
+    const std::vector<int> whole = numbers_of({all.begin(), all.end()});
+    const std::vector<int> lacking = without(whole, there);
     return lacking.empty()
                ? ""
                : "\"" + side.pattern + "\" has no " + frames_text(lacking) + " (valid: --frames " +
-                     range_text(there) + " if that is meant, --frames " +
-                     std::to_string(there.front()) + "-" + std::to_string(there.back()) +
+                     range_text(there) + " if that is meant, --frames " + range_text(whole) +
                      " where a missing frame is an error)";
 }
 
