@@ -40,7 +40,7 @@ public:
             const Word& word = *m_waiting.front();
             const Call call(*word.row, word.token, {});
             m_found.command = word.row->label();
-            m_found.mistake = chain::too_few_images(size_t(call.pops()), m_stack.size());
+            m_found.mistake = chain::too_few_images(size_t(call.pops()), m_stack.size(), m_taken);
         }
         return m_found;
     }
@@ -116,6 +116,7 @@ private:
                 image->unchanged = false;
         if (pushes == int(pops))
             return true;
+        m_taken |= pops > 0;
         m_stack.resize(m_stack.size() - pops);
         m_stack.resize(m_stack.size() + size_t(pushes), {std::nullopt, false});
         return true;
@@ -126,6 +127,7 @@ private:
     const std::function<void(const StackedCommand&)>& m_visit;
     Followed m_found;
     std::vector<StackedImage> m_stack;
+    bool m_taken = false;
     std::deque<const Word*> m_waiting;
 };
 

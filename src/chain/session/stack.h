@@ -12,8 +12,12 @@
 
 namespace tonetool::chain {
 
-inline std::string too_few_images(size_t needed, size_t there) {
-    return "needs " + std::to_string(needed) + " image(s), the stack has " + std::to_string(there);
+/// `taken`: commands have popped images before.
+inline std::string too_few_images(size_t needed, size_t there, bool taken) {
+    return "needs " + std::to_string(needed) + " image(s), the stack has " + std::to_string(there) +
+           (taken ? "; commands before it took theirs (--dup keeps one, --against and --qc leave "
+                    "all)"
+                  : "");
 }
 
 struct Stack {
@@ -27,6 +31,7 @@ struct Stack {
     std::optional<OIIO::ImageSpec> first_header;
     std::time_t newest_input = 0;
     std::vector<std::string> files_read;
+    bool taken = false; ///< images have been popped
 
     const ImagePtr& top() const { return images.back(); }
     /// The images on top, the deepest first.
@@ -36,12 +41,15 @@ struct Stack {
     void push(ImagePtr image) { images.push_back(std::move(image)); }
     std::vector<ImagePtr> pop(size_t count) {
         std::vector<ImagePtr> popped = top(count);
+        taken |= count > 0;
         images.resize(images.size() - count);
         return popped;
     }
 
     /// The complaint that there are not so many images.
-    std::string lacks(int count) const { return too_few_images(size_t(count), images.size()); }
+    std::string lacks(int count) const {
+        return too_few_images(size_t(count), images.size(), taken);
+    }
 
     /// Reads what images and labels still have to read from a file about to be replaced.
     void keep_pixels_of(const std::string& filename) const;
