@@ -102,7 +102,8 @@ TEST(Attribute, AllReplacedIsTheReference) {
     AttributeInput input;
     input.open({&a}, {&b}, {}, {});
     input.read(1);
-    ErrorMeter meter(input, {}, 0, 1);
+    const AttributeOptions options; // the meter keeps a reference
+    ErrorMeter meter(input, options, 0, 1);
     for (const size_t side : {size_t(0), size_t(1)}) {
         std::vector<float> rgb;
         exchange_lights(input, side, {0, 1, 2}, rgb);
