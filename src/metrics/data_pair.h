@@ -42,7 +42,7 @@ struct DataPair {
     /// Of ids: the part of what the layer covers that are others.
     double others() const {
         const double whole = std::max(covered[0], covered[1]);
-        return whole > 0 ? sum / whole : 0;
+        return whole > 0 ? std::min(sum / whole, 1.0) : 0;
     }
     double share(int64_t count) const { return pixels > 0 ? double(count) / double(pixels) : 0; }
 };

@@ -383,6 +383,17 @@ def test_a_rank_of_the_edges_with_other_objects(against, layers):
     assert against(None, new)[1] == []
 
 
+# A pixel of four samples has four objects at most.
+@pytest.mark.parametrize("rank, found", [("01", ["error empty"]), ("02", [])])
+def test_ranks_that_fewer_samples_do_not_fill(against, rank, found):
+    approved, new = approved_frame(), new_frame()
+    value = np.zeros((HEIGHT, WIDTH, 4), np.float32)
+    new.layers[f"CryptoObject{rank}"] = value.copy()
+    value[::8, ::8] = (0.5, 0.1, 0, 0)
+    approved.layers[f"CryptoObject{rank}"] = value
+    assert against(approved, new)[1] == found
+
+
 def test_layers_that_are_skipped_are_not_missed_either(against):
     new = without("DiffCol")(layer("Depth", lambda a: a * 2)(new_frame(), 0, None), 0, None)
     assert against(approved_frame(), new)[1] == ["error layermissing", "error depth"]

@@ -98,7 +98,7 @@ def test_threads_do_not_change_the_numbers(tonetool, pair, read, metric):
 def test_nonfinite_pixels_are_the_largest_error(tonetool_v, testimages, read):
     words = [testimages / "plain.exr", testimages / "nan_center.exr"]
     ran = tonetool_v("--warnings-exit", *words, "--errormap:metric=relmse", "-o", "x.exr", status=2)
-    assert ran.fact("test-nonfinite") == "1" and ran.fact("max") == "1 at 32,24"
+    assert ran.fact("test-nonfinite") == "1" and ran.fact("max") == "inf at 32,24"
     assert read("x.exr")[0][24, 32, 0] == 1
     ran = tonetool_v(words[1], words[1], "--errormap:metric=relmse")
     assert ran.fact("max").startswith("0 ") and ran.fact("nonfinite-in-both") == "1"
@@ -107,7 +107,7 @@ def test_nonfinite_pixels_are_the_largest_error(tonetool_v, testimages, read):
 # A method must not gain by pixels that are no numbers, whatever its other errors are.
 @pytest.mark.parametrize("metric, value", [("mse", "inf"), ("mae", "inf"), ("relmse", "inf"), ("rmae", "inf"),
                                            ("psnr", "-inf"), ("smape", None), ("mpsnr", None)])
-def test_no_limit_holds_where_the_test_alone_is_not_finite(tonetool, testimages, metric, value):
+def test_no_limit_holds_where_the_test_alone_is_not_finite(tonetool, tmp_path, testimages, metric, value):
     words = [testimages / "plain.exr", testimages / "nan_center.exr"]
     limit = "-299" if metric == "psnr" else "1e9"
     if value is None:  # the largest error there is
@@ -115,6 +115,17 @@ def test_no_limit_holds_where_the_test_alone_is_not_finite(tonetool, testimages,
         return
     ran = tonetool(*words, f"--errormap:metric={metric}:fail={limit}", status=3)
     assert f"FAIL {metric} {value} " in ran.out
+    most = 0.99 if metric == "psnr" else 1e9
+    for quantity in ("max", "mean", "weighted-median", "p99.99"):
+        ran = tonetool(*words, f"--errormap:metric={metric}:fail={quantity}={most}", "--json", "n.json", status=3)
+        assert f"{quantity} inf > " in ran.out and "worst pixel 32,24" in ran.out
+        # What was written is read again: merged, printed, taken for limits.
+        assert f"{quantity} inf > " in tonetool("--merge", "n.json", "--json", "again.json", status=3).out
+        assert (tmp_path / "again.json").read_bytes() == (tmp_path / "n.json").read_bytes()
+    tonetool(*words, f"--errormap:metric={metric}:fail=p99.9={most}")  # one of 3072 pixels
+    if metric != "psnr":
+        tonetool(*words, f"--errormap:metric={metric}:fail=above5=0.001")
+        tonetool(*words, f"--errormap:metric={metric}:fail=above5=0.0001", status=3)
     # Where the reference is not finite nobody can tell; where the pixel does not count it does not.
     assert "inf" not in tonetool(*words[::-1], f"--errormap:metric={metric}:fail={limit}").out
     assert "-inf" not in tonetool(*words, f"--errormap:metric={metric}:fail={limit}:ignore=1x1+32+24").out

@@ -591,6 +591,19 @@ def test_a_shot_against_links_to_it(tonetool, pair_of_shots, command):
     assert "are the same file" in tonetool("r.#.exr", "v2/r.#.exr", command).err
 
 
+def test_parts_and_layers_of_one_file_are_compared(tonetool, pair_of_shots, command="--hdrflip:fail=0.9"):
+    shot = pair_of_shots
+    for number in (1, 2, 3):
+        tonetool(f"r.{number:04}.exr", f"t.{number:04}.exr", "--siappend", "-o", f"p.{number:04}.exr")
+    words = ["p.#.exr", "--subimage", "0", "p.#.exr", "--subimage", "1"]
+    ran = tonetool(*words, command)
+    assert "check: passed, 3 frames: 3 passed" in ran.out and ran.err == ""
+    tonetool(*words, "--against", "--exit-zero", "--json", "c.json")
+    assert all(frame["status"] != "error" for frame in json.loads((shot / "c.json").read_text())["frames"])
+    ran = tonetool("p.#.exr", "--subimage", "1", "p.#.exr", "--subimage", "1", command, status=1)
+    assert "are the same file" in ran.err
+
+
 def test_an_error_map_in_the_place_of_its_reference(tonetool, pair_of_shots):
     before = {file: file.read_bytes() for file in pair_of_shots.glob("*.exr")}
     (pair_of_shots / "link.exr").symlink_to("r.0001.exr")

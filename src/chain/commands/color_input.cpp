@@ -52,8 +52,10 @@ std::vector<OIIO::ImageSpec> headers_of(const Image& image) {
 
 bool same_file(const Image& a, size_t part_of_a, const Image& b, size_t part_of_b) {
     std::error_code ignored;
+    const Part &of_a = a.part(part_of_a), &of_b = b.part(part_of_b);
     const bool one_file =
-        a.part(part_of_a).from_file() && b.part(part_of_b).from_file() &&
+        of_a.from_file() && of_b.from_file() && of_a.subimage() == of_b.subimage() &&
+        of_a.header().channelnames == of_b.header().channelnames &&
         (a.name() == b.name() || std::filesystem::equivalent(a.name(), b.name(), ignored));
     return part_of_a == part_of_b && (one_file || (a.lineage != 0 && a.lineage == b.lineage));
 }

@@ -65,6 +65,7 @@ public:
     int mip_levels() const { return int(m_headers.size()); }
     const std::optional<DataFormat>& format() const { return m_format; }
     bool from_file() const { return m_source ? m_source->from_file() : !m_file.empty(); }
+    int subimage() const { return m_source ? m_source->subimage() : m_subimage; }
     /// The values come from an integer file: display-encoded unless the header says otherwise.
     bool integer_encoded() const { return m_integers != Integers::None; }
     Integers integers() const { return m_integers; }

@@ -133,7 +133,7 @@ void FlipMaps::take(int begin, int end, const ColorPlanes& reference, const Colo
             return;
         if (m_plan.alpha())
             compare_alpha(y, sides);
-        const int64_t lost = nonfinite ? override_nonfinite(y, sides) : 0;
+        const Lost lost = nonfinite ? override_nonfinite(y, sides) : Lost();
         if (reference.ignored)
             clear_ignored(y, *reference.ignored);
         const Unseen found = unseen(y, sides);
@@ -141,7 +141,11 @@ void FlipMaps::take(int begin, int end, const ColorPlanes& reference, const Colo
         m_unseen.differing += found.differing;
         m_unseen.white += found.white;
         m_unseen.black += found.black;
-        m_lost += lost;
+        if (lost.count > 0 && (m_lost == 0 || y < m_lost_y)) {
+            m_lost_x = lost.x;
+            m_lost_y = y;
+        }
+        m_lost += lost.count;
     });
 }
 
@@ -164,9 +168,9 @@ void FlipMaps::compare_alpha(int y, const Sides& sides) {
 }
 
 // The largest error where one image alone is non-finite or both are in another way, else 0.
-int64_t FlipMaps::override_nonfinite(int y, const Sides& sides) {
+FlipMaps::Lost FlipMaps::override_nonfinite(int y, const Sides& sides) {
     const IgnoredPixels* const ignored = sides.reference.ignored;
-    int64_t lost = 0;
+    Lost lost;
     const size_t at = sides.reference.at(y) + size_t(m_roi.xbegin - sides.reference.region.xbegin);
     for (size_t x = 0; x < size_t(m_roi.width()); ++x) {
         const bool r = sides.reference.nonfinite[at + x], t = sides.test.nonfinite[at + x];
@@ -179,7 +183,10 @@ int64_t FlipMaps::override_nonfinite(int y, const Sides& sides) {
             row(m_index, y)[x] = 0;
         for (FlipExposure& picture : m_pictures)
             row(picture.flip, y)[x] = error;
-        lost += !r && !(ignored && ignored->at(m_roi.xbegin + int(x), y));
+        if (!r && !(ignored && ignored->at(m_roi.xbegin + int(x), y))) {
+            lost.x = lost.count == 0 ? m_roi.xbegin + int(x) : lost.x;
+            ++lost.count;
+        }
     }
     return lost;
 }
@@ -207,6 +214,29 @@ void FlipMaps::mark_ignored(const IgnoredPixels& ignored, float value) {
     });
 }
 
+// Pixels that the test alone has lost have no error that anything bounds: the numbers that stand
+// for them in the map are not theirs, and all infinite errors come behind the others.
+void FlipMaps::pool_lost(FlipPool& pool, metrics::PoolRequest& further) const {
+    constexpr double infinite = std::numeric_limits<double>::infinity();
+    const double lost = double(m_lost) / double(pool.pixels);
+    for (size_t i = 0; i < further.above.size(); ++i)
+        if (further.above[i] >= pool.max) // which stands for them
+            further.found_above[i] += lost;
+    const auto lose = [&](double share, double& value) {
+        value = share > 1 - lost ? infinite : value;
+    };
+    lose(0.5, pool.p50);
+    lose(0.95, pool.p95);
+    lose(0.99, pool.p99);
+    lose(0.999, pool.p999);
+    for (size_t i = 0; i < further.percentiles.size(); ++i)
+        lose(further.percentiles[i] / 100, further.found_percentiles[i]);
+    pool.mean = pool.weighted_q1 = pool.weighted_median = pool.weighted_q3 = infinite;
+    pool.max = infinite;
+    pool.max_x = m_lost_x;
+    pool.max_y = m_lost_y;
+}
+
 // Where pixels do not count the map has gaps while it is pooled.
 FlipPool FlipMaps::pooled(const IgnoredPixels* ignored) {
     using metrics::Gaps;
@@ -218,6 +248,8 @@ FlipPool FlipMaps::pooled(const IgnoredPixels* ignored) {
         m_roi.ybegin, make_parallel(m_nthreads), &further, ignored ? Gaps::Nan : Gaps::None);
     if (ignored)
         mark_ignored(*ignored, 0);
+    if (m_unbounded && m_lost > 0)
+        pool_lost(pool, further);
     name_further(further, pool);
     return pool;
 }
@@ -385,8 +417,6 @@ FlipSummary FlipMaps::summarize(const Sides& sides, const Found& found) {
         }
     }
     s.pool = pooled(sides.reference.ignored);
-    if (m_unbounded && m_lost > 0) // nothing bounds the error of these pixels
-        s.pool.mean = std::numeric_limits<double>::infinity();
     s.alpha_mean /= double(s.pool.pixels);
     collect_warnings(sides.reference, sides.test, s);
     warn_of_unseen(sides, s);

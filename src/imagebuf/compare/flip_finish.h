@@ -59,11 +59,16 @@ private:
     OIIO::ImageBuf make_image(int channels) const;
     float* row(OIIO::ImageBuf& image, int y) const;
     void compare_alpha(int y, const Sides& sides);
-    /// Returns how many pixels that count the test alone has lost.
-    int64_t override_nonfinite(int y, const Sides& sides);
+    /// Pixels of a row that count and that the test alone has lost, and the first of them.
+    struct Lost {
+        int64_t count = 0;
+        int x = 0;
+    };
+    Lost override_nonfinite(int y, const Sides& sides);
     void clear_ignored(int y, const IgnoredPixels& ignored);
     void mark_ignored(const IgnoredPixels& ignored, float value);
     FlipPool pooled(const IgnoredPixels* ignored);
+    void pool_lost(FlipPool& pool, metrics::PoolRequest& further) const;
     Clipping clipping() const;
     Unseen unseen(int y, const Sides& sides) const;
     void count_hidden(const std::vector<float> (&pixels)[2][3], Unseen& found) const;
@@ -85,7 +90,8 @@ private:
     std::vector<FlipExposure> m_pictures;
     std::vector<AlphaRow> m_alpha;
     Unseen m_unseen;
-    int64_t m_lost = 0; ///< pixels that are non-finite in the test alone
+    int64_t m_lost = 0;             ///< pixels that are non-finite in the test alone
+    int m_lost_x = 0, m_lost_y = 0; ///< the first of them
     Clipping m_clipping;
 };
 

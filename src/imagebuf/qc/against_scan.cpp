@@ -40,6 +40,12 @@ bool fits(PairKind kind, size_t channels) {
     return kind != PairKind::Normal || channels >= 3;
 }
 
+// Ranks of a Cryptomatte from the fifth id of a pixel on: as many as there are samples for.
+bool is_high_rank(const std::string& layer) {
+    const size_t digits = layer.find_last_not_of("0123456789") + 1;
+    return layer.size() - digits == 2 && layer.substr(digits) > "01";
+}
+
 // The pixels of a row that are not 0 in all of the channels.
 int64_t filled_pixels(const std::vector<float>& row, size_t channels) {
     int64_t filled = 0;
@@ -302,12 +308,12 @@ AgainstLayer AgainstScan::result_of(const Pair& pair) const {
     } else if (*pair.data == PairKind::Ids) {
         constexpr double few = 16; // pixels that it covers: those of noise are others
         out.quantities = {{"mismatch", sums.sum / pixels}};
-        if (std::max(sums.covered[0], sums.covered[1]) >= few)
+        if (std::max(sums.covered[0], sums.covered[1]) >= few && !is_high_rank(out.name))
             out.quantities["others"] = sums.others();
     } else {
         out.quantities = {{"off", sums.share(sums.off)}};
     }
-    if (pair.is_emptied())
+    if (pair.is_emptied() && !(pair.data == PairKind::Ids && is_high_rank(out.name)))
         out.quantities["emptied"] = 1;
     if (pair.alpha_sums.pixels > 0) {
         out.quantities["alpha_mean"] = pair.alpha_sums.sum / double(pair.alpha_sums.pixels);

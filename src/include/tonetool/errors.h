@@ -63,9 +63,9 @@ namespace ToneAlgo {
 /// compared alpha joins the map as |difference|. NaN, Inf: a pixel that is non-finite in one image
 /// counts as the largest error: 1 for smape and mpsnr; for the others the largest error of the
 /// map's other pixels, or 1 if that is less. In both: 0 where they are alike, as in flip.h, else
-/// the largest. Where the test alone is non-finite nothing bounds the error without a bound: its
-/// mean and the value of the metric are infinite (psnr -Inf), so that no limit holds and no test
-/// gains by it. Counted and warned about; if no finite pixel is left the call fails. Identical
+/// the largest. Where the test alone is non-finite nothing bounds an error without a bound: its
+/// mean, maximum, weighted quartiles, and the percentiles that reach these pixels are infinite, and
+/// so is the value of the metric (psnr -Inf): no limit holds, and no test gains by it. Counted and warned about; if no finite pixel is left the call fails. Identical
 /// images give exactly 0; the result does not depend on nthreads to the bit: sums are in double and
 /// in a fixed order. `summary`, when given, receives what was measured; it also lands in dst as
 /// `Error:*`. Returns false, with the reason in dst.geterror(), and then never leaves a map in dst.
