@@ -46,10 +46,8 @@ void add_against_results(Module& module) {
     ResultClass<L>(module, "AgainstLayer", "What was measured of a layer that both have.")
         .field("name", &L::name, "In the new file.")
         .field("kind", &L::kind, "As of AgainstName.")
-        .field(
-            "quantities", &L::quantities,
-            "By kind: off, median, off10, one, lost, mismatch, others, gain, blocks, one_finite, "
-            "alpha_mean...")
+        .field("quantities", &L::quantities,
+               "By kind: off, median, one, lost, mismatch, others, gain, blocks, one_finite...")
         .field("x", &L::x, "Column where they differ most.")
         .field("y", &L::y, "Row where they differ most.")
         .field("one_finite_x", &L::one_finite_x,

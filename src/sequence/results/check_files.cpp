@@ -127,7 +127,10 @@ void check_places(const CheckFiles& files) {
         }
         if (!makes_folder && fs::is_directory(file, none))
             throw std::runtime_error(start + "\"" + file + "\" is a folder");
-        if (!seen.insert(place_of(file)).second)
+        // Several may go to a device, such as /dev/null, by links to it.
+        const std::string place =
+            fs::is_other(file, none) ? fs::path(file).lexically_normal().string() : place_of(file);
+        if (!seen.insert(place).second)
             throw std::runtime_error(start + "\"" + file + "\" is also another's file");
     }
 }
