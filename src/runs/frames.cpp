@@ -106,8 +106,10 @@ void list_frames(Scan& scan, Files& first, std::vector<Files>& listings) {
         const std::string& word = scan.texts()[pattern.at];
         listings.push_back(listing_of(scan, pattern, word, first));
         const bool told = !scan.plan.named && !scan.plan.line.compat && !scan.for_images;
-        if (const std::string lacking = sequence::gaps({word, listings.back()});
-            told && scan.plan.check.is_input(pattern.at) && !lacking.empty())
+        const std::string lacking = told && scan.plan.check.is_input(pattern.at)
+                                        ? sequence::gaps({word, listings.back()})
+                                        : "";
+        if (!lacking.empty())
             scan.plan.warnings.push_back(lacking);
         first = listings.front();
         if (first.names.empty() && !scan.plan.line.compat) {

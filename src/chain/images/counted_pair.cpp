@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "imagebuf/pixels/float_rows.h"
 #include "text/error.h"
 
 namespace tonetool::chain {
@@ -16,16 +17,6 @@ void check_alike(const OIIO::ImageBuf& a, const OIIO::ImageBuf& b) {
         throw CommandError("mask= and ignore= are of flat images with the same data windows and "
                            "channels (valid: without them, or --cut of both images)");
     }
-}
-
-std::vector<float> row_of(const OIIO::ImageBuf& image, int y) {
-    OIIO::ROI row = image.roi();
-    row.ybegin = y;
-    row.yend = y + 1;
-    std::vector<float> values(size_t(row.width()) * size_t(row.nchannels()));
-    if (!image.get_pixels(row, OIIO::TypeFloat, values.data()))
-        throw CommandError(image.geterror());
-    return values;
 }
 
 } // namespace
@@ -57,13 +48,12 @@ void CountedPair::close(const OIIO::ImageBuf& from, OIIO::ImageBuf& to) const {
     to = OIIO::ImageBuf(spec, OIIO::InitializePixels::No);
     auto* out = static_cast<float*>(to.localpixels());
     const auto channels = size_t(from.nchannels()), width = size_t(m_region.width());
-    for (int y = m_region.ybegin; y < m_region.yend; ++y) {
-        const std::vector<float> values = row_of(from, y);
+    for_each_row(from, from.roi(), [&](int y, const float* values) {
         const uint8_t* marks = m_marks.data() + size_t(y - m_region.ybegin) * width;
         for (size_t x = 0; x < width; ++x)
             if (marks[x] == 0)
-                out = std::copy_n(values.data() + x * channels, channels, out);
-    }
+                out = std::copy_n(values + x * channels, channels, out);
+    });
 }
 
 void CountedPair::equalize() {

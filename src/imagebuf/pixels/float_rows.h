@@ -4,6 +4,7 @@
 #pragma once
 
 #include <OpenImageIO/imagebuf.h>
+#include <utility>
 #include <vector>
 
 #include "imagebuf/pixels/has_pixels.h"
@@ -22,7 +23,7 @@ void for_each_row(const OIIO::ImageBuf& image, const OIIO::ROI& region, const Vi
                                  region.chend);
             if (!image.get_pixels(line, OIIO::TypeFloat, row.data()))
                 throw Refusal(with_name(image, image.geterror()));
-            visit(y, const_cast<const float*>(row.data()));
+            visit(y, std::as_const(row).data());
         }
     }
 }
