@@ -64,8 +64,8 @@ struct CheckPlan {
     bool judges() const {
         return is_check() || (has_limits && !has("statistics") && !has("merge"));
     }
-    /// Over frames the line ends with a verdict.
     bool compares_pairs() const { return compares || has("against"); }
+    /// Over frames the line ends with a verdict.
     bool has_verdict() const { return judges() || (compares && !has("statistics")); }
     /// So are those whose exposures are measured.
     bool pairs_frames() const { return judges() || has("statistics") || exposures == "shot"; }

@@ -65,9 +65,10 @@ namespace ToneAlgo {
 /// map's other pixels, or 1 if that is less. In both: 0 where they are alike, as in flip.h, else
 /// the largest. Where the test alone is non-finite nothing bounds an error without a bound: its
 /// mean, maximum, weighted quartiles, and the percentiles that reach these pixels are infinite, and
-/// so is the value of the metric (psnr -Inf): no limit holds, and no test gains by it. Counted and warned about; if no finite pixel is left the call fails. Identical
-/// images give exactly 0; the result does not depend on nthreads to the bit: sums are in double and
-/// in a fixed order. `summary`, when given, receives what was measured; it also lands in dst as
+/// so is the value of the metric (psnr -Inf): no limit holds, and no test gains by it. Counted and
+/// warned about; if no finite pixel is left the call fails. Identical images give exactly 0; the
+/// result does not depend on nthreads to the bit: sums are in double and in a fixed order.
+/// `summary`, when given, receives what was measured; it also lands in dst as
 /// `Error:*`. Returns false, with the reason in dst.geterror(), and then never leaves a map in dst.
 TONETOOL_API bool error_map(OIIO::ImageBuf& dst, const OIIO::ImageBuf& reference,
                             const OIIO::ImageBuf& test, const ErrorOptions& options,
